@@ -1,0 +1,58 @@
+#include "actuators/dc_motor.h"
+
+namespace gaitlab {
+
+const char* const DcMotorActuator::kManual = R"(A DC motor behind a gear; inductance neglected.
+
+    i = (u - Ks n w) / R      |u| <= u_max (driver supply)
+    T = eta Kt i n            |i| <= i_max (absolute rating)
+
+u: command, V; w: joint speed, rad/s; T: torque on the joint, N m. Saturation is counted: 1 voltage, 2 current.
+voltage = R i + Ks n w, the terminal voltage; electrical power = voltage * i.
+Source: Chariot, Filippi, Verlinden 2012, eq. 1 and 2. Defaults (chosen): a 6 V, 2 W coreless motor driven at 7.4 V.
+Takes commands in V.
+
+    actuator: {type: dc_motor, i_max: 0.8})";
+
+void DcMotorActuator::Settings::fields(Fields& f) {
+  f.per_joint("R", R, {"ohm", 1e-6, 1e6, "Terminal resistance."});
+  f.per_joint("Kt", Kt, {"N m/A", 0, 1e3, "Torque constant of the motor."});
+  f.per_joint("Ks", Ks, {"V s/rad", 0, 1e3, "Speed constant of the motor (back-EMF)."});
+  f.per_joint("gear", gear, {"", 1e-3, 1e6, "Reduction: motor turns per joint turn (n)."});
+  f.per_joint("efficiency", efficiency, {"", 0, 1, "Of the gear (eta); acts on the torque both ways, as in eq. 2."});
+  f.per_joint("u_max", u_max, {"V", 0, 1e6, "Driver supply: the command is cut to +- this."});
+  f.per_joint("i_max", i_max, {"A", 0, 1e6, "Absolute rating: the current is cut to +- this."});
+  f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1, "Of the rotor (J); acts on the joint as n^2 J."});
+}
+
+DcMotorActuator::DcMotorActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes) {
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    for (const Settings* s : lanes) {
+      motors_.push_back({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], s->efficiency[j], s->u_max[j], s->i_max[j]});
+      limit_.push_back(s->u_max[j]);
+      inertia_.push_back(s->gear[j] * s->gear[j] * s->rotor_inertia[j]);
+    }
+  }
+}
+
+void DcMotorActuator::effort(In command, In speed, Out torque, Out slope) const {
+  for (std::size_t i = 0; i < motors_.size(); ++i) {
+    const DcMotor::Effort e = motors_[i](command[i], speed[i]);
+    torque[i] = e.torque;
+    slope[i] = e.slope;
+  }
+}
+
+void DcMotorActuator::report(In command, In speed, Report out) const {
+  for (std::size_t i = 0; i < motors_.size(); ++i) {
+    const DcMotor::Effort e = motors_[i](command[i], speed[i]);
+    out.voltage[i] = e.voltage;
+    out.current[i] = e.current;
+    out.saturation[i] = e.saturation;
+    out.power_in[i] = e.voltage * e.current;
+    out.copper[i] = motors_[i].R * e.current * e.current;
+    out.gear[i] = out.power_in[i] - out.copper[i] - e.torque * speed[i];
+  }
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,28 @@
+// Actuator `dc_motor`: core/laws/dc_motor.h for every joint and lane.
+#pragma once
+#include "core/laws/dc_motor.h"
+#include "core/plugin/registry.h"
+
+namespace gaitlab {
+
+class DcMotorActuator final : public Actuator {
+ public:
+  struct Settings {
+    PerJoint R{4.3}, Kt{0.00395}, Ks{0.00395}, gear{594}, efficiency{0.7}, u_max{7.4}, i_max{1.2}, rotor_inertia{0};
+    void fields(Fields& f);
+  };
+  static const char* const kManual;
+
+  DcMotorActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes);
+  [[nodiscard]] std::string_view command_unit() const override { return "V"; }
+  [[nodiscard]] In command_limit() const override { return limit_; }
+  [[nodiscard]] In reflected_inertia() const override { return inertia_; }
+  void effort(In command, In speed, Out torque, Out slope) const override;
+  void report(In command, In speed, Report out) const override;
+
+ private:
+  std::vector<DcMotor> motors_;
+  std::vector<double> limit_, inertia_;
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,51 @@
+// Actuator `torque`: an ideal torque source.
+#pragma once
+#include <algorithm>
+#include <limits>
+
+#include "core/plugin/registry.h"
+
+namespace gaitlab {
+
+class TorqueActuator final : public Actuator {
+ public:
+  struct Settings {
+    PerJoint limit{0};
+    void fields(Fields& f) { f.per_joint("limit", limit, {"N m", 0, 1e9, "The torque is cut to +- this; 0: no limit."}); }
+  };
+  static constexpr const char* kManual = R"(An ideal torque source: T = command, cut to +- limit. It draws the power T w.
+
+Takes commands in N m; its columns voltage and current are 0, voltage_command holds the command in N m.
+
+    actuator: {type: torque, limit: 1.9}
+    controller: {type: pid, unit: N m, Kp: 5, Kd: 0.05})";
+
+  TorqueActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes) {
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+      for (const Settings* s : lanes) limit_.push_back(s->limit[j] > 0 ? s->limit[j] : std::numeric_limits<double>::infinity());
+    }
+  }
+  [[nodiscard]] std::string_view command_unit() const override { return "N m"; }
+  [[nodiscard]] In command_limit() const override { return limit_; }
+
+  void effort(In command, In, Out torque, Out slope) const override {
+    for (std::size_t i = 0; i < limit_.size(); ++i) {
+      torque[i] = std::clamp(command[i], -limit_[i], limit_[i]);
+      slope[i] = 0;
+    }
+  }
+
+  void report(In command, In speed, Report out) const override {
+    for (std::size_t i = 0; i < limit_.size(); ++i) {
+      const double torque = std::clamp(command[i], -limit_[i], limit_[i]);
+      out.voltage[i] = out.current[i] = out.copper[i] = out.gear[i] = 0;
+      out.saturation[i] = torque != command[i] ? 2 : 0;
+      out.power_in[i] = torque * speed[i];
+    }
+  }
+
+ private:
+  std::vector<double> limit_;
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,36 @@
+#include <fmt/format.h>
+
+#include "app/app.h"
+#include "core/simulation/simulation.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+std::string_view name_of(const Choice& choice) { return choice.entry == nullptr ? "none" : choice.entry->name; }
+
+}  // namespace
+
+int check(const ScenarioArguments& arguments) {
+  Catalog catalog = standard_catalog();
+  const Scenario s = read(arguments, catalog);
+  const Simulation simulation({&s, 1});  // checks the columns and the step, too
+  const Robot& robot = *s.robot;
+  const auto contacts = contact_elements(robot, static_cast<ContactSet>(s.contact.on));
+  fmt::print("{}: fine\n", s.name);
+  fmt::print("  {} modules, {} bodies (moving as {}), {} degrees of freedom, {:.3f} kg\n", robot.modules.size(),
+             robot.bodies.size(), robot.links.size(), robot.dof(s.base), robot.mass);
+  fmt::print("  engine {} ({}), step {} s: h lambda = {:.2f} standing (at most 1)\n", s.physics.engine->name,
+             s.physics.engine->integrators[static_cast<std::size_t>(s.physics.integrator)], s.physics.step,
+             s.physics.step * simulation.standing().rate);
+  fmt::print("  cpg {}, controller {}, actuator {}, {} contact elements\n", name_of(s.cpg), name_of(s.controller),
+             name_of(s.actuator), contacts.size());
+  for (const PluginFile& plugin : s.plugins) fmt::print("  plugin {} ({})\n", plugin.path, plugin.hash);
+  fmt::print("  joints (number, name, range in rad):\n");
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    fmt::print("  {:5}  {:<16} {:+.4f} {:+.4f}\n", j, robot.joints[j].name, robot.joints[j].lo, robot.joints[j].hi);
+  }
+  return 0;
+}
+
+}  // namespace gaitlab::app

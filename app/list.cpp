@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "app/app.h"
+#include "core/scenario/text_file.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+constexpr std::array<std::pair<const char*, Kind>, 3> kPluginKinds{
+    {{"cpg", Kind::cpg}, {"controller", Kind::controller}, {"actuator", Kind::actuator}}};
+
+std::vector<std::string> kinds() { return {"cpg", "controller", "actuator", "engine", "module", "robot"}; }
+
+[[noreturn]] void unknown(const std::string& what, const std::string& found, const std::vector<std::string>& known) {
+  const std::string near = nearest(found, known);
+  throw InputError(Place{"gaitlab"}, fmt::format("unknown {} '{}'{}; known are {}", what, found,
+                                                 near.empty() ? "" : "; did you mean '" + near + "'?", fmt::join(known, ", ")));
+}
+
+std::vector<std::string> names(const std::string& kind, const Catalog& catalog) {
+  for (const auto& [word, which] : kPluginKinds) {
+    if (kind == word) return catalog.names(which);
+  }
+  if (kind == "engine") return catalog.engines();
+  std::vector<std::string> found;
+  for (const auto& [name, path] : shipped_files(kind)) found.push_back(name);
+  return found;
+}
+
+std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
+
+std::string about(const std::string& kind, const std::string& name, const Catalog& catalog) {
+  for (const auto& [word, which] : kPluginKinds) {
+    if (kind != word) continue;
+    const Entry& entry = *catalog.find(which, name);
+    const std::string& origin = catalog.origin(entry);
+    return first_line(entry.manual) + (origin == "built in" ? "" : " (" + origin + ")");
+  }
+  if (kind == "engine") return first_line(catalog.engine(name)->manual);
+  return shipped_files(kind).at(name);
+}
+
+}  // namespace
+
+int list(const std::string& kind) {
+  const Catalog catalog = standard_catalog();
+  const std::vector<std::string> known = kinds();
+  if (!kind.empty() && std::find(known.begin(), known.end(), kind) == known.end()) unknown("kind", kind, known);
+  for (const std::string& one : known) {
+    if (!kind.empty() && one != kind) continue;
+    fmt::print("{}\n", one);
+    for (const std::string& name : names(one, catalog)) fmt::print("  {:<20} {}\n", name, about(one, name, catalog));
+  }
+  return 0;
+}
+
+int explain(const std::string& kind, const std::string& name) {
+  const Catalog catalog = standard_catalog();
+  if (kind.empty()) {
+    fmt::print("{}", explain_scenario(catalog));
+    return 0;
+  }
+  const std::vector<std::string> known = kinds();
+  if (std::find(known.begin(), known.end(), kind) == known.end()) unknown("kind", kind, known);
+  const std::vector<std::string> all = names(kind, catalog);
+  if (std::find(all.begin(), all.end(), name) == all.end()) unknown(kind, name, all);
+  for (const auto& [word, which] : kPluginKinds) {
+    if (kind == word) fmt::print("{}", explain_plugin(*catalog.find(which, name)));
+  }
+  if (kind == "engine") {
+    const Engine& engine = *catalog.engine(name);
+    fmt::print("{}\n\nintegrators: {} (default {}); default step {} s\n", engine.manual, fmt::join(engine.integrators, ", "),
+               engine.integrators.front(), engine.step);
+  }
+  if (kind == "module" || kind == "robot") fmt::print("{}", read_text(shipped_files(kind).at(name)));
+  return 0;
+}
+
+}  // namespace gaitlab::app

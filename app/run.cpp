@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <cstdio>
+
+#include "app/app.h"
+#include "core/simulation/simulation.h"
+#include "core/trace/atomic_file.h"
+#include "core/trace/csv.h"
+#include "core/trace/run_folder.h"
+#include "report/figure.h"
+#include "report/run_figure.h"
+#include "report/summary.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+
+/// SIGINT and SIGTERM end the run at the next step; what was simulated is written.
+class StopOnSignal {
+ public:
+  StopOnSignal() {
+    struct sigaction action = {};
+    action.sa_handler = [](int) { interrupted = true; };
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+  }
+};
+
+/// A bar on a terminal, nothing elsewhere.
+class Progress {
+ public:
+  explicit Progress(bool quiet) : shown_(!quiet && isatty(fileno(stderr)) != 0) {}
+  ~Progress() {
+    if (shown_) fmt::print(stderr, "\r{:60}\r", "");
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  void operator()(double share) const {
+    if (!shown_) return;
+    const auto filled = static_cast<std::size_t>(40 * share);
+    fmt::print(stderr, "\r[{:<40}] {:3.0f} %", std::string(filled, '#'), 100 * share);
+    (void)std::fflush(stderr);
+  }
+
+ private:
+  bool shown_;
+};
+
+void write_files(const std::filesystem::path& folder, const Scenario& scenario, const RunRecord& record,
+                 const Summary& summary) {
+  write_csv(record.trace, folder / "trace.csv");
+  write_file(folder / "scenario.resolved.yaml", resolved(scenario));
+  write_file(folder / "figure.svg", run_figure(scenario, record, summary));
+  // Last: a folder with a summary is a whole run.
+  write_file(folder / "summary.json", to_json(summary, scenario, record));
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments) {
+  Catalog catalog = standard_catalog();
+  const Scenario scenario = read(arguments, catalog);
+  Simulation simulation({&scenario, 1});
+  RunFolder folder(arguments.out, scenario.name);
+
+  const StopOnSignal stop;
+  std::string failure;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    const Progress progress(arguments.quiet);
+    if (!simulation.run(std::cref(progress), &interrupted)) failure = fmt::format("interrupted at t = {:.6g} s", simulation.time());
+  } catch (const SimulationError& error) {
+    failure = error.what();
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+
+  const RunRecord record = simulation.take_record(0);
+  const Summary summary = summarise(scenario, record, wall.count());
+  write_files(folder.path(), scenario, record, summary);
+  folder.keep();
+  if (!arguments.quiet) {
+    fmt::print("{}  {:<13} {}: trace.csv, summary.json, scenario.resolved.yaml, figure.svg\n",
+               to_text(summary, scenario, record), "files", folder.path().string());
+  }
+  const std::string warning = stability_warning(summary, scenario, record);
+  if (!warning.empty()) fmt::print(stderr, "{}: warning: {}\n", to_string(scenario.place("physics.step")), warning);
+  if (failure.empty()) return 0;
+  fmt::print(stderr, "{}: error: {}; what was simulated until then is in {}\n", scenario.file, failure, folder.path().string());
+  return 1;
+}
+
+}  // namespace gaitlab::app

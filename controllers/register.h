@@ -1,0 +1,7 @@
+// The controllers built in.
+#pragma once
+#include "core/plugin/registry.h"
+
+namespace gaitlab {
+void register_controllers(Registry& registry);
+}

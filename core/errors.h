@@ -1,0 +1,62 @@
+// What goes wrong, with its address: bad input (exit code 2) and a failed run (exit code 1).
+#pragma once
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gaitlab {
+
+/// A position in a text the user wrote; line and column count from 1, 0 means "the whole file".
+struct Place {
+  std::string file = {};
+  int line = 0;
+  int column = 0;
+};
+
+/// `FILE:LINE:COL` (`FILE` alone where there is no line).
+std::string to_string(const Place& place);
+
+/// One finding: where, what was found and expected, and notes that point elsewhere or offer a remedy.
+struct Problem {
+  Place place;
+  std::string text;
+  std::vector<std::pair<Place, std::string>> notes = {};
+};
+
+/// Collects findings, so that a user sees all of them at once.
+class Problems {
+ public:
+  Problem& add(Place place, std::string text) { return list_.emplace_back(Problem{std::move(place), std::move(text), {}}); }
+  [[nodiscard]] bool empty() const { return list_.empty(); }
+  [[nodiscard]] std::size_t size() const { return list_.size(); }
+  [[nodiscard]] const std::vector<Problem>& list() const { return list_; }
+  /// Throws InputError with everything found so far; does nothing if there is nothing.
+  void raise() const;
+
+ private:
+  std::vector<Problem> list_;
+};
+
+/// Bad input: exit code 2; what() is the whole text for stderr, one `FILE:LINE:COL: error: TEXT` per finding.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::vector<Problem> problems);
+  InputError(Place place, std::string text);
+  [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+/// A run that failed (diverged, disk full): exit code 1.
+class RunError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The known name nearest to `found` (edit distance, at most a third of its length), or empty.
+std::string nearest(const std::string& found, const std::vector<std::string>& known);
+
+}  // namespace gaitlab

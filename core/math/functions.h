@@ -1,0 +1,25 @@
+// The transcendental functions of the simulation path: SLEEF's deterministic (cinz_) versions, 1 ulp, the same bits on every
+// x86-64 and in every lane width. std::sin and its kin differ between C libraries and are banned from results.
+#pragma once
+#include <sleef.h>
+
+namespace gaitlab::math {
+
+inline double sin(double x) { return Sleef_cinz_sind1_u10purec(x); }
+inline double cos(double x) { return Sleef_cinz_cosd1_u10purec(x); }
+struct SinCos {
+  double sin, cos;
+};
+inline SinCos sincos(double x) {
+  const auto both = Sleef_cinz_sincosd1_u10purec(x);
+  return {both.x, both.y};
+}
+inline double tan(double x) { return Sleef_cinz_tand1_u10purec(x); }
+inline double exp(double x) { return Sleef_cinz_expd1_u10purec(x); }
+inline double log(double x) { return Sleef_cinz_logd1_u10purec(x); }
+inline double pow(double x, double y) { return Sleef_cinz_powd1_u10purec(x, y); }
+inline double tanh(double x) { return Sleef_cinz_tanhd1_u10purec(x); }
+inline double asin(double x) { return Sleef_cinz_asind1_u10purec(x); }
+inline double atan2(double y, double x) { return Sleef_cinz_atan2d1_u10purec(y, x); }
+
+}  // namespace gaitlab::math

@@ -1,0 +1,241 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <queue>
+
+#include "core/model/docking.h"
+#include "core/model/kinematics.h"
+#include "core/model/robot.h"
+
+namespace gaitlab {
+
+namespace {
+
+/// The frame of a face: x = outward normal, y = reference direction.
+Mat3 axes(const FaceType& face) {
+  Mat3 R;
+  R.col(0) = face.normal;
+  R.col(1) = face.reference;
+  R.col(2) = face.normal.cross(face.reference);
+  return R;
+}
+
+/// Pose of the child's body in the parent's body when the faces are docked: origins coincide, normals are opposite, references
+/// aligned, then the child is turned by orientation * pi/2 about its own outward normal.
+Pose docked(const FaceType& child, const FaceType& parent, int orientation) {
+  // Quarter turns of (reference, normal x reference) are exact: no sine of pi/2 in the geometry.
+  constexpr std::array<std::array<double, 2>, 4> kQuarter{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  const Vec3 normal = -parent.normal;  // the child's outward normal, in the parent's body
+  const auto [c, s] = kQuarter[static_cast<std::size_t>(orientation)];
+  const Vec3 reference = c * parent.reference + s * normal.cross(parent.reference);
+  Mat3 target;
+  target.col(0) = normal;
+  target.col(1) = reference;
+  target.col(2) = normal.cross(reference);
+  const Mat3 R = target * axes(child).transpose();
+  return {R, parent.origin - R * child.origin};
+}
+
+/// Builds modules in the order of their numbers where possible, parents first; joints are numbered afterwards, module by
+/// module.
+class Builder {
+ public:
+  Builder(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of) {
+    robot_.types = std::move(types);
+    std::size_t body = 0;
+    for (const std::size_t type : type_of) {
+      robot_.modules.push_back({type, -1, {}, body, {}, 0});
+      body += robot_.types[type].bodies.size();
+    }
+    robot_.bodies.resize(body);
+    number_joints();
+  }
+
+  Robot build(const std::vector<Dock>& docks) {
+    for (const Dock& dock : docks) {
+      Module& child = module(dock.child_module);
+      child.parent = dock.parent_module;
+      child.dock = dock;
+      children_[dock.parent_module].push_back(dock.child_module);
+    }
+    for (auto& [parent, list] : children_) std::sort(list.begin(), list.end());
+    robot_.links.push_back({});
+    place_module(0, robot_.types[module(0).type].root, 0, {});
+    // Breadth-first over modules, so that a parent link always comes before its children.
+    std::queue<int> queue({0});
+    while (!queue.empty()) {
+      const int parent = queue.front();
+      queue.pop();
+      for (const int child : children_[parent]) {
+        dock_child(child);
+        queue.push(child);
+      }
+    }
+    fuse();
+    return std::move(robot_);
+  }
+
+ private:
+  Module& module(int index) { return robot_.modules[static_cast<std::size_t>(index)]; }
+  const ModuleType& type(const Module& m) const { return robot_.types[m.type]; }
+
+  void number_joints() {
+    for (const Module& m : robot_.modules) {
+      first_joint_.push_back(robot_.joints.size());
+      robot_.joints.resize(robot_.joints.size() + type(m).hinges.size());
+    }
+  }
+
+  void dock_child(int index) {
+    const Dock& dock = module(index).dock;
+    const Module& parent = module(dock.parent_module);
+    const FaceType& child_face = *find_face(type(module(index)), dock.child_face);
+    const FaceType& parent_face = *find_face(type(parent), dock.parent_face);
+    const Body& on = robot_.bodies[parent.first_body + parent_face.body];
+    place_module(index, child_face.body, on.link, on.in_link * docked(child_face, parent_face, dock.orientation));
+  }
+
+  /// Walks the module's hinges breadth-first from its reference body, which is part of `link`.
+  void place_module(int index, std::size_t reference, std::size_t link, const Pose& in_link) {
+    Module& m = module(index);
+    const ModuleType& t = type(m);
+    m.reference = m.first_body + reference;
+    std::vector<bool> placed(t.bodies.size(), false);
+    set_body(index, reference, link, in_link);
+    placed[reference] = true;
+    std::queue<std::size_t> queue({reference});
+    while (!queue.empty()) {
+      const std::size_t near = queue.front();
+      queue.pop();
+      bool leaf = true;
+      for (const HingeType& hinge : t.hinges) {
+        const std::size_t far = hinge.parent == near ? hinge.child : hinge.parent;
+        if ((hinge.parent != near && hinge.child != near) || placed[far]) continue;
+        add_joint(index, hinge, near, far);
+        placed[far] = true;
+        leaf = false;
+        queue.push(far);
+      }
+      robot_.bodies[m.first_body + near].free = leaf && near != reference;
+    }
+    if (t.hinges.empty()) robot_.bodies[m.reference].free = true;
+  }
+
+  void set_body(int index, std::size_t body, std::size_t link, const Pose& in_link) {
+    const Module& m = module(index);
+    robot_.bodies[m.first_body + body] = {
+        fmt::format("m{}/{}", index, type(m).bodies[body].name), static_cast<std::size_t>(index), body, link, in_link, false};
+  }
+
+  void add_joint(int index, const HingeType& hinge, std::size_t near, std::size_t far) {
+    Module& m = module(index);
+    const bool reversed = far == hinge.parent;
+    const Body& from = robot_.bodies[m.first_body + near];
+    const std::size_t number = first_joint_[static_cast<std::size_t>(index)] + m.joints.size();
+    m.joints.push_back(number);
+    // The link frame is the hinge frame: in the parent body `in_parent`, in the child body the identity.
+    const Pose in_near = reversed ? Pose{} : hinge.in_parent;
+    const Pose far_in_link = reversed ? hinge.in_parent.inverse() : Pose{};
+    const std::size_t link = robot_.links.size();
+    robot_.links.push_back({static_cast<int>(from.link), static_cast<int>(number), from.in_link * in_near, hinge.axis, 0,
+                            Vec3::Zero(), Mat3::Zero()});
+    robot_.joints[number] = {fmt::format("m{}/{}", index, hinge.name), static_cast<std::size_t>(index), link,
+                             reversed ? -hinge.hi : hinge.lo, reversed ? -hinge.lo : hinge.hi};
+    set_body(index, far, link, far_in_link);
+  }
+
+  /// Mass, COM and inertia of every link from its bodies; inertia by the parallel-axis theorem.
+  void fuse() {
+    for (const Body& body : robot_.bodies) {
+      const BodyType& t = type(robot_.modules[body.module]).bodies[body.type];
+      Link& link = robot_.links[body.link];
+      link.mass += t.mass;
+      link.com += t.mass * (body.in_link * t.com);
+      robot_.mass += t.mass;
+    }
+    for (Link& link : robot_.links) {
+      if (link.mass > 0) link.com /= link.mass;
+    }
+    for (const Body& body : robot_.bodies) {
+      const BodyType& t = type(robot_.modules[body.module]).bodies[body.type];
+      Link& link = robot_.links[body.link];
+      const Vec3 d = body.in_link * t.com - link.com;
+      link.inertia += body.in_link.R * t.inertia * body.in_link.R.transpose() +
+                      t.mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+    }
+  }
+
+  Robot robot_;
+  std::vector<std::size_t> first_joint_;
+  std::map<int, std::vector<int>> children_;
+};
+
+}  // namespace
+
+Robot assemble(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of_module, const std::vector<Dock>& docks) {
+  check_docks(types, type_of_module, docks);
+  Robot robot = Builder(std::move(types), type_of_module).build(docks);
+  check_cells(robot);
+  return robot;
+}
+
+std::vector<ContactElement> contact_elements(const Robot& robot, ContactSet on) {
+  std::vector<ContactElement> elements;
+  if (on == ContactSet::none) return elements;
+  std::vector<bool> has_children(robot.modules.size(), false);
+  for (const Module& module : robot.modules) {
+    if (module.parent >= 0) has_children[static_cast<std::size_t>(module.parent)] = true;
+  }
+  for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
+    const Body& body = robot.bodies[b];
+    if (on == ContactSet::feet && (has_children[body.module] || !body.free)) continue;
+    const ModuleType& type = robot.types[robot.modules[body.module].type];
+    int points = 0;
+    int spheres = 0;
+    for (const ContactType& contact : on == ContactSet::feet ? type.feet : type.all) {
+      if (contact.body != body.type) continue;
+      const std::string name = contact.radius > 0 ? fmt::format("s{}", spheres++) : fmt::format("p{}", points++);
+      elements.push_back({body.name + "/" + name, b, body.link, body.in_link * contact.centre, contact.radius});
+    }
+  }
+  return elements;
+}
+
+RobotInfo info(const Robot& robot) {
+  Kinematics kinematics(robot);
+  RobotState zero;
+  zero.q.assign(robot.joints.size(), 0.0);
+  zero.qd = zero.q;
+  kinematics.update(robot, zero);
+  const auto array = [](const Vec3& v) { return std::array<double, 3>{v.x(), v.y(), v.z()}; };
+  RobotInfo result;
+  for (const Joint& joint : robot.joints) {
+    const Link& link = robot.links[joint.link];
+    const int parent = robot.links[static_cast<std::size_t>(link.parent)].joint;
+    result.joints.push_back({joint.name, static_cast<std::int64_t>(joint.module), parent, joint.lo, joint.hi,
+                             array(kinematics.p[joint.link]), array(kinematics.R[joint.link] * link.axis)});
+  }
+  for (std::size_t m = 0; m < robot.modules.size(); ++m) {
+    const Module& module = robot.modules[m];
+    const ModuleType& type = robot.types[module.type];
+    const Body& root = robot.bodies[module.first_body + type.root];
+    const Mat3 R = kinematics.R[root.link] * root.in_link.R;
+    ModuleInfo one{type.name, module.parent, -1, {}, array(kinematics.point(root.link, root.in_link.p)), {}, {}, {}};
+    for (int i = 0; i < 9; ++i) one.rotation[static_cast<std::size_t>(i)] = R(i / 3, i % 3);
+    for (const std::size_t joint : module.joints) one.joints.push_back(static_cast<std::int64_t>(joint));
+    if (module.parent >= 0) {
+      const Module& parent = robot.modules[static_cast<std::size_t>(module.parent)];
+      const FaceType& face = *find_face(robot.types[parent.type], module.dock.parent_face);
+      const Body& on = robot.bodies[parent.first_body + face.body];
+      one.parent_face = face.id;
+      one.normal = array(kinematics.R[on.link] * (on.in_link.R * face.normal));
+      result.modules[static_cast<std::size_t>(module.parent)].children.push_back(static_cast<std::int64_t>(m));
+    }
+    result.modules.push_back(std::move(one));
+  }
+  return result;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,195 @@
+#include "core/model/docking.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "core/model/kinematics.h"
+
+namespace gaitlab {
+
+const FaceType* find_face(const ModuleType& type, int id) {
+  for (const FaceType& face : type.faces) {
+    if (face.id == id) return &face;
+  }
+  return nullptr;
+}
+
+namespace {
+
+std::string face_list(const ModuleType& type, const Gender* only = nullptr) {
+  std::string text;
+  for (const FaceType& face : type.faces) {
+    if (only == nullptr || face.gender == *only) text += (text.empty() ? "" : ", ") + std::to_string(face.id);
+  }
+  return text;
+}
+
+const char* word(Gender gender) { return gender == Gender::active ? "active" : "passive"; }
+
+/// Checks of the rows, one problem each.
+class Rows {
+ public:
+  Rows(const std::vector<ModuleType>& types, const std::vector<std::size_t>& type_of, const std::vector<Dock>& docks)
+      : types_(types), type_of_(type_of), docks_(docks) {
+    for (const Dock& dock : docks) children_.insert(dock.child_module);
+  }
+
+  void check() {
+    for (const Dock& dock : docks_) check_row(dock);
+    check_gaps();
+    // A row that failed would look like a missing module or a loop: one mistake, one message.
+    if (problems_.empty()) check_loops();
+    problems_.raise();
+  }
+
+ private:
+  [[nodiscard]] int modules() const { return static_cast<int>(type_of_.size()); }
+  const ModuleType& type(int module) const { return types_[type_of_[static_cast<std::size_t>(module)]]; }
+
+  const FaceType* check_face(const Dock& dock, int module, int face, const char* side) {
+    if (module < 0 || module >= modules() || (module != 0 && !children_.contains(module))) {
+      problems_.add(dock.place,
+                    fmt::format("unknown {} module {}: it is neither module 0 nor the child of a row", side, module));
+      return nullptr;
+    }
+    const FaceType* found = find_face(type(module), face);
+    if (found == nullptr) {
+      problems_.add(dock.place, fmt::format("module {} ({}) has no face {}: its faces are {}", module, type(module).name, face,
+                                            face_list(type(module))));
+    }
+    return found;
+  }
+
+  void take_face(const Dock& dock, int module, int face) {
+    const auto [at, fresh] = faces_.try_emplace({module, face}, &dock);
+    if (fresh) return;
+    problems_.add(dock.place, fmt::format("face {} of module {} is used twice: a face docks once", face, module))
+        .notes.emplace_back(at->second->place, "it is docked here already");
+  }
+
+  void check_row(const Dock& dock) {
+    const FaceType* child = check_face(dock, dock.child_module, dock.child_face, "child");
+    const FaceType* parent = check_face(dock, dock.parent_module, dock.parent_face, "parent");
+    if (dock.orientation < 0 || dock.orientation > 3) {
+      problems_.add(dock.place,
+                    fmt::format("orientation {} is not a quarter turn: expected 0, 1, 2 or 3 (times pi/2)", dock.orientation));
+    }
+    if (child == nullptr || parent == nullptr) return;
+    if (dock.child_module == dock.parent_module) {
+      problems_.add(dock.place, fmt::format("loop: module {} is docked to itself", dock.child_module));
+      return;
+    }
+    if (child->gender == parent->gender) {
+      const Gender other = parent->gender == Gender::active ? Gender::passive : Gender::active;
+      problems_.add(dock.place,
+                    fmt::format("wrong gender: face {} of module {} and face {} of module {} are both {}; active docks on "
+                                "passive, so module {} could take face {}",
+                                dock.child_face, dock.child_module, dock.parent_face, dock.parent_module, word(child->gender),
+                                dock.child_module, face_list(type(dock.child_module), &other)));
+    }
+    take_face(dock, dock.child_module, dock.child_face);
+    take_face(dock, dock.parent_module, dock.parent_face);
+    if (dock.child_module == 0) {
+      problems_.add(dock.place, "module 0 is the root and has no parent: number the root 0, or swap child and parent");
+      return;
+    }
+    const auto [at, fresh] = parent_.try_emplace(dock.child_module, &dock);
+    if (!fresh) {
+      problems_
+          .add(dock.place, fmt::format("module {} has two parents: {} and {}; docks form a tree", dock.child_module,
+                                       at->second->parent_module, dock.parent_module))
+          .notes.emplace_back(at->second->place, "it has its first parent here");
+    }
+  }
+
+  void check_gaps() {
+    std::vector<int> missing;
+    const int last = children_.empty() ? 0 : *children_.rbegin();
+    for (int module = 1; module < last && missing.size() < 4; ++module) {
+      if (!children_.contains(module)) missing.push_back(module);
+    }
+    if (missing.empty()) return;
+    const auto row = std::find_if(docks_.begin(), docks_.end(), [&](const Dock& d) { return d.child_module == last; });
+    problems_.add(row->place, fmt::format("gap in the numbering: there is a module {} but no module {}; modules are numbered "
+                                          "0 to n-1",
+                                          last, fmt::join(missing, ", ")));
+  }
+
+  void check_loops() {
+    std::set<int> seen{0};
+    for (const int module : children_) {
+      std::vector<int> path;
+      int at = module;
+      for (; seen.insert(at).second; at = parent_.at(at)->parent_module) path.push_back(at);
+      const auto loop = std::find(path.begin(), path.end(), at);
+      if (loop == path.end()) continue;  // it ended at module 0, or at modules seen before
+      path.push_back(at);
+      problems_.add(parent_.at(at)->place,
+                    fmt::format("loop: modules {} hang on one another and none on module 0",
+                                fmt::join(std::vector<int>(std::find(path.begin(), path.end(), at), path.end()), " on ")));
+    }
+  }
+
+  const std::vector<ModuleType>& types_;
+  const std::vector<std::size_t>& type_of_;
+  const std::vector<Dock>& docks_;
+  std::map<std::pair<int, int>, const Dock*> faces_;
+  std::map<int, const Dock*> parent_;
+  std::set<int> children_;
+  Problems problems_;
+};
+
+/// Half the cell size of a lattice type: from two faces of one body that look different ways, both half a cell from its centre.
+double half_cell(const ModuleType& type) {
+  for (const FaceType& a : type.faces) {
+    for (const FaceType& b : type.faces) {
+      const Vec3 n = a.normal - b.normal;
+      if (a.body == b.body && n.squaredNorm() > 0.5) return (a.origin - b.origin).dot(n) / n.squaredNorm();
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+void check_docks(const std::vector<ModuleType>& types, const std::vector<std::size_t>& type_of,
+                 const std::vector<Dock>& docks) {
+  Rows(types, type_of, docks).check();
+}
+
+void check_cells(const Robot& robot) {
+  Kinematics kinematics(robot);
+  RobotState zero;
+  zero.q.assign(robot.joints.size(), 0.0);
+  zero.qd = zero.q;
+  kinematics.update(robot, zero);
+  Problems problems;
+  std::map<std::array<long, 3>, const Body*> cells;
+  for (const Body& body : robot.bodies) {
+    const Module& module = robot.modules[body.module];
+    const ModuleType& type = robot.types[module.type];
+    const double half = half_cell(type);
+    const auto face =
+        std::find_if(type.faces.begin(), type.faces.end(), [&](const FaceType& f) { return f.body == body.type; });
+    if (!type.lattice || face == type.faces.end() || !(half > 0)) continue;
+    const Vec3 centre = kinematics.point(body.link, body.in_link * (face->origin - half * face->normal));
+    // Cells are counted from the first block's centre, in the base frame.
+    static_assert(sizeof(long) == 8);
+    const Vec3 first = robot.bodies.front().in_link * (robot.types[robot.modules[0].type].faces.front().origin -
+                                                       half * robot.types[robot.modules[0].type].faces.front().normal);
+    std::array<long, 3> cell{};
+    for (int i = 0; i < 3; ++i) cell[static_cast<std::size_t>(i)] = std::lround((centre[i] - first[i]) / (2 * half));
+    const auto [at, fresh] = cells.try_emplace(cell, &body);
+    if (fresh) continue;
+    problems.add(module.dock.place, fmt::format("overlapping cells: {} and {} are in the same lattice cell at zero angles",
+                                                at->second->name, body.name));
+    break;  // a wrong row drags all modules behind it along
+  }
+  problems.raise();
+}
+
+}  // namespace gaitlab

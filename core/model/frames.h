@@ -1,0 +1,49 @@
+// Vectors, rotations and poses; world z up, SI units, angles in rad.
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "core/math/functions.h"
+
+namespace gaitlab {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+using Quat = Eigen::Quaterniond;  ///< turns body coordinates into world coordinates
+
+/// Pose of a frame B in a frame A: p_A = R p_B + p.
+struct Pose {
+  Mat3 R = Mat3::Identity();
+  Vec3 p = Vec3::Zero();
+
+  friend Pose operator*(const Pose& a, const Pose& b) { return {a.R * b.R, a.R * b.p + a.p}; }
+  friend Vec3 operator*(const Pose& a, const Vec3& p) { return a.R * p + a.p; }
+  [[nodiscard]] Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
+};
+
+/// Right-hand turn by `angle` about the unit vector `axis`, as a quaternion.
+inline Quat turn(const Vec3& axis, double angle) {
+  const auto [s, c] = math::sincos(0.5 * angle);
+  return {c, s * axis.x(), s * axis.y(), s * axis.z()};
+}
+
+/// Right-hand turn by the rotation vector `w` (axis times angle), as a quaternion.
+inline Quat turn(const Vec3& w) {
+  const double angle = w.norm();
+  return angle > 0 ? turn(w / angle, angle) : Quat::Identity();
+}
+
+/// Rz(yaw) Ry(pitch) Rx(roll): axes of the child written in the parent.
+inline Mat3 rpy(const Vec3& roll_pitch_yaw) {
+  return (turn(Vec3::UnitZ(), roll_pitch_yaw.z()) * turn(Vec3::UnitY(), roll_pitch_yaw.y()) *
+          turn(Vec3::UnitX(), roll_pitch_yaw.x()))
+      .toRotationMatrix();
+}
+
+/// The inverse of rpy; pitch in [-pi/2, pi/2].
+inline Vec3 to_rpy(const Mat3& R) {
+  return {math::atan2(R(2, 1), R(2, 2)), math::asin(std::clamp(-R(2, 0), -1.0, 1.0)), math::atan2(R(1, 0), R(0, 0))};
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,47 @@
+// Where every link is and how it moves: the outward recursion over a Robot.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "core/model/robot.h"
+
+namespace gaitlab {
+
+/// State of one robot: numbers of one lane, SI, world axes.
+struct RobotState {
+  Vec3 position = Vec3::Zero();          ///< origin of the base frame, m
+  Quat orientation = Quat::Identity();   ///< base frame -> world
+  Vec3 velocity = Vec3::Zero();          ///< of the origin of the base frame, m/s
+  Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
+  std::vector<double> q, qd;             ///< joints, rad, rad/s
+};
+
+/// World pose and velocity of every link frame. Sized once; update allocates nothing.
+struct Kinematics {
+  explicit Kinematics(const Robot& robot);
+  void update(const Robot& robot, const RobotState& state);
+
+  [[nodiscard]] Vec3 point(std::size_t link, const Vec3& in_link) const { return R[link] * in_link + p[link]; }
+  /// Velocity of the material point of `link` that is at world point `x`.
+  [[nodiscard]] Vec3 velocity(std::size_t link, const Vec3& x) const { return v[link] + omega[link].cross(x - p[link]); }
+
+  std::vector<Mat3> R;      ///< link axes in the world
+  std::vector<Vec3> p;      ///< origin of the link frame, m
+  std::vector<Vec3> omega;  ///< rad/s
+  std::vector<Vec3> v;      ///< of the origin of the link frame, m/s
+  std::vector<Quat> turns;  ///< rotation of each joint at its angle (links 1..), link frame at angle 0 <- link frame
+};
+
+/// Mechanical sums over all links.
+struct Sums {
+  Vec3 com = Vec3::Zero(), momentum = Vec3::Zero();
+  Vec3 angular_momentum = Vec3::Zero();  ///< about the world origin
+  double kinetic = 0, potential = 0;     ///< J
+};
+Sums sums(const Robot& robot, const Kinematics& kinematics, const Vec3& gravity);
+
+/// Height (along -gravity's z: world z) of the lowest point of the robot's contact elements, or of its outline where it has
+/// none.
+double lowest_point(const Robot& robot, const Kinematics& kinematics, std::span<const ContactElement> elements);
+
+}  // namespace gaitlab

@@ -1,0 +1,63 @@
+// What a kind of module is made of: any tree of bodies and revolute hinges, its faces, contact elements and default motor.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/model/frames.h"
+
+namespace gaitlab {
+
+/// A piece of a body's outline, for drawing: a box (full sizes), a cylinder or half cylinder (axis y of its frame; the half one
+/// bulges towards +x), or a sphere. m, body frame.
+struct Shape {
+  enum class Kind { box, cylinder, half_cylinder, sphere } kind = Kind::box;
+  Pose in_body = {};
+  Vec3 size = Vec3::Zero();  ///< box: x y z; cylinders: radius, length, 0; sphere: radius, 0, 0
+};
+
+struct BodyType {
+  std::string name;
+  double mass = 0;              ///< kg; 0 only for a body between two hinges
+  Vec3 com = Vec3::Zero();      ///< m, body frame
+  Mat3 inertia = Mat3::Zero();  ///< kg m^2, about the COM, body axes
+  std::vector<Shape> shapes = {};
+};
+
+/// The child's frame is the hinge frame at angle 0; positive = right-hand turn of the child relative to the parent.
+struct HingeType {
+  std::string name;
+  std::size_t parent = 0, child = 0;  ///< indices of bodies
+  Pose in_parent = {};
+  Vec3 axis = Vec3::UnitY();  ///< unit vector, hinge frame
+  double lo = 0, hi = 0;      ///< rad
+};
+
+enum class Gender { active, passive };
+
+struct FaceType {
+  int id = 0;
+  std::size_t body = 0;
+  Gender gender = Gender::active;
+  Vec3 origin = Vec3::Zero(), normal = Vec3::UnitX(), reference = Vec3::UnitY();  ///< body frame; unit, at right angles
+};
+
+/// A point (radius 0) or sphere fixed to a body.
+struct ContactType {
+  std::size_t body = 0;
+  Vec3 centre = Vec3::Zero();  ///< m, body frame
+  double radius = 0;           ///< m
+};
+
+/// Assumes what core/scenario/module_file checks: bodies and hinges form one tree, faces have distinct ids.
+struct ModuleType {
+  std::string name;
+  bool lattice = false;  ///< bodies with faces fill cells of a cubic lattice: two in one cell at zero angles is an error
+  std::vector<BodyType> bodies;
+  std::vector<HingeType> hinges;
+  std::vector<FaceType> faces;
+  std::vector<ContactType> feet, all;  ///< feet: those used for `on: feet`, on whichever body is free
+  std::size_t root = 0;                ///< the body that is no hinge's child; its frame is the module frame
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,91 @@
+// The assembled robot: docked bodies fused into links, every body with its name and place. Engine-free.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/model/module_type.h"
+#include "core/plugin/robot_info.h"
+
+namespace gaitlab {
+
+enum class Base { floating, fixed, planar };  ///< planar: world x, world z and rotation about world y
+
+/// Bodies that move as one. Its frame is the frame of its joint (link 0: the base frame); a parent comes before its children.
+struct Link {
+  int parent = -1;              ///< link towards the base, -1 for link 0
+  int joint = -1;               ///< joint that moves it, -1 for link 0
+  Pose in_parent = {};          ///< its frame in the parent link's at joint angle 0
+  Vec3 axis = Vec3::UnitY();    ///< joint axis, own frame, unit vector
+  double mass = 0;              ///< kg
+  Vec3 com = Vec3::Zero();      ///< m, own frame
+  Mat3 inertia = Mat3::Zero();  ///< kg m^2, about the COM, own axes
+};
+
+struct Joint {
+  std::string name;  ///< `m3/passive`
+  std::size_t module = 0;
+  std::size_t link = 0;   ///< the link it moves
+  double lo = 0, hi = 0;  ///< rad; positive = right-hand turn of the farther body relative to the nearer one
+};
+
+struct Body {
+  std::string name;  ///< `m3/link`
+  std::size_t module = 0;
+  std::size_t type = 0;  ///< index in the module type's bodies
+  std::size_t link = 0;
+  Pose in_link = {};
+  bool free = false;  ///< carries no dock and moves at the end of its module's chain: where feet are
+};
+
+/// A point (radius 0) or sphere that may touch the ground.
+struct ContactElement {
+  std::string name;  ///< `m3/passive/p0`, spheres `s0`
+  std::size_t body = 0;
+  std::size_t link = 0;
+  Vec3 centre = Vec3::Zero();  ///< m, link frame
+  double radius = 0;           ///< m
+};
+
+struct Dock {
+  int child_face = 0, child_module = 0, parent_face = 0, parent_module = 0, orientation = 0;
+  Place place = {};
+};
+
+struct Module {
+  std::size_t type = 0;  ///< index in Robot::types
+  int parent = -1;       ///< module it is docked to, -1 for module 0
+  Dock dock = {};        ///< how (parent >= 0)
+  std::size_t first_body = 0;
+  std::vector<std::size_t> joints = {};  ///< breadth-first from the reference body
+  std::size_t reference = 0;             ///< body (index in Robot::bodies) by which it is docked; for module 0 its type's root
+};
+
+struct Robot {
+  std::vector<ModuleType> types;
+  std::vector<Module> modules;
+  std::vector<Link> links;
+  std::vector<Joint> joints;
+  std::vector<Body> bodies;
+  double mass = 0;  ///< kg
+
+  [[nodiscard]] int dof(Base base) const {
+    return static_cast<int>(joints.size()) + (base == Base::floating ? 6 : base == Base::planar ? 3 : 0);
+  }
+};
+
+enum class ContactSet { none, feet, all };
+
+/// Builds the robot from `type_of_module` (index into types, one a module) and the docks.
+/// Errors (InputError, all at once, each at its row): wrong gender, face used twice, unknown module or face, two parents, loop,
+/// gap in the numbering, bad orientation, and for lattice types two blocks in one cell at zero angles.
+Robot assemble(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of_module, const std::vector<Dock>& docks);
+
+/// The elements of `on`, by body, then in file order. feet: the feet of the free body of every module without children.
+std::vector<ContactElement> contact_elements(const Robot& robot, ContactSet on);
+
+/// What plugins may know of it.
+RobotInfo info(const Robot& robot);
+
+}  // namespace gaitlab

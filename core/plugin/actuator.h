@@ -1,0 +1,24 @@
+// Actuators: command and joint speed -> torque and its slope. Standard library only.
+#pragma once
+#include "core/plugin/fields.h"
+
+namespace gaitlab {
+
+/// Memoryless and elementwise over joint*lanes + lane, so that one plain loop serves one lane and eight. No allocation.
+class Actuator {
+ public:
+  virtual ~Actuator() = default;
+  [[nodiscard]] virtual std::string_view command_unit() const = 0;  ///< "V" or "N m"
+  [[nodiscard]] virtual In command_limit() const = 0;               ///< largest useful |command|; infinity where there is none
+  /// Reflected rotor inertia n^2 J, kg m^2 on the joint, added to the joint's inertia; empty: none anywhere.
+  [[nodiscard]] virtual In reflected_inertia() const { return {}; }
+  /// torque: N m on the joint, positive along its axis; slope = -d(torque)/d(speed) >= 0, N m s/rad, 0 while limited.
+  virtual void effort(In command, In speed, Out torque, Out slope) const = 0;
+  /// voltage V, current A, saturation (0 none, 1 voltage, 2 current), power drawn, lost in copper and in the gear, W.
+  struct Report {
+    Out voltage, current, saturation, power_in, copper, gear;
+  };
+  virtual void report(In command, In speed, Report) const = 0;  ///< for trace and ledger only
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,112 @@
+#include "core/plugin/catalog.h"
+
+#include <dlfcn.h>
+
+#include <cfenv>
+#include <stdexcept>
+
+#include "core/plugin/plugin.h"
+
+namespace gaitlab {
+
+namespace {
+
+const char* word(Kind kind) {
+  switch (kind) {
+    case Kind::cpg:
+      return "cpg";
+    case Kind::controller:
+      return "controller";
+    case Kind::actuator:
+      return "actuator";
+  }
+  return "";
+}
+
+std::string last_dl_error() {
+  const char* text = dlerror();
+  return text == nullptr ? "unknown reason" : text;
+}
+
+}  // namespace
+
+void Catalog::add(const Entry& entry) {
+  const std::string name(entry.name);
+  for (const Registered& known : entries_) {
+    if (known.entry.kind == entry.kind && known.name == name) {
+      throw std::invalid_argument(std::string(word(entry.kind)) + " '" + name + "' is registered twice: by " + known.origin +
+                                  " and by " + origin_);
+    }
+  }
+  entries_.push_back({name, origin_, entry});
+}
+
+void Catalog::add(Engine engine) { engines_.push_back(std::move(engine)); }
+
+const Entry* Catalog::find(Kind kind, const std::string& name) const {
+  for (const Registered& known : entries_) {
+    if (known.entry.kind == kind && known.name == name) return &known.entry;
+  }
+  return nullptr;
+}
+
+const Engine* Catalog::engine(const std::string& name) const {
+  for (const Engine& engine : engines_) {
+    if (engine.name == name) return &engine;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> Catalog::names(Kind kind) const {
+  std::vector<std::string> names;
+  for (const Registered& known : entries_) {
+    if (known.entry.kind == kind) names.push_back(known.name);
+  }
+  return names;
+}
+
+std::vector<std::string> Catalog::engines() const {
+  std::vector<std::string> names;
+  for (const Engine& engine : engines_) names.push_back(engine.name);
+  return names;
+}
+
+const std::string& Catalog::origin(const Entry& entry) const {
+  static const std::string unknown = "unknown";
+  for (const Registered& known : entries_) {
+    if (&known.entry == &entry) return known.origin;
+  }
+  return unknown;
+}
+
+void load_plugin(const std::string& path, Catalog& catalog) {
+  if (catalog.loaded(path)) return;
+  // A library's constructors may change how the processor rounds or flushes (one linked with -ffast-math does).
+  std::fenv_t environment;
+  std::fegetenv(&environment);
+  dlerror();
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  std::fesetenv(&environment);
+  if (library == nullptr) throw std::runtime_error("cannot load " + path + ": " + last_dl_error());
+  const auto abi = reinterpret_cast<const char* (*)()>(dlsym(library, "gaitlab_abi"));
+  const auto enter = reinterpret_cast<void (*)(Registry&)>(dlsym(library, "gaitlab_register"));
+  if (abi == nullptr || enter == nullptr) {
+    throw std::runtime_error(path + " is no gaitlab plugin: it has no " +
+                             (abi == nullptr ? "gaitlab_abi" : "gaitlab_register") + " (GAITLAB_PLUGIN makes both)");
+  }
+  if (std::string_view(abi()) != GAITLAB_ABI) {
+    throw std::runtime_error(path + " was built for '" + abi() + "', this program is '" GAITLAB_ABI "': build it again");
+  }
+  // Never closed: settings and plugins made from it live as long as the program.
+  catalog.set_origin(path);
+  try {
+    enter(catalog);
+  } catch (const std::exception& error) {
+    catalog.set_origin("built in");
+    throw std::runtime_error(path + ": " + error.what());
+  }
+  catalog.set_origin("built in");
+  catalog.set_loaded(path);
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,57 @@
+// What is registered in this program: plugins by kind and name, with their origin, and the engines.
+#pragma once
+#include <deque>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/plugin/registry.h"
+
+namespace gaitlab {
+
+class Plant;
+struct PlantSettings;
+
+/// A physics engine: what the scenario may ask of it and how to make it.
+struct Engine {
+  std::string name, manual;
+  std::vector<std::string> integrators;  ///< the first is the default
+  double step = 0;                       ///< default, s
+  bool rotor_inertia = false;            ///< can add a joint's reflected rotor inertia
+  std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
+};
+
+class Catalog final : public Registry {
+ public:
+  /// Names are unique within a kind: a second one throws std::invalid_argument naming both origins.
+  void add(const Entry& entry) override;
+  void add(Engine engine);
+  /// Where the entries added from now on come from: "built in" or the path of a library.
+  void set_origin(std::string origin) { origin_ = std::move(origin); }
+  void set_loaded(const std::string& path) { loaded_.insert(path); }
+  [[nodiscard]] bool loaded(const std::string& path) const { return loaded_.contains(path); }
+
+  [[nodiscard]] const Entry* find(Kind kind, const std::string& name) const;
+  [[nodiscard]] const Engine* engine(const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> names(Kind kind) const;
+  [[nodiscard]] std::vector<std::string> engines() const;
+  [[nodiscard]] const std::string& origin(const Entry& entry) const;
+
+ private:
+  struct Registered {
+    std::string name, origin;
+    Entry entry;
+  };
+  std::deque<Registered> entries_;
+  std::deque<Engine> engines_;
+  std::set<std::string> loaded_;
+  std::string origin_ = "built in";
+};
+
+/// Loads a plugin library into the catalog: canonical path, RTLD_NOW | RTLD_LOCAL, ABI string first, floating-point control
+/// register restored, never closed. Loading the same file again does nothing.
+/// Throws std::runtime_error: cannot be opened (why), no gaitlab_abi (what it is not), another ABI (both), duplicate name.
+void load_plugin(const std::string& canonical_path, Catalog& catalog);
+
+}  // namespace gaitlab

@@ -1,0 +1,67 @@
+// Registration: name -> manual, settings, factory. Abstract, so that a plugin library links against nothing.
+#pragma once
+#include <memory>
+
+#include "core/plugin/actuator.h"
+#include "core/plugin/controller.h"
+#include "core/plugin/cpg.h"
+#include "core/plugin/robot_info.h"
+
+namespace gaitlab {
+
+enum class Kind { cpg, controller, actuator };
+
+struct Entry {
+  Kind kind;
+  std::string_view name;
+  std::string_view manual;  ///< equation, reference, minimal YAML
+  std::shared_ptr<void> (*settings)();
+  void (*fields)(void* settings, Fields&);
+  /// A new Cpg, Controller or Actuator. An actuator gets one settings pointer a lane, the others exactly one.
+  void* (*make)(const RobotInfo&, std::span<const void* const> settings);
+};
+
+class Registry {
+ public:
+  virtual void add(const Entry&) = 0;  ///< throws where kind and name are taken, naming both origins
+
+ protected:
+  ~Registry() = default;
+};
+
+namespace detail {
+template <class T, class Make>
+void add(Registry& registry, Kind kind, std::string_view name, std::string_view manual, Make make) {
+  using S = typename T::Settings;
+  registry.add({kind, name, manual, [] { return std::shared_ptr<void>(std::make_shared<S>()); },
+                [](void* settings, Fields& f) { static_cast<S*>(settings)->fields(f); }, make});
+}
+}  // namespace detail
+
+/// T has `struct Settings` and a constructor T(const RobotInfo&, const Settings&).
+template <class T>
+void add_cpg(Registry& registry, std::string_view name, std::string_view manual) {
+  detail::add<T>(registry, Kind::cpg, name, manual, [](const RobotInfo& robot, std::span<const void* const> s) -> void* {
+    return static_cast<Cpg*>(new T(robot, *static_cast<const typename T::Settings*>(s[0])));
+  });
+}
+
+/// T has `struct Settings` and a constructor T(const RobotInfo&, const Settings&).
+template <class T>
+void add_controller(Registry& registry, std::string_view name, std::string_view manual) {
+  detail::add<T>(registry, Kind::controller, name, manual, [](const RobotInfo& robot, std::span<const void* const> s) -> void* {
+    return static_cast<Controller*>(new T(robot, *static_cast<const typename T::Settings*>(s[0])));
+  });
+}
+
+/// T has `struct Settings` and a constructor T(const RobotInfo&, std::vector<const Settings*> one a lane).
+template <class T>
+void add_actuator(Registry& registry, std::string_view name, std::string_view manual) {
+  detail::add<T>(registry, Kind::actuator, name, manual, [](const RobotInfo& robot, std::span<const void* const> s) -> void* {
+    std::vector<const typename T::Settings*> lanes;
+    for (const void* one : s) lanes.push_back(static_cast<const typename T::Settings*>(one));
+    return static_cast<Actuator*>(new T(robot, lanes));
+  });
+}
+
+}  // namespace gaitlab

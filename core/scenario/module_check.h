@@ -1,0 +1,19 @@
+// Whether the parts of a module type make one body of hinges, with a physical inertia and faces that can dock.
+#pragma once
+#include <vector>
+
+#include "core/model/module_type.h"
+#include "core/scenario/node.h"
+
+namespace gaitlab {
+
+/// Where the parts of a module type stand in its text, in the type's order.
+struct ModulePlaces {
+  std::vector<Place> bodies;        ///< of their names
+  std::vector<Node> hinges, faces;  ///< their maps
+};
+
+/// Checks, normalises directions and sets `type.root`.
+void check_module(ModuleType& type, const ModulePlaces& places, Problems& problems);
+
+}  // namespace gaitlab

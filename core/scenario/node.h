@@ -1,0 +1,38 @@
+// A YAML text as a tree of nodes that know their place. Reading is strict where yaml-cpp 0.7 is lax (docs/decisions).
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/errors.h"
+
+namespace gaitlab {
+
+struct Node {
+  enum class Kind { null, scalar, list, map } kind = Kind::null;
+  Place place = {};
+  std::string text = {};                                 ///< scalar
+  bool quoted = false;                                   ///< scalar in quotes: always a text, never a number
+  bool flow = false;                                     ///< list or map in one line: { } [ ]
+  std::vector<Node> items = {};                          ///< list; values of a map, in file order
+  std::vector<std::pair<std::string, Place>> keys = {};  ///< map: key of items[i]
+
+  [[nodiscard]] const Node* find(const std::string& key) const;  ///< value of a map's key, or nullptr
+};
+
+/// Parses one YAML document whose root is a map. Throws InputError (syntax, duplicate key, anchor, alias, tag, second document,
+/// deeper than 32, larger than 1 MB, not UTF-8 text, ...).
+Node parse_yaml(const std::string& text, const std::string& file);
+
+/// The same with every finding in `problems`; nothing where the text is no tree at all. (After a duplicate key, an anchor or a
+/// tag there still is one, so that its other errors are found too.)
+std::optional<Node> parse_yaml(const std::string& text, const std::string& file, Problems& problems);
+
+/// The same from a file; a missing file is an InputError at `asked_at` (or the file itself).
+Node read_yaml(const std::string& path, const Place& asked_at = {});
+
+/// YAML text of a node, indented by `indent`; parse_yaml gives the same node but for places.
+std::string print_yaml(const Node& node, int indent = 0);
+
+}  // namespace gaitlab

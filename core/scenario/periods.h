@@ -1,0 +1,31 @@
+// Whether one period is a whole number of another, and which ones would be. All in s.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+
+namespace gaitlab {
+
+/// Nearest whole number of `step`s in `period` if it fits within 1e-9 relative, else 0.
+double whole_multiple(double period, double step);
+
+/// Up to two steps, one on each side of `step`, of which all `periods` are whole multiples; short decimals are preferred.
+std::vector<double> fitting_steps(const std::vector<double>& periods, double step);
+
+/// Up to two whole multiples of `step`, one on each side of `period`.
+std::vector<double> fitting_periods(double period, double step);
+
+/// A period as the user knows it.
+struct Period {
+  std::string name;
+  double value = 0;
+  std::optional<Place> given = {};  ///< where; nothing: it is a default
+};
+
+/// A problem for each period that is no whole multiple of the step: at the period's place, or the step's where only that is
+/// given, or `otherwise`.
+void check_periods(const std::vector<Period>& periods, const Period& step, const Place& otherwise, Problems& problems);
+
+}  // namespace gaitlab

@@ -1,0 +1,105 @@
+#include "core/scenario/plugin_files.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "core/scenario/reader.h"
+#include "core/scenario/value.h"
+
+namespace gaitlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One entry as the user wrote it.
+struct PluginEntry {
+  std::string path, hash;
+
+  void fields(Fields& f) {
+    f.text("path", path, "The library.");
+    f.text("hash", hash, "FNV-1a of the file; another file is refused.");
+  }
+};
+
+/// Reads an entry; `place`: the path's. False with a problem.
+bool read_entry(const Node& node, PluginEntry& entry, Place& place, Problems& problems) {
+  const std::size_t before = problems.size();
+  place = node.place;
+  if (node.kind == Node::Kind::map) {
+    Reader reader(node, "plugin", problems, nullptr);
+    entry.fields(reader);
+    reader.require({"path"});
+    reader.finish();
+    if (const Node* path = node.find("path")) place = path->place;
+  } else if (node.kind == Node::Kind::scalar) {
+    entry.path = node.text;
+  } else {
+    problems.add(node.place, fmt::format("plugin is {}; expected a path or {{path, hash}}", found(node)));
+  }
+  return problems.size() == before;
+}
+
+void load(const PluginEntry& entry, const Place& place, const std::string& folder, Catalog& catalog,
+          std::vector<PluginFile>& files, Problems& problems) {
+  const std::string path = path_from(folder, entry.path);
+  std::error_code failure;
+  const fs::path canonical = fs::canonical(path, failure);
+  if (failure || !fs::is_regular_file(canonical, failure)) {
+    const std::string why = failure ? failure.message() : "not a regular file";
+    problems.add(place, fmt::format("plugin '{}' cannot be loaded: {} (looked at '{}')", clipped(entry.path), why,
+                                    fs::absolute(path).lexically_normal().string()));
+    return;
+  }
+  const std::string hash = file_hash(canonical.string());
+  if (!entry.hash.empty() && entry.hash != hash) {
+    problems.add(place, fmt::format("plugin '{}' is not the file of the record: its hash is {}, recorded is {}",
+                                    clipped(entry.path), hash, clipped(entry.hash)));
+    return;
+  }
+  try {
+    load_plugin(canonical.string(), catalog);
+    files.push_back({canonical.string(), hash});
+  } catch (const std::exception& e) {
+    problems.add(place, fmt::format("plugin '{}' cannot be loaded: {}", clipped(entry.path), e.what()));
+  }
+}
+
+}  // namespace
+
+std::string path_from(const std::string& folder, const std::string& path) {
+  return (fs::path(folder) / path).lexically_normal().string();
+}
+
+std::string file_hash(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return {};
+  std::uint64_t hash = 14695981039346656037ULL;
+  std::vector<char> block(std::size_t{1} << 16);
+  do {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    for (std::streamsize i = 0; i < file.gcount(); ++i) {
+      hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) * 1099511628211ULL;
+    }
+  } while (file.gcount() > 0);
+  return fmt::format("{:016x}", hash);
+}
+
+std::vector<PluginFile> read_plugins(const Node& node, const std::string& folder, Catalog& catalog, Problems& problems) {
+  std::vector<PluginFile> files;
+  if (node.kind != Node::Kind::list) {
+    problems.add(node.place, fmt::format("plugins is {}; expected a list of paths", found(node)));
+    return files;
+  }
+  for (const Node& item : node.items) {
+    PluginEntry entry;
+    Place place;
+    if (read_entry(item, entry, place, problems)) load(entry, place, folder, catalog, files, problems);
+  }
+  return files;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,312 @@
+#include "core/scenario/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/scenario/value.h"
+
+namespace gaitlab {
+namespace {
+
+Node empty_map(const Place& place) { return {Node::Kind::map, place}; }
+
+std::string element(const std::string& key, std::size_t index) { return fmt::format("{}[{}]", key, index); }
+
+std::string in_unit(const Spec& spec) { return *spec.unit == '\0' ? "" : std::string(" in ") + spec.unit; }
+
+/// "2 numbers", "1 number".
+std::string count(std::size_t n, const std::string& what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+
+}  // namespace
+
+Reader::Reader(const Node& node, const std::string& name, Problems& problems, JointNames joints)
+    : empty_(empty_map(node.place)),
+      map_(node.kind == Node::Kind::map ? &node : &empty_),
+      problems_(problems),
+      joints_(joints),
+      tolerant_(node.kind != Node::Kind::map) {
+  if (tolerant_) problems_.add(node.place, fmt::format("{} is {}; expected a map", name, found(node)));
+}
+
+Reader::Reader(const Place& place, Problems& problems, JointNames joints)
+    : empty_(empty_map(place)), map_(&empty_), problems_(problems), joints_(joints) {}
+
+const Node* Reader::take(const char* key) {
+  known_.emplace_back(key);
+  return map_->find(key);
+}
+
+bool Reader::version(const char* key) {
+  const Node* node = take(key);
+  if (node == nullptr) return true;
+  const Reading<std::int64_t> reading = read_integer(*node);
+  if (reading.ok() && reading.value == 1) return true;
+  problems_.add(node->place, fmt::format("{} is {}; this program reads format version 1", key, found(*node)));
+  return false;
+}
+
+void Reader::require(std::initializer_list<const char*> keys) {
+  if (tolerant_) return;
+  for (const char* key : keys) {
+    if (!has(key)) problems_.add(map_->place, "missing key " + in_quotes(key));
+  }
+}
+
+void Reader::finish() {
+  if (tolerant_) return;
+  const std::set<std::string> known(known_.begin(), known_.end());
+  for (std::size_t i = 0; i < map_->keys.size(); ++i) {
+    const auto& [key, place] = map_->keys[i];
+    if (known.count(key) > 0) continue;
+    const std::size_t colon = key.find(':');
+    // {a:1} is a key without a value in YAML; what was meant is plain.
+    if (map_->items[i].kind == Node::Kind::null && colon != std::string::npos) {
+      problems_.add(place, "unknown key " + in_quotes(key) + "; put a space after the colon");
+    } else {
+      problems_.add(place, "unknown key " + in_quotes(key) + offer(key, known_, "keys"));
+    }
+  }
+}
+
+bool Reader::read_one(const Node& node, const std::string& what, const Spec& spec, double& value) {
+  const Reading<double> reading = read_number(node, spec.unit);
+  if (!reading.ok()) {
+    problems_.add(node.place, what + " " + reading.wrong);
+    return false;
+  }
+  if (reading.value < spec.min || reading.value > spec.max) {
+    problems_.add(node.place,
+                  fmt::format("{} is {}; allowed are {}", what, with_unit(reading.value, spec.unit), range_text(spec)));
+    return false;
+  }
+  value = reading.value;
+  return true;
+}
+
+void Reader::number(const char* key, double& value, Spec spec) {
+  if (const Node* node = take(key)) read_one(*node, key, spec, value);
+}
+
+void Reader::integer(const char* key, std::int64_t& value, Spec spec) {
+  const Node* node = take(key);
+  if (node == nullptr) return;
+  const Reading<std::int64_t> reading = read_integer(*node);
+  const auto number = static_cast<double>(reading.value);
+  if (!reading.ok()) {
+    problems_.add(node->place, std::string(key) + " " + reading.wrong);
+  } else if (number < spec.min || number > spec.max) {
+    problems_.add(node->place, fmt::format("{} is {}; allowed are {}", key, reading.value, range_text(spec)));
+  } else {
+    value = reading.value;
+  }
+}
+
+void Reader::flag(const char* key, bool& value, const char*) {
+  const Node* node = take(key);
+  if (node == nullptr) return;
+  const Reading<bool> reading = read_flag(*node);
+  if (reading.ok()) {
+    value = reading.value;
+  } else {
+    problems_.add(node->place, std::string(key) + " " + reading.wrong);
+  }
+}
+
+void Reader::text(const char* key, std::string& value, const char*) {
+  const Node* node = take(key);
+  if (node == nullptr) return;
+  Reading<std::string> reading = read_scalar(*node);
+  if (reading.ok()) {
+    value = std::move(reading.value);
+  } else {
+    problems_.add(node->place, std::string(key) + " " + reading.wrong);
+  }
+}
+
+void Reader::choice(const char* key, int& value, std::span<const char* const> names, const char*) {
+  const Node* node = take(key);
+  if (node == nullptr) return;
+  const std::vector<std::string> known = to_strings(names);
+  const auto it = std::find(known.begin(), known.end(), node->text);
+  if (node->kind == Node::Kind::scalar && it != known.end()) {
+    value = static_cast<int>(it - known.begin());
+    return;
+  }
+  // The other keys of a map depend on its type: without it, nothing can be said about them.
+  tolerant_ = tolerant_ || std::string_view(key) == "type";
+  if (node->kind == Node::Kind::scalar) {
+    problems_.add(node->place,
+                  fmt::format("{} {} is unknown{}", key, in_quotes(node->text), offer(node->text, known, "names")));
+  } else {
+    problems_.add(node->place, fmt::format("{} is {}; expected one of {}", key, found(*node), joined(known)));
+  }
+}
+
+void Reader::per_joint(const char* key, PerJoint& value, Spec spec) {
+  const Node* node = take(key);
+  if (node == nullptr) return;
+  if (node->kind == Node::Kind::list) {
+    read_joint_list(*node, key, spec, value);
+  } else if (node->kind == Node::Kind::map) {
+    read_joint_map(*node, key, spec, value);
+  } else if (node->kind == Node::Kind::scalar) {
+    if (read_one(*node, key, spec, value.common)) value.each.clear();
+  } else {
+    problems_.add(node->place,
+                  fmt::format("{} is {}; expected a number{}, a list, or a map of joints", key, found(*node), in_unit(spec)));
+  }
+}
+
+void Reader::read_joint_list(const Node& node, const std::string& key, const Spec& spec, PerJoint& value) {
+  if (joints_ != nullptr && node.items.size() != joints_->size()) {
+    problems_.add(node.place, fmt::format("{} has {}; expected one for each of the robot's {}", key,
+                                          count(node.items.size(), "number"), count(joints_->size(), "joint")));
+    return;
+  }
+  std::vector<double> each(node.items.size());
+  read_each(node, key, spec, each);
+  value.each = std::move(each);
+}
+
+void Reader::read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value) {
+  PerJoint read = value;
+  const Node* common = node.find("default");
+  if (common != nullptr && read_one(*common, key + ".default", spec, read.common)) read.each.clear();
+  if (node.keys.size() > (common != nullptr ? 1U : 0U) && read.each.empty() && joints_ != nullptr) {
+    read.each.assign(joints_->size(), read.common);
+  }
+  for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    const auto& [name, place] = node.keys[i];
+    if (name == "default") continue;
+    double number = 0;
+    const bool good = read_one(node.items[i], fmt::format("{} of {}", key, in_quotes(name)), spec, number);
+    const std::int64_t joint = joint_number(name, place);
+    if (good && joint >= 0) read.each[static_cast<std::size_t>(joint)] = number;
+  }
+  value = std::move(read);
+}
+
+std::int64_t Reader::joint_number(const std::string& name, const Place& place) {
+  if (joints_ == nullptr) return -1;
+  const auto it = std::find(joints_->begin(), joints_->end(), name);
+  if (it != joints_->end()) return it - joints_->begin();
+  problems_.add(place, "no joint " + in_quotes(name) + offer(name, *joints_, "joints"));
+  return -1;
+}
+
+void Reader::joint(const char* key, std::int64_t& value, const char*) {
+  const Node* node = take(key);
+  if (node == nullptr) return;
+  if (node->kind != Node::Kind::scalar) {
+    problems_.add(node->place, fmt::format("{} is {}; expected a joint's name or number", key, found(*node)));
+    return;
+  }
+  const Reading<std::int64_t> number = read_integer(*node);
+  if (!number.ok()) {
+    const std::int64_t named = joint_number(node->text, node->place);
+    if (named >= 0) value = named;
+  } else if (joints_ == nullptr || (number.value >= 0 && static_cast<std::size_t>(number.value) < joints_->size())) {
+    value = number.value;
+  } else {
+    problems_.add(node->place, fmt::format("{} is {}; the robot has {}, numbered from 0", key, number.value,
+                                           count(joints_->size(), "joint")));
+  }
+}
+
+const Node* Reader::take_list(const char* key, const char* expected) {
+  const Node* node = take(key);
+  if (node == nullptr || node->kind == Node::Kind::list) return node;
+  problems_.add(node->place, fmt::format("{} is {}; expected {}", key, found(*node), expected));
+  return nullptr;
+}
+
+void Reader::read_each(const Node& node, const std::string& key, const Spec& spec, std::span<double> value) {
+  for (std::size_t i = 0; i < value.size(); ++i) read_one(node.items[i], element(key, i), spec, value[i]);
+}
+
+void Reader::vector(const char* key, std::span<double> value, Spec spec) {
+  const std::string expected = "a list of " + count(value.size(), "number") + in_unit(spec);
+  const Node* node = take_list(key, expected.c_str());
+  if (node == nullptr) return;
+  if (node->items.size() == value.size()) {
+    read_each(*node, key, spec, value);
+  } else {
+    problems_.add(node->place, fmt::format("{} has {}; expected {}", key, count(node->items.size(), "number"), expected));
+  }
+}
+
+void Reader::numbers(const char* key, std::vector<double>& value, Spec spec) {
+  const Node* node = take_list(key, ("a list of numbers" + in_unit(spec)).c_str());
+  if (node == nullptr) return;
+  std::vector<double> read(node->items.size());
+  read_each(*node, key, spec, read);
+  value = std::move(read);
+}
+
+void Reader::texts(const char* key, std::vector<std::string>& value, const char*) {
+  const Node* node = take_list(key, "a list of texts");
+  if (node == nullptr) return;
+  std::vector<std::string> read;
+  for (std::size_t i = 0; i < node->items.size(); ++i) {
+    Reading<std::string> reading = read_scalar(node->items[i]);
+    if (!reading.ok()) problems_.add(node->items[i].place, element(key, i) + " " + reading.wrong);
+    read.push_back(std::move(reading.value));
+  }
+  value = std::move(read);
+}
+
+void Reader::problem(const char* key, std::string_view what) {
+  const Node* node = map_->find(key);
+  problems_.add(node != nullptr ? node->place : map_->place, std::string(what));
+}
+
+void Reader::list(const char* key, const char*, List list) {
+  const Node* node = take_list(key, "a list of maps");
+  if (node != nullptr) read_elements(key, *node, list);
+}
+
+void Reader::read_elements(const char* key, const Node& node, const List& list) {
+  list.resize(list.self, 0);  // so that no element keeps what a default or an earlier file said
+  list.resize(list.self, node.items.size());
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    Reader reader(node.items[i], element(key, i), problems_, joints_);
+    list.visit(list.self, i, reader);
+    reader.finish();
+  }
+}
+
+void Reader::rule_or_list(const char* key, int& rule, std::span<const char* const> names, const char*, List list) {
+  const Node* node = take(key);
+  if (node == nullptr) return;
+  const std::vector<std::string> known = to_strings(names);
+  const auto it = std::find(known.begin(), known.end(), node->text);
+  if (node->kind == Node::Kind::list) {
+    rule = -1;
+    read_elements(key, *node, list);
+  } else if (node->kind == Node::Kind::scalar && it != known.end()) {
+    rule = static_cast<int>(it - known.begin());
+    list.resize(list.self, 0);
+  } else if (node->kind == Node::Kind::scalar) {
+    problems_.add(node->place,
+                  fmt::format("{} {} is unknown{}", key, in_quotes(node->text), offer(node->text, known, "names")));
+  } else {
+    problems_.add(node->place, fmt::format("{} is {}; expected {} or a list", key, found(*node), joined(known)));
+  }
+}
+
+void Reader::group(const char* key, const char*, Group group) {
+  const Node* node = take(key);
+  if (node != nullptr) {
+    Reader reader(*node, key, problems_, joints_);
+    group.visit(group.self, reader);
+    reader.finish();
+  } else {
+    Reader reader(map_->place, problems_, joints_);
+    group.visit(group.self, reader);
+    reader.finish();
+  }
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,71 @@
+// Fills Settings structs from a map of a YAML text: types, ranges and names checked, every finding with its place.
+#pragma once
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "core/plugin/fields.h"
+#include "core/scenario/node.h"
+
+namespace gaitlab {
+
+/// Names of the robot's joints; nullptr where the robot could not be built (what depends on them is then not checked).
+using JointNames = const std::vector<std::string>*;
+
+/// One map. Visit the fields, then call finish(): it reports the keys that no field asked for.
+/// A field that is absent or wrong keeps its value.
+class Reader final : public Fields {
+ public:
+  /// `node` should be a map: anything else is a problem of `name`. The node and the problems must outlive the reader.
+  Reader(const Node& node, const std::string& name, Problems& problems, JointNames joints);
+  /// A map that is absent: every field keeps its default. `place`: its parent's.
+  Reader(const Place& place, Problems& problems, JointNames joints);
+
+  void number(const char* key, double& value, Spec spec) override;
+  void integer(const char* key, std::int64_t& value, Spec spec) override;
+  void flag(const char* key, bool& value, const char* about) override;
+  void text(const char* key, std::string& value, const char* about) override;
+  void choice(const char* key, int& value, std::span<const char* const> names, const char* about) override;
+  void per_joint(const char* key, PerJoint& value, Spec spec) override;
+  void joint(const char* key, std::int64_t& value, const char* about) override;
+  void vector(const char* key, std::span<double> value, Spec spec) override;
+  void numbers(const char* key, std::vector<double>& value, Spec spec) override;
+  void texts(const char* key, std::vector<std::string>& value, const char* about) override;
+  void problem(const char* key, std::string_view what) override;
+  using Fields::group;
+  using Fields::list;
+  using Fields::rule_or_list;
+
+  /// The value of a key, or nullptr; the key counts as known from now on.
+  const Node* take(const char* key);
+  [[nodiscard]] bool has(const char* key) const { return map_->find(key) != nullptr; }
+  /// A format version, of which this program reads 1; false with a problem where it is another one.
+  bool version(const char* key);
+  /// Reports the keys that are missing.
+  void require(std::initializer_list<const char*> keys);
+  /// Reports every key that was not asked for.
+  void finish();
+
+ private:
+  void list(const char* key, const char* about, List list) override;
+  void rule_or_list(const char* key, int& rule, std::span<const char* const> names, const char* about, List list) override;
+  void group(const char* key, const char* about, Group group) override;
+
+  const Node* take_list(const char* key, const char* expected);
+  void read_elements(const char* key, const Node& node, const List& list);
+  bool read_one(const Node& node, const std::string& what, const Spec& spec, double& value);
+  void read_each(const Node& node, const std::string& key, const Spec& spec, std::span<double> value);
+  void read_joint_list(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
+  void read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
+  /// Number of a joint by its name, or -1 with a problem.
+  std::int64_t joint_number(const std::string& name, const Place& place);
+
+  Node empty_;  ///< stands in for a map that is absent or no map
+  const Node* map_;
+  Problems& problems_;
+  JointNames joints_;
+  std::vector<std::string> known_;
+  bool tolerant_ = false;  ///< which keys are known is itself unknown
+};
+
+}  // namespace gaitlab

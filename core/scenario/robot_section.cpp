@@ -1,0 +1,223 @@
+#include "core/scenario/robot_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/scenario/build_file.h"
+#include "core/scenario/plugin_files.h"
+#include "core/scenario/text_file.h"
+#include "core/scenario/type_library.h"
+#include "core/scenario/value.h"
+#include "core/scenario/writer.h"
+
+namespace gaitlab {
+namespace {
+
+/// More bodies than this are a mistake, and would only fill the memory.
+constexpr std::size_t kMostBodies = 1000000;
+
+std::vector<Dock> read_connections(Reader& reader, const std::string& folder, Problems& problems) {
+  const Node* build = reader.take("build");
+  const Node* docks = reader.take("docks");
+  if (build != nullptr && docks != nullptr) {
+    problems.add(build->place, "robot has both build and docks; expected one")
+        .notes.emplace_back(docks->place, "docks is here");
+    return {};
+  }
+  if (docks != nullptr) return read_docks(*docks, problems);
+  if (build == nullptr) return {};
+  const Reading<std::string> name = read_scalar(*build);
+  if (!name.ok()) {
+    problems.add(build->place, fmt::format("build is {}; expected a build file", found(*build)));
+    return {};
+  }
+  try {
+    const std::string path = path_from(folder, name.value);
+    const std::string text = read_text(path, build->place);
+    check_text(text, path);
+    return read_build(text, path, problems);
+  } catch (const InputError& e) {
+    add_all(e, problems);
+  }
+  return {};
+}
+
+std::size_t module_count(const std::vector<Dock>& docks) {
+  int highest = 0;
+  for (const Dock& dock : docks) highest = std::max({highest, dock.child_module, dock.parent_module});
+  return static_cast<std::size_t>(highest) + 1;
+}
+
+/// Which type each module has: `modules` as a type for all, or types by module number.
+class TypeChoice {
+ public:
+  TypeChoice(const Node& modules, std::size_t count, TypeLibrary& library, Problems& problems)
+      : modules_(modules), count_(count), library_(library), problems_(problems) {}
+
+  std::vector<std::size_t> read() {
+    if (modules_.kind == Node::Kind::map && !TypeLibrary::is_inline(modules_)) {
+      read_numbers();
+    } else {
+      default_ = &modules_;
+    }
+    std::vector<std::size_t> types;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const auto own = own_.find(i);
+      const Node* node = own == own_.end() ? default_ : own->second;
+      if (node == nullptr) {
+        missing(i);
+        break;
+      }
+      if (const std::optional<std::size_t> type = library_.find(*node)) types.push_back(*type);
+    }
+    if (default_ != nullptr) library_.find(*default_);  // checked even where no module has it
+    return types;
+  }
+
+ private:
+  void read_numbers() {
+    for (std::size_t i = 0; i < modules_.keys.size(); ++i) {
+      const auto& [key, place] = modules_.keys[i];
+      if (key == "default") {
+        default_ = &modules_.items[i];
+        continue;
+      }
+      Node number{Node::Kind::scalar, place};
+      number.text = key;
+      const Reading<std::int64_t> module = read_integer(number);
+      if (!module.ok() || module.value < 0) {
+        problems_.add(place, "unknown key " + in_quotes(key) + " in modules; expected a module's number or default");
+      } else if (static_cast<std::size_t>(module.value) >= count_) {
+        problems_.add(place, fmt::format("there is no module {}; the robot has {}", module.value,
+                                         count_ == 1 ? "module 0 alone" : fmt::format("modules 0 to {}", count_ - 1)));
+      } else {
+        own_[static_cast<std::size_t>(module.value)] = &modules_.items[i];
+      }
+    }
+  }
+
+  void missing(std::size_t module) {
+    problems_.add(modules_.place, fmt::format("modules has no type for module {}; add it, or default: TYPE", module));
+  }
+
+  const Node& modules_;
+  std::size_t count_;
+  TypeLibrary& library_;
+  Problems& problems_;
+  const Node* default_ = nullptr;
+  std::map<std::size_t, const Node*> own_;
+};
+
+/// Keeps the types that a module has, in the order of first use, and renumbers.
+void keep_used(TypeLibrary& library, std::vector<std::size_t>& type_of_module) {
+  std::vector<ModuleType> types;
+  std::vector<Node> documents;
+  std::map<std::size_t, std::size_t> index;
+  for (std::size_t& type : type_of_module) {
+    const auto [number, fresh] = index.emplace(type, types.size());
+    if (fresh) {
+      types.push_back(library.types[type]);
+      documents.push_back(library.documents[type]);
+    }
+    type = number->second;
+  }
+  library.types = std::move(types);
+  library.documents = std::move(documents);
+}
+
+bool too_large(const TypeLibrary& library, const std::vector<std::size_t>& type_of_module, const Place& place,
+               Problems& problems) {
+  std::size_t bodies = 0;
+  for (const std::size_t type : type_of_module) bodies += library.types[type].bodies.size();
+  if (bodies > kMostBodies)
+    problems.add(place, fmt::format("the robot has {} bodies; allowed are up to {}", bodies, kMostBodies));
+  return bodies > kMostBodies;
+}
+
+/// A name for each type: its own, numbered where several types share it.
+std::vector<std::string> unique_names(const Robot& robot) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const ModuleType& type : robot.types) {
+    std::string name = type.name;
+    for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}-{}", type.name, i);
+    names.push_back(name);
+  }
+  return names;
+}
+
+Node modules_node(const Robot& robot, const std::vector<std::string>& names) {
+  const std::size_t common = robot.modules[0].type;
+  if (names.size() == 1) return scalar_node(names[common]);
+  Node node{Node::Kind::map};
+  node.flow = true;
+  const auto add = [&](const std::string& key, std::size_t type) {
+    node.keys.emplace_back(key, Place{});
+    node.items.push_back(scalar_node(names[type]));
+  };
+  add("default", common);
+  for (std::size_t i = 0; i < robot.modules.size(); ++i) {
+    if (robot.modules[i].type != common) add(std::to_string(i), robot.modules[i].type);
+  }
+  return node;
+}
+
+Node docks_node(const Robot& robot) {
+  Node node{Node::Kind::list};
+  for (const Module& module : robot.modules) {
+    if (module.parent < 0) continue;
+    const Dock& d = module.dock;
+    Node row{Node::Kind::list};
+    row.flow = true;
+    for (const int number : {d.child_face, d.child_module, d.parent_face, d.parent_module, d.orientation}) {
+      row.items.push_back(scalar_node(std::to_string(number)));
+    }
+    node.items.push_back(std::move(row));
+  }
+  node.flow = node.items.empty();
+  return node;
+}
+
+}  // namespace
+
+RobotParts read_robot(Reader& reader, const Place& place, const std::string& folder, Problems& problems) {
+  const std::size_t before = problems.size();
+  RobotParts parts;
+  TypeLibrary library(folder, problems);
+  if (const Node* types = reader.take("types")) library.define(*types);
+  const std::vector<Dock> docks = read_connections(reader, folder, problems);
+  // Modules are counted by the rows; without them every number of a module would look wrong.
+  const bool counted = problems.size() == before;
+  const Node* modules = reader.take("modules");
+  reader.require({"modules"});
+  if (modules == nullptr) return parts;
+  if (!counted) {
+    if (modules->kind == Node::Kind::scalar) library.find(*modules);
+    return parts;
+  }
+  std::vector<std::size_t> type_of_module = TypeChoice(*modules, module_count(docks), library, problems).read();
+  if (problems.size() != before || too_large(library, type_of_module, place, problems)) return parts;
+  keep_used(library, type_of_module);
+  try {
+    parts.robot = std::make_shared<const Robot>(assemble(std::move(library.types), type_of_module, docks));
+    parts.documents = std::move(library.documents);
+  } catch (const InputError& e) {
+    add_all(e, problems);
+  }
+  return parts;
+}
+
+std::vector<std::pair<std::string, Node>> robot_nodes(const Robot& robot, const std::vector<Node>& documents) {
+  const std::vector<std::string> names = unique_names(robot);
+  Node types{Node::Kind::map};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    types.keys.emplace_back(names[i], Place{});
+    types.items.push_back(documents[i]);
+  }
+  return {{"types", std::move(types)}, {"modules", modules_node(robot, names)}, {"docks", docks_node(robot)}};
+}
+
+}  // namespace gaitlab

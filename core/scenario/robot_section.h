@@ -1,0 +1,24 @@
+// The scenario's `robot`: module types found and read, docks read, the robot assembled.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scenario/reader.h"
+#include "core/scenario/scenario.h"
+
+namespace gaitlab {
+
+/// What `modules`, `types`, `build` and `docks` say. robot == nullptr: there were problems.
+struct RobotParts {
+  std::shared_ptr<const Robot> robot = {};
+  std::vector<Node> documents = {};  ///< of the module types, one a Robot::types entry
+};
+
+/// `reader` stands at the map `robot`; `folder` is the scenario file's.
+RobotParts read_robot(Reader& reader, const Place& place, const std::string& folder, Problems& problems);
+
+/// The same keys again, self-contained: `types` in full, `modules` by name, `docks`.
+std::vector<std::pair<std::string, Node>> robot_nodes(const Robot& robot, const std::vector<Node>& documents);
+
+}  // namespace gaitlab

@@ -1,0 +1,313 @@
+// read_scenario: the file, --set, plugins, robot and sections in this order; then what only the whole can show.
+#include "core/scenario/scenario.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "core/scenario/overlay.h"
+#include "core/scenario/periods.h"
+#include "core/scenario/plugin_files.h"
+#include "core/scenario/reader.h"
+#include "core/scenario/robot_section.h"
+#include "core/scenario/sections.h"
+#include "core/scenario/text_file.h"
+#include "core/scenario/value.h"
+
+namespace gaitlab {
+namespace {
+
+constexpr std::size_t kMostProblems = 200;  // more help nobody
+
+/// Place of a key's value (`key` empty: of the section's name), or nothing where it is not given.
+std::optional<Place> given(const Node& root, const std::string& section, const std::string& key = {}) {
+  for (std::size_t i = 0; i < root.keys.size(); ++i) {
+    if (root.keys[i].first != section) continue;
+    if (key.empty()) return root.keys[i].second;
+    const Node* value = root.items[i].find(key);
+    return value == nullptr ? std::nullopt : std::optional<Place>(value->place);
+  }
+  return {};
+}
+
+/// The same, or the section's name, or the whole map.
+Place place_of(const Node& root, const std::string& section, const std::string& key) {
+  if (const std::optional<Place> exact = given(root, section, key)) return *exact;
+  return given(root, section).value_or(root.place);
+}
+
+/// Notes where every key of a map was given, `physics.step` and so on.
+void note_places(const Node& map, const std::string& prefix, std::map<std::string, Place>& places) {
+  for (std::size_t i = 0; i < map.keys.size(); ++i) {
+    const std::string key = prefix + map.keys[i].first;
+    places[key] = map.items[i].kind == Node::Kind::map ? map.keys[i].second : map.items[i].place;
+    if (key != "robot.types" && key != "robot.modules") note_places(map.items[i], key + ".", places);
+  }
+}
+
+/// The default motor that the module types name.
+struct TypeMotor {
+  std::string type = default_type("actuator");
+  const Node* map = nullptr;  ///< its keys, where all types that have a motor agree
+  bool agreed = true;
+};
+
+TypeMotor motor_of(const std::vector<Node>& documents) {
+  TypeMotor motor;
+  for (const Node& document : documents) {
+    const Node* map = document.find("actuator");
+    if (map == nullptr || map->kind != Node::Kind::map) continue;
+    const Node* type = map->find("type");
+    if (motor.map == nullptr) {
+      motor.map = map;
+      if (type != nullptr) motor.type = type->text;
+    } else if (print_yaml(*map) != print_yaml(*motor.map)) {
+      motor.agreed = false;
+    }
+  }
+  return motor;
+}
+
+/// Stable by place within the scenario file, so that findings come in the order in which one reads.
+std::vector<Problem> in_order(std::vector<Problem> problems, const std::string& file) {
+  const auto before = [&](const Problem& a, const Problem& b) {
+    if (a.place.file != file || b.place.file != file) return a.place.file == file && b.place.file != file;
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  };
+  std::stable_sort(problems.begin(), problems.end(), before);
+  if (problems.size() > kMostProblems) {
+    const std::string more = fmt::format("{} more errors", problems.size() - kMostProblems);
+    problems.resize(kMostProblems);
+    problems.push_back({{file}, more});
+  }
+  return problems;
+}
+
+class ScenarioReader {
+ public:
+  ScenarioReader(const std::string& path, Catalog& catalog) : path_(path), catalog_(catalog) {
+    scenario_.file = path;
+    folder_ = std::filesystem::path(path).parent_path().string();
+    if (folder_.empty()) folder_ = ".";
+  }
+
+  Scenario read(const std::vector<std::string>& sets) {
+    const std::string text = read_text(path_);
+    std::optional<Node> root = parse_yaml(text, path_, problems_);
+    if (!root) raise();
+    root_ = std::move(*root);
+    const std::vector<Retyped> retyped = apply_sets(root_, sets, problems_);
+    Reader head(root_, "the scenario", problems_, nullptr);
+    if (!head.version("gaitlab")) raise();  // another version's keys mean something else
+    if (const Node* plugins = root_.find("plugins")) {
+      scenario_.plugins = read_plugins(*plugins, folder_, catalog_, problems_);
+    }
+    scenario_.notes = drop_old_keys(root_, retyped, catalog_);
+    read_name(head);
+    read_body();
+    read_sections();
+    raise();
+    note_places(root_, "", scenario_.places);
+    return std::move(scenario_);
+  }
+
+ private:
+  void raise() const {
+    if (!problems_.empty()) throw InputError(in_order(problems_.list(), path_));
+  }
+
+  void read_name(Reader& reader) {
+    scenario_.name = std::filesystem::path(path_).stem().string();
+    reader.text("name", scenario_.name, "");
+    const Node* node = root_.find("name");
+    if (is_name(scenario_.name, "_.-") && scenario_.name[0] != '.') return;
+    if (node != nullptr && node->kind != Node::Kind::scalar) return;
+    problems_.add(node != nullptr ? node->place : Place{path_},
+                  "name " + in_quotes(scenario_.name) + " is not allowed; expected letters, digits, _ . and -, not a . first" +
+                      (node != nullptr ? "" : " (it is the file's name; give another with name:)"));
+  }
+
+  void read_body() {
+    const Node* node = root_.find("robot");
+    if (node == nullptr) {
+      problems_.add(root_.place, "missing key 'robot'");
+      return;
+    }
+    Reader reader(*node, "robot", problems_, nullptr);
+    if (node->kind != Node::Kind::map) return;
+    RobotParts parts = read_robot(reader, node->place, folder_, problems_);
+    BaseFields{scenario_}.fields(reader);
+    reader.finish();
+    if (const Node* position = node->find("position")) {
+      const Node* on_ground = node->find("on_ground");
+      if (on_ground != nullptr && scenario_.on_ground) {
+        problems_.add(position->place, "robot has a position and on_ground: true; expected one of them")
+            .notes.emplace_back(on_ground->place, "on_ground is here");
+      }
+      scenario_.on_ground = false;
+    }
+    scenario_.robot = std::move(parts.robot);
+    scenario_.module_documents = std::move(parts.documents);
+    if (scenario_.robot) joints_ = joint_names(*scenario_.robot);
+  }
+
+  void read_sections() {
+    const JointNames joints = scenario_.robot ? &joints_ : nullptr;
+    Reader reader(root_, "the scenario", problems_, joints);
+    for (const char* known : {"gaitlab", "name", "plugins", "robot", "controller", "cpg"}) reader.take(known);
+    reader.require({"duration"});
+    if (const Node* sensors = reader.take("sensors")) check_sensors(*sensors);
+    const TypeMotor motor = motor_of(scenario_.module_documents);
+    SectionFields sections(scenario_, &catalog_, &problems_, motor.type);
+    sections.has_cpg = root_.find("cpg") != nullptr;
+    sections.actuator.presets = [&](const Entry& entry, void* settings) {
+      if (motor.map == nullptr || !motor.agreed || entry.name != motor.type) return;
+      Reader preset(*motor.map, "actuator", problems_, joints);
+      preset.take("type");
+      preset.take("source");
+      entry.fields(settings, preset);
+      preset.finish();
+    };
+    sections.fields(reader);
+    reader.finish();
+    check_motors(motor);
+    if (sections.actuator.none) refuse_controller();
+    check_initial();
+    check_all_periods();
+    make_plugins(sections);
+  }
+
+  void check_sensors(const Node& node) {
+    if (node.kind == Node::Kind::list && node.items.empty()) return;
+    const std::string what = node.kind == Node::Kind::list ? fmt::format("a list of {}", node.items.size()) : found(node);
+    problems_.add(node.place, fmt::format("sensors is {}; expected [], there are no sensor types yet", what));
+  }
+
+  void check_motors(const TypeMotor& motor) {
+    if (motor.agreed || given(root_, "actuator")) return;
+    Problem& problem =
+        problems_.add(given(root_, "robot").value_or(root_.place),
+                      "the module types have different actuators; say which one holds: add actuator: {type: ...}");
+    for (const Node& document : scenario_.module_documents) {
+      if (const Node* map = document.find("actuator")) problem.notes.emplace_back(map->place, "one is here");
+    }
+  }
+
+  void refuse_controller() {
+    if (const std::optional<Place> place = given(root_, "controller")) {
+      problems_.add(*place, "a controller is given, but there is no actuator to command; remove this section")
+          .notes.emplace_back(place_of(root_, "actuator", "type"), "the actuator is none");
+    }
+  }
+
+  /// Place of a joint's initial angle.
+  [[nodiscard]] Place angle_place(std::size_t joint) const {
+    const Node* initial = root_.find("initial");
+    const Node* angles = initial == nullptr ? nullptr : initial->find("angles");
+    if (angles == nullptr) return place_of(root_, "initial", "angles");
+    if (angles->kind == Node::Kind::list && joint < angles->items.size()) return angles->items[joint].place;
+    if (const Node* own = angles->find(joints_[joint])) return own->place;
+    if (const Node* common = angles->find("default")) return common->place;
+    return angles->place;
+  }
+
+  void check_initial() {
+    if (!scenario_.robot) return;
+    const std::vector<Joint>& joints = scenario_.robot->joints;
+    const PerJoint& angles = scenario_.initial.angles;
+    if (!angles.each.empty() && angles.each.size() != joints.size()) return;
+    struct Outside {
+      Place place;
+      std::string text;
+      int more = 0;
+    };
+    std::map<std::string, Outside> findings;  // one a place: a number may stand for all joints
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const double angle = angles[j];
+      if (angle >= joints[j].lo - 1e-9 && angle <= joints[j].hi + 1e-9) continue;
+      const Place place = angle_place(j);
+      const auto [it, fresh] = findings.emplace(to_string(place), Outside{place, {}});
+      if (fresh) {
+        it->second.text = fmt::format("the initial angle of joint '{}' is {} rad; allowed are {} to {} rad", joints[j].name,
+                                      number_text(angle), number_text(joints[j].lo), number_text(joints[j].hi));
+      } else {
+        ++it->second.more;
+      }
+    }
+    for (const auto& [key, outside] : findings) {
+      const std::string others =
+          outside.more == 1 ? "; so has 1 more joint" : fmt::format("; so have {} more joints", outside.more);
+      problems_.add(outside.place, outside.text + (outside.more > 0 ? others : ""));
+    }
+  }
+
+  void check_all_periods() {
+    const Period step{"step", scenario_.physics.step, given(root_, "physics", "step")};
+    const Period control{"control period", scenario_.control_period, given(root_, "controller", "period")};
+    const Place physics = place_of(root_, "physics", "step");
+    std::vector<Period> periods{control, {"trace period", scenario_.trace.period, given(root_, "trace", "period")}};
+    if (const Node* duration = root_.find("duration"); duration != nullptr && scenario_.duration > 0) {
+      periods.push_back({"duration", scenario_.duration, duration->place});
+    }
+    if (step.value > 0) check_periods(periods, step, physics, problems_);
+    if (scenario_.cpg_step > 0) {
+      const Period cpg{"CPG step", scenario_.cpg_step, given(root_, "cpg", "step")};
+      check_periods({control}, cpg, place_of(root_, "cpg", "step"), problems_);
+    }
+  }
+
+  /// A plugin's instance, or nullptr with a problem; what its constructor refuses is bad input like any other.
+  template <class T>
+  std::unique_ptr<T> make(const PluginFields& section, const RobotInfo& robot, const std::string& key) {
+    if (!section.sound || section.choice.entry == nullptr) return {};
+    const void* const settings = section.choice.settings.get();
+    std::string why = "unknown exception";
+    try {
+      return std::unique_ptr<T>(static_cast<T*>(section.choice.entry->make(robot, {&settings, 1})));
+    } catch (const std::exception& e) {
+      why = e.what();
+    } catch (...) {  // a plugin may throw anything
+    }
+    problems_.add(place_of(root_, key, "type"), fmt::format("{} '{}': {}", key, section.choice.entry->name, why));
+    return {};
+  }
+
+  void make_plugins(const SectionFields& sections) {
+    if (!scenario_.robot) return;
+    const RobotInfo robot = info(*scenario_.robot);
+    const auto actuator = make<Actuator>(sections.actuator, robot, "actuator");
+    const auto controller = sections.actuator.none ? nullptr : make<Controller>(sections.controller, robot, "controller");
+    const auto cpg = sections.has_cpg ? make<Cpg>(sections.cpg, robot, "cpg") : nullptr;
+    if (actuator && controller) check_units(*actuator, *controller);
+    if (cpg && !cpg->note().empty()) scenario_.notes.push_back("cpg: " + cpg->note());
+  }
+
+  void check_units(const Actuator& actuator, const Controller& controller) {
+    const std::string_view command = controller.command_unit();
+    if (command.empty() || command == actuator.command_unit()) return;
+    const std::string_view taker = scenario_.actuator.entry->name;
+    const std::string_view giver = scenario_.controller.entry->name;
+    Problem& problem = problems_.add(
+        place_of(root_, "controller", "type"),
+        fmt::format("controller '{}' commands {}, but actuator '{}' takes {}", giver, command, taker, actuator.command_unit()));
+    problem.notes.emplace_back(place_of(root_, "actuator", "type"),
+                               fmt::format("actuator '{}' takes {}", taker, actuator.command_unit()));
+  }
+
+  std::string path_, folder_;
+  Catalog& catalog_;
+  Problems problems_;
+  Node root_;
+  Scenario scenario_;
+  std::vector<std::string> joints_;
+};
+
+}  // namespace
+
+Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog) {
+  return ScenarioReader(path, catalog).read(sets);
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,106 @@
+// Everything the user said, validated, SI, defaults filled in. Reading: read_scenario; writing it out in full: resolved.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/laws/contact.h"
+#include "core/laws/ground.h"
+#include "core/model/robot.h"
+#include "core/plugin/catalog.h"
+#include "core/scenario/node.h"
+
+namespace gaitlab {
+
+/// A plugin chosen by name, with its settings filled in. entry == nullptr: none.
+struct Choice {
+  const Entry* entry = nullptr;
+  std::shared_ptr<void> settings = {};
+};
+
+struct Initial {
+  PerJoint angles, speeds;                    ///< rad, rad/s
+  Vec3 base_velocity = Vec3::Zero();          ///< of the base frame's origin, world axes, m/s
+  Vec3 base_angular_velocity = Vec3::Zero();  ///< world axes, rad/s
+  void fields(Fields& f);
+};
+
+struct Physics {
+  const Engine* engine = nullptr;
+  double step = 0;            ///< s
+  int integrator = 0;         ///< index into engine->integrators
+  Vec3 gravity{0, 0, -9.81};  ///< m/s^2, world
+};
+
+struct ContactSettings {
+  int law = 0;  ///< penalty
+  int on = 1;   ///< ContactSet
+  PenaltyContact penalty;
+  void fields(Fields& f);
+};
+
+struct TraceSettings {
+  double period = 0.005;  ///< s
+  std::vector<std::string> columns{"joint.*", "base.*", "com.*"};
+  void fields(Fields& f);
+};
+
+/// A plugin library named by the scenario.
+struct PluginFile {
+  std::string path;  ///< canonical
+  std::string hash;  ///< FNV-1a of the file, 16 hex digits
+};
+
+struct Scenario {
+  std::string file, name;
+  std::vector<PluginFile> plugins;
+  std::shared_ptr<const Robot> robot;
+  std::vector<Node> module_documents;  ///< one a Robot::types entry, as read (for the resolved scenario)
+  Base base = Base::floating;
+  bool on_ground = true;            ///< false: `position` holds
+  Vec3 position = Vec3::Zero();     ///< of the base frame, m
+  Vec3 orientation = Vec3::Zero();  ///< roll pitch yaw, rad
+  Initial initial;
+  Physics physics;
+  Ground ground;
+  ContactSettings contact;
+  Choice actuator, controller, cpg;
+  double control_period = 0.015;  ///< s
+  double cpg_step = 0;            ///< s, RK4 sub-step of the CPG
+  double duration = 0;            ///< s
+  TraceSettings trace;
+  std::int64_t seed = 1;
+  std::vector<std::string> notes;       ///< one line each for stderr: what --set dropped, how the CPG was set up
+  std::map<std::string, Place> places;  ///< where the user gave a key: `physics.step`, `trace.columns` ...
+
+  /// For errors found later: where `key` was given, or else the file.
+  [[nodiscard]] Place place(const std::string& key) const {
+    const auto at = places.find(key);
+    return at == places.end() ? Place{file} : at->second;
+  }
+};
+
+/// Reads and checks a scenario file. `sets` are `key.path=value` texts in order. Loads the scenario's plugins into the catalog.
+/// Throws InputError with every problem found, each at FILE:LINE:COL.
+Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog);
+
+/// The self-contained YAML text: every default written out, module types and docks inlined, plugins by path and hash.
+/// Reading it again and resolving that gives the same bytes.
+std::string resolved(const Scenario& scenario);
+
+/// Every key of a scenario file with unit, default, range and sentence: what `gaitlab explain` prints.
+std::string explain_scenario(const Catalog& catalog);
+
+/// A plugin's manual: its text, then a table of its fields.
+std::string explain_plugin(const Entry& entry);
+
+/// Reads a module type file.
+struct ModuleFile {
+  ModuleType type;
+  Node document;
+};
+ModuleFile read_module_file(const std::string& path);
+
+}  // namespace gaitlab

@@ -1,0 +1,181 @@
+#include "core/scenario/sections.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/scenario/overlay.h"
+#include "core/scenario/value.h"
+
+namespace gaitlab {
+namespace {
+
+constexpr double kPositive = std::numeric_limits<double>::denorm_min();
+constexpr std::array<const char*, 3> kBases{"floating", "fixed", "planar"};
+constexpr std::array<const char*, 2> kGrounds{"none", "plane"};
+constexpr std::array<const char*, 1> kLaws{"penalty"};
+constexpr std::array<const char*, 3> kContactSets{"none", "feet", "all"};
+
+std::span<double> span_of(Vec3& v) { return {v.data(), 3}; }
+
+/// Texts as the interface wants them; they live as long as this.
+struct Names {
+  std::vector<std::string> texts;
+  std::vector<const char*> pointers;
+
+  explicit Names(std::vector<std::string> names) : texts(std::move(names)) {
+    for (const std::string& text : texts) pointers.push_back(text.c_str());
+  }
+  [[nodiscard]] int find(const std::string& name) const {
+    const auto it = std::find(texts.begin(), texts.end(), name);
+    return it == texts.end() ? -1 : static_cast<int>(it - texts.begin());
+  }
+};
+
+std::size_t count(const Problems* problems) { return problems == nullptr ? 0 : problems->size(); }
+
+const char* about_type(Kind kind) {
+  switch (kind) {
+    case Kind::actuator:
+      return "Motor model; its own keys: gaitlab explain actuator TYPE.";
+    case Kind::controller:
+      return "Joint controller; its own keys: gaitlab explain controller TYPE.";
+    case Kind::cpg:
+      break;
+  }
+  return "Oscillator model or gait; its own keys: gaitlab explain cpg TYPE.";
+}
+
+}  // namespace
+
+void BaseFields::fields(Fields& f) {
+  int base = static_cast<int>(scenario.base);
+  f.choice("base", base, kBases, "floating; fixed; planar: world x, world z and rotation about world y.");
+  scenario.base = static_cast<Base>(base);
+  f.flag("on_ground", scenario.on_ground, "The lowest point starts on the ground; else `position` holds.");
+  if (with_position) {
+    f.vector("position", span_of(scenario.position), {"m", -1e6, 1e6, "Start of the base frame's origin, world."});
+  }
+  f.vector("orientation", span_of(scenario.orientation), {"rad", -100, 100, "Start of the base frame: roll, pitch, yaw."});
+}
+
+void Initial::fields(Fields& f) {
+  f.per_joint("angles", angles, {"rad", -1000, 1000, "Joint angles, within each hinge's range."});
+  f.per_joint("speeds", speeds, {"rad/s", -1e4, 1e4, "Joint speeds."});
+  f.vector("base_velocity", span_of(base_velocity), {"m/s", -1e4, 1e4, "Of the base frame's origin, world axes."});
+  f.vector("base_angular_velocity", span_of(base_angular_velocity), {"rad/s", -1e4, 1e4, "World axes."});
+}
+
+void PhysicsFields::fields(Fields& f) {
+  const Names names(catalog != nullptr ? catalog->engines() : std::vector<std::string>{physics.engine->name});
+  int index = std::max(0, names.find(physics.engine != nullptr ? physics.engine->name : "bullet"));
+  const std::size_t before = count(problems);
+  f.choice("engine", index, names.pointers, "Physics engine.");
+  const bool known = count(problems) == before && !names.texts.empty();
+  if (names.texts.empty()) f.problem("engine", "no physics engine is built in");
+  if (known && catalog != nullptr) physics.engine = catalog->engine(names.texts[static_cast<std::size_t>(index)]);
+  if (known && physics.step <= 0) physics.step = physics.engine->step;
+  f.number("step", physics.step, {"s", 1e-9, 1, "Time step; default: the engine's."});
+  if (known) {
+    const Names integrators(physics.engine->integrators);
+    f.choice("integrator", physics.integrator, integrators.pointers, "Integrator of the engine.");
+  } else {
+    std::string any;  // which there are depends on the engine
+    f.text("integrator", any, "");
+  }
+  f.vector("gravity", span_of(physics.gravity), {"m/s^2", -1000, 1000, "World axes."});
+}
+
+void GroundFields::fields(Fields& f) {
+  int type = static_cast<int>(ground.kind);
+  f.choice("type", type, kGrounds, "plane: world z = 0, solid below.");
+  ground.kind = static_cast<Ground::Kind>(type);
+  f.number("friction", ground.friction, {"", 0, 100, "Coulomb coefficient f."});
+}
+
+void ContactSettings::fields(Fields& f) {
+  f.choice("law", law, kLaws, "Fn = Kn p^k + Cd p^d p' >= 0; friction -f Fn v/v_lim up to v_lim, then -f Fn v/|v|.");
+  f.choice("on", on, kContactSets, "Which elements touch: those of the free blocks' feet, of every block, or none.");
+  f.number("stiffness", penalty.kn, {"N/m^k", 0, 1e12, "Kn."});
+  f.number("exponent", penalty.k, {"", 1, 10, "k."});
+  f.number("damping", penalty.cd, {"N s/m^(d+1)", 0, 1e12, "Cd."});
+  f.number("damping_exponent", penalty.d, {"", 0, 10, "d."});
+  f.number("slip_speed", penalty.v_lim, {"m/s", kPositive, 1000, "v_lim, below which friction is viscous."});
+}
+
+void PluginFields::choose(Fields& f) {
+  std::vector<std::string> known;
+  if (catalog != nullptr) {
+    known = catalog->names(kind);
+  } else if (choice.entry != nullptr) {
+    known.emplace_back(choice.entry->name);
+  }
+  if (kind == Kind::actuator) known.emplace_back("none");
+  const Names names(std::move(known));
+  int index = names.find(choice.entry != nullptr ? std::string(choice.entry->name) : type);
+  f.choice("type", index, names.pointers, about_type(kind));
+  if (index < 0) {
+    f.problem("type",
+              "type is missing, and the default " + in_quotes(type) + " is not registered" + offer(type, names.texts, "names"));
+    return;
+  }
+  const std::string& name = names.texts[static_cast<std::size_t>(index)];
+  none = kind == Kind::actuator && name == "none";
+  if (none || catalog == nullptr) return;
+  choice.entry = catalog->find(kind, name);
+  choice.settings = choice.entry->settings();
+  if (presets) presets(*choice.entry, choice.settings.get());
+}
+
+void PluginFields::fields(Fields& f) {
+  const std::size_t before = count(problems);
+  choose(f);
+  if (host) host(f);
+  sound = count(problems) == before;
+  if (!sound || choice.entry == nullptr || !own_keys) return;
+  choice.entry->fields(choice.settings.get(), f);
+  sound = count(problems) == before;
+}
+
+void TraceSettings::fields(Fields& f) {
+  f.number("period", period, {"s", 1e-9, 1e6, "Time between rows; a whole multiple of the step."});
+  f.texts("columns", columns, "Names or patterns with * and ? of the columns to keep.");
+}
+
+SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type)
+    : scenario(s),
+      physics{s.physics, catalog, problems},
+      actuator{Kind::actuator, s.actuator, actuator_type, catalog},
+      controller{Kind::controller, s.controller, default_type("controller"), catalog},
+      cpg{Kind::cpg, s.cpg, default_type("cpg"), catalog} {
+  actuator.problems = controller.problems = cpg.problems = problems;
+  controller.host = [&s](Fields& f) {
+    f.number("period", s.control_period, {"s", 1e-9, 1000, "Time between commands; a whole multiple of the step."});
+  };
+  cpg.host = [&s](Fields& f) {
+    if (s.cpg_step <= 0) s.cpg_step = s.control_period;
+    f.number("step", s.cpg_step, {"s", 1e-9, 1000, "RK4 sub-step of the CPG's states; default: the control period."});
+  };
+}
+
+void SectionFields::fields(Fields& f) {
+  GroundFields ground{scenario.ground};
+  f.group("initial", scenario.initial, "State at the start.");
+  f.group("physics", physics, "How time is integrated.");
+  f.group("ground", ground, "What the robot stands on.");
+  f.group("contact", scenario.contact, "How it touches the ground.");
+  f.group("actuator", actuator, "The motor of every joint.");
+  if (!actuator.none) f.group("controller", controller, "From set points to commands.");
+  if (has_cpg) f.group("cpg", cpg, "Pattern generator; without this section the initial angles are held.");
+  f.number("duration", scenario.duration, {"s", kPositive, 1e6, "How long to simulate; required."});
+  f.group("trace", scenario.trace, "What is recorded.");
+  f.integer("seed", scenario.seed, {"", 0, 9e18, "Of every random number."});
+}
+
+std::vector<std::string> joint_names(const Robot& robot) {
+  std::vector<std::string> names;
+  for (const Joint& joint : robot.joints) names.push_back(joint.name);
+  return names;
+}
+
+}  // namespace gaitlab

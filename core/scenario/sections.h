@@ -1,0 +1,64 @@
+// The sections of a scenario file as settings structs: one walk reads them, writes them out in full and explains them.
+#pragma once
+#include <functional>
+#include <string>
+
+#include "core/scenario/scenario.h"
+
+namespace gaitlab {
+
+/// The robot's keys on how it stands.
+struct BaseFields {
+  Scenario& scenario;
+  bool with_position = true;  ///< writing: only where it holds
+  void fields(Fields& f);
+};
+
+/// `physics`. The catalog may be absent when writing.
+struct PhysicsFields {
+  Physics& physics;
+  const Catalog* catalog;
+  const Problems* problems = nullptr;  ///< reading: what shows that the engine's name was wrong
+  void fields(Fields& f);
+};
+
+struct GroundFields {
+  Ground& ground;
+  void fields(Fields& f);
+};
+
+/// `actuator`, `controller` or `cpg`: a plugin by its type, its settings, and the host's own key.
+struct PluginFields {
+  Kind kind;
+  Choice& choice;
+  std::string type;        ///< where the scenario names none; "none": no plugin
+  const Catalog* catalog;  ///< may be absent when writing
+  std::function<void(Fields&)> host = {};
+  std::function<void(const Entry&, void* settings)> presets = {};  ///< defaults other than the plugin's own
+  const Problems* problems = nullptr;                              ///< reading: what shows that the type was wrong
+  bool own_keys = true;                                            ///< explaining: the plugin's manual has them
+  bool none = false;                                               ///< out: `none` was chosen
+  bool sound = true;                                               ///< out: the settings can be used
+
+  void fields(Fields& f);
+
+ private:
+  void choose(Fields& f);
+};
+
+/// What follows the robot, in the file's order.
+struct SectionFields {
+  Scenario& scenario;
+  PhysicsFields physics;
+  PluginFields actuator, controller, cpg;
+  bool has_cpg = true;
+
+  /// catalog, problems: as above. `actuator_type`: the default.
+  SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type);
+  void fields(Fields& f);
+};
+
+/// Names of a robot's joints.
+std::vector<std::string> joint_names(const Robot& robot);
+
+}  // namespace gaitlab

@@ -1,0 +1,82 @@
+#include "core/scenario/text_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+namespace gaitlab {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const Place& asked_at, const std::string& what) {
+  if (asked_at.file.empty()) throw InputError({path}, what);
+  throw InputError(asked_at, fmt::format("file '{}' {}", path, what));
+}
+
+std::string cannot_be_read(const std::error_code& why) { return "cannot be read: " + why.message(); }
+
+/// Bytes of the UTF-8 character that starts at `at`; 0 where there is none (overlong forms and surrogates included).
+std::size_t utf8_length(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const unsigned first = byte(at);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(at + i) & 0xC0U) != 0x80) return 0;
+  }
+  const unsigned second = byte(at + 1);
+  const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
+  const bool outside = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);
+  return overlong || outside ? 0 : length;
+}
+
+/// What is wrong with the character at `at`, or empty.
+std::string bad_character(const std::string& text, std::size_t at) {
+  const auto c = static_cast<unsigned char>(text[at]);
+  if (c == '\t' || c == '\n') return {};
+  if (c == '\r') return at + 1 < text.size() && text[at + 1] == '\n' ? std::string{} : "a carriage return without a line feed";
+  if (c == 0) return "a NUL byte";
+  if (c < 0x20 || c == 0x7F) return fmt::format("the control character 0x{:02x}", c);
+  if (utf8_length(text, at) == 0) return fmt::format("the byte 0x{:02x}, which is not UTF-8", c);
+  return {};
+}
+
+}  // namespace
+
+std::string read_text(const std::string& path, const Place& asked_at) {
+  std::error_code failure;
+  const auto status = std::filesystem::status(path, failure);
+  if (failure || !std::filesystem::exists(status)) {
+    refuse(path, asked_at, cannot_be_read(failure ? failure : std::make_error_code(std::errc::no_such_file_or_directory)));
+  }
+  if (!std::filesystem::is_regular_file(status)) refuse(path, asked_at, "cannot be read: not a regular file");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(path, asked_at, cannot_be_read({errno, std::generic_category()}));
+  std::string text(kMaxTextSize + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) refuse(path, asked_at, cannot_be_read({errno, std::generic_category()}));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kMaxTextSize) refuse(path, asked_at, "is larger than 1 MB");
+  return text;
+}
+
+void check_text(const std::string& text, const std::string& file) {
+  int line = 1;
+  std::size_t start = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string bad = bad_character(text, at);
+    if (!bad.empty())
+      throw InputError({file, line, static_cast<int>(at - start) + 1}, "found " + bad + "; expected a text file");
+    if (text[at] == '\n') {
+      ++line;
+      start = at + 1;
+    }
+    at += utf8_length(text, at);
+  }
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,123 @@
+// Explicit time integration, written once over a plant's accelerations.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "core/model/kinematics.h"
+
+namespace gaitlab {
+
+/// d/dt of a RobotState's velocities, world axes, SI.
+struct Acceleration {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  ///< of the base frame's origin; of the base frame
+  std::vector<double> joints;
+};
+
+/// semi_implicit: v+ = v + h a(q, v), q+ = q (+) h v+ (order 1, symplectic for conservative forces); rk4: the classical
+/// Runge-Kutta method (order 4), the orientation as a quaternion q' = (0, omega) q / 2 normalised after the step. Both
+/// explicit: for stiff damping of rate lambda they need h lambda <= 2 and 2.8; the lab keeps h lambda <= 1. `accelerate(state,
+/// weight, out)` is called once with weight 1, or four times with 1/6, 1/3, 1/3, 1/6. No allocation in step.
+class ExplicitIntegrator {
+ public:
+  enum Method { semi_implicit, rk4 };
+
+  ExplicitIntegrator(Method method, std::size_t joints) : method_(method) {
+    a_.joints.resize(joints);
+    stage_.q.resize(joints);
+    stage_.qd.resize(joints);
+    start_ = stage_;
+    rate_ = stage_;
+  }
+
+  template <class Accelerate>
+  void step(RobotState& s, double h, Accelerate&& accelerate) {
+    if (method_ == semi_implicit) {
+      accelerate(s, 1.0, a_);
+      kick(s, a_, h);
+      drift(s, h);
+    } else {
+      runge_kutta(s, h, accelerate);
+    }
+  }
+
+ private:
+  static void kick(RobotState& s, const Acceleration& a, double h) {
+    s.velocity += h * a.linear;
+    s.angular_velocity += h * a.angular;
+    for (std::size_t j = 0; j < s.q.size(); ++j) s.qd[j] += h * a.joints[j];
+  }
+
+  static void drift(RobotState& s, double h) {
+    s.position += h * s.velocity;
+    s.orientation = (turn(h * s.angular_velocity) * s.orientation).normalized();
+    for (std::size_t j = 0; j < s.q.size(); ++j) s.q[j] += h * s.qd[j];
+  }
+
+  /// q' = (0, omega) q / 2, as numbers to be added up.
+  static Quat spin(const Vec3& omega, const Quat& q) { return Quat(0, 0.5 * omega.x(), 0.5 * omega.y(), 0.5 * omega.z()) * q; }
+
+  /// s = start + h * (velocities of `at`, a): at's orientation may be off the unit sphere, as RK4 needs it.
+  void from_start(RobotState& s, const RobotState& at, const Acceleration& a, double h) const {
+    s.position = start_.position + h * at.velocity;
+    s.orientation.coeffs() = start_.orientation.coeffs() + h * spin(at.angular_velocity, at.orientation).coeffs();
+    s.velocity = start_.velocity + h * a.linear;
+    s.angular_velocity = start_.angular_velocity + h * a.angular;
+    for (std::size_t j = 0; j < s.q.size(); ++j) {
+      s.q[j] = start_.q[j] + h * at.qd[j];
+      s.qd[j] = start_.qd[j] + h * a.joints[j];
+    }
+  }
+
+  /// rate += weight * derivative at `at`.
+  void accumulate(const RobotState& at, const Acceleration& a, double weight) {
+    rate_.position += weight * at.velocity;
+    rate_.orientation.coeffs() += weight * spin(at.angular_velocity, at.orientation).coeffs();
+    rate_.velocity += weight * a.linear;
+    rate_.angular_velocity += weight * a.angular;
+    for (std::size_t j = 0; j < at.q.size(); ++j) {
+      rate_.q[j] += weight * at.qd[j];
+      rate_.qd[j] += weight * a.joints[j];
+    }
+  }
+
+  template <class Accelerate>
+  void runge_kutta(RobotState& s, double h, Accelerate&& accelerate) {
+    constexpr std::array<double, 4> kWeight{1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+    constexpr std::array<double, 4> kReach{0.5, 0.5, 1.0, 0.0};
+    start_ = s;
+    clear(rate_);
+    for (std::size_t i = 0; i < 4; ++i) {
+      // The dynamics see a unit quaternion; the stage itself keeps its length, or the order is lost.
+      const Quat raw = s.orientation;
+      s.orientation.normalize();
+      accelerate(s, kWeight[i], a_);
+      s.orientation = raw;
+      accumulate(s, a_, kWeight[i]);
+      if (i == 3) break;
+      from_start(stage_, s, a_, kReach[i] * h);
+      std::swap(s, stage_);
+    }
+    s.position = start_.position + h * rate_.position;
+    s.orientation.coeffs() = start_.orientation.coeffs() + h * rate_.orientation.coeffs();
+    s.orientation.normalize();
+    s.velocity = start_.velocity + h * rate_.velocity;
+    s.angular_velocity = start_.angular_velocity + h * rate_.angular_velocity;
+    for (std::size_t j = 0; j < s.q.size(); ++j) {
+      s.q[j] = start_.q[j] + h * rate_.q[j];
+      s.qd[j] = start_.qd[j] + h * rate_.qd[j];
+    }
+  }
+
+  static void clear(RobotState& s) {
+    s.position = s.velocity = s.angular_velocity = Vec3::Zero();
+    s.orientation.coeffs().setZero();
+    std::fill(s.q.begin(), s.q.end(), 0.0);
+    std::fill(s.qd.begin(), s.qd.end(), 0.0);
+  }
+
+  Method method_;
+  Acceleration a_;
+  RobotState start_, stage_, rate_;
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,39 @@
+// Sums and peaks over ALL steps of a run, joint by joint: what the trace rows are too sparse for.
+#pragma once
+#include <vector>
+
+#include "core/model/robot.h"
+#include "core/simulation/plant.h"
+
+namespace gaitlab {
+
+/// Figures of one joint over the steps so far. SI.
+struct JointFigures {
+  double torque_peak = 0, torque_rms = 0;                  ///< N m, motor torque
+  double speed_peak = 0;                                   ///< rad/s
+  double current_peak = 0, current_rms = 0;                ///< A
+  double error_rms = 0, error_peak = 0;                    ///< rad, set point - angle
+  double saturated_voltage = 0, saturated_current = 0;     ///< share of time
+  double range_share = 0, range_worst = 0;                 ///< share of time outside [lo, hi]; worst excess, rad
+  double setpoint_outside = 0;                             ///< share of time the set point is outside [lo, hi]
+  double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost, lost, given to the joint
+  double shaft_positive = 0;                               ///< J: shaft power where it is positive
+};
+
+/// Elementwise over joint * lanes + lane. add() allocates nothing.
+class Meter {
+ public:
+  Meter(const Robot& robot, std::size_t lanes);
+
+  /// One step: actuator law and motion at its start, mean torque over it.
+  void add(In angle, In speed, In setpoint, In torque, const Actuator::Report& report, double h);
+  [[nodiscard]] JointFigures figures(std::size_t joint, std::size_t lane) const;
+
+ private:
+  std::vector<double> lo_, hi_;
+  std::vector<JointFigures> sums_;
+  std::size_t lanes_;
+  double time_ = 0;  ///< only a divisor: a sum of equal steps
+};
+
+}  // namespace gaitlab

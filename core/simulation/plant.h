@@ -1,0 +1,74 @@
+// What a physics engine must do: advance the state of one or more rollouts (lanes) of one robot.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "core/laws/contact.h"
+#include "core/laws/ground.h"
+#include "core/model/kinematics.h"
+#include "core/plugin/actuator.h"
+
+namespace gaitlab {
+
+/// Where the numbers of a rollout's state are. Entry e of lane l is at e * lanes + l; SI, world axes.
+struct StateLayout {
+  std::size_t joints = 0, lanes = 1;
+  static constexpr std::size_t kPosition = 0;          ///< origin of the base frame, 3
+  static constexpr std::size_t kOrientation = 3;       ///< quaternion w x y z, base -> world
+  static constexpr std::size_t kVelocity = 7;          ///< of that origin, 3
+  static constexpr std::size_t kAngularVelocity = 10;  ///< 3
+  static constexpr std::size_t kAngles = 13;           ///< then the joints' speeds
+
+  [[nodiscard]] std::size_t size() const { return (kAngles + 2 * joints) * lanes; }
+  [[nodiscard]] std::size_t angles() const { return kAngles * lanes; }
+  [[nodiscard]] std::size_t speeds() const { return (kAngles + joints) * lanes; }
+
+  void read(In state, std::size_t lane, RobotState& out) const;
+  void write(const RobotState& in, std::size_t lane, Out state) const;
+};
+
+/// Largest rate lambda of M^-1 (B + sum J^T G J), 1/s, and what it comes from. A step h is stable for h lambda <= 1 (explicit).
+struct Stability {
+  double rate = 0;
+  enum class Source { motor, stop, contact } source = Source::motor;
+  std::size_t index = 0;  ///< joint, or contact element
+};
+
+/// World force on the robot at a contact element, N, and its penetration, m (<= 0: no contact).
+struct ContactSample {
+  Vec3 force = Vec3::Zero();
+  double fn = 0, penetration = 0;
+};
+
+/// What an engine is made from; everything outlives the plant.
+struct PlantSettings {
+  std::shared_ptr<const Robot> robot;
+  Base base = Base::floating;
+  Vec3 gravity = Vec3::Zero();
+  Ground ground;  ///< Kind::none: no contact at all
+  std::vector<ContactElement> contacts;
+  PenaltyContact law;
+  const Actuator* actuator = nullptr;  ///< nullptr: no motors
+  std::size_t lanes = 1;
+  int integrator = 0;  ///< index into the engine's list
+};
+
+/// Stateless but for caches: the simulation owns the numbers and binds them once; a snapshot is a copy of them.
+class Plant {
+ public:
+  virtual ~Plant() = default;
+  [[nodiscard]] virtual std::size_t lanes() const = 0;
+  /// The state this plant works on from now on (StateLayout).
+  virtual void bind(Out state) = 0;
+  /// One step of h seconds under held commands (joint * lanes + lane), asking the actuator at every stage the integrator needs.
+  virtual void advance(In command, double h) = 0;
+  /// Mean motor torque and mean stop torque over the last step, N m: for the ledger, not for the trace.
+  [[nodiscard]] virtual In applied() const = 0;
+  /// Forces of every contact element at the present state.
+  virtual void contacts(std::size_t lane, std::span<ContactSample> out) const = 0;
+  /// At the present state under these commands. standing: the weight rests in equal parts on the elements within 1 mm of the
+  /// lowest one, whatever their forces now.
+  [[nodiscard]] virtual Stability stability(std::size_t lane, In command, bool standing) = 0;
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,165 @@
+#include "core/simulation/probes.h"
+
+#include <fmt/format.h>
+
+namespace gaitlab {
+
+Sample::Sample(const Robot& robot, std::size_t contacts_count, std::size_t cpg_states)
+    : kinematics(robot), orientation(robot.links.size(), Quat::Identity()), contacts(contacts_count), cpg(cpg_states) {
+  for (auto* values : {&state.q, &state.qd, &setpoint, &command, &voltage, &current, &saturation, &torque, &stop_torque,
+                       &power_in, &copper, &gear}) {
+    values->assign(robot.joints.size(), 0.0);
+  }
+}
+
+void Sample::place(const Robot& robot) {
+  kinematics.update(robot, state);
+  orientation[0] = state.orientation;
+  for (std::size_t i = 1; i < robot.links.size(); ++i) {
+    orientation[i] =
+        orientation[static_cast<std::size_t>(robot.links[i].parent)] * Quat(robot.links[i].in_parent.R) * kinematics.turns[i];
+  }
+  sums = gaitlab::sums(robot, kinematics, gravity);
+}
+
+Probes::Probes(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg,
+               std::string_view command_unit, const Sample& first) {
+  const Robot& robot = *scenario.robot;
+  add("t", "s", "time", [](const Sample& s) { return s.t; });
+  add_joints(robot, scenario.actuator.entry != nullptr, command_unit);
+  add_base();
+  add_vector("com", "m", "centre of mass, world axes", [](const Sample& s) { return s.sums.com; });
+  add_contacts(contacts);
+  add_bodies(robot, first);
+  for (std::size_t i = 0; cpg != nullptr && i < cpg->states(); ++i) {
+    add("cpg." + cpg->state_name(i), "", "state of the CPG", [i](const Sample& s) { return s.cpg[i]; });
+  }
+  add_energy();
+  select(scenario);
+}
+
+void Probes::add(std::string name, std::string unit, std::string definition, Read read) {
+  columns_.push_back({std::move(name), std::move(unit), std::move(definition)});
+  reads_.push_back(std::move(read));
+}
+
+void Probes::add_vector(const std::string& name, std::string unit, const std::string& definition,
+                        std::function<Vec3(const Sample&)> read) {
+  constexpr const char* kAxis[] = {"x", "y", "z"};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    // `base.v` makes `base.vx`, `base` makes `base.x`.
+    const bool joined = name.find('.') != std::string::npos && !name.ends_with('.');
+    const std::string full = joined ? name + kAxis[i] : (name.ends_with('.') ? name : name + ".") + kAxis[i];
+    add(full, unit, definition, [read, i](const Sample& s) { return read(s)[i]; });
+  }
+}
+
+void Probes::add_joints(const Robot& robot, bool driven, std::string_view command_unit) {
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const std::string of = " of joint " + robot.joints[j].name;
+    const auto joint = [&](const char* quantity, std::string_view unit, const char* definition,
+                           std::vector<double> Sample::*values) {
+      add(fmt::format("joint.{}.{}", j, quantity), std::string(unit), definition + of,
+          [values, j](const Sample& s) { return (s.*values)[j]; });
+    };
+    joint("setpoint", "rad", "set point in force just before t", &Sample::setpoint);
+    add(fmt::format("joint.{}.angle", j), "rad", "angle" + of, [j](const Sample& s) { return s.state.q[j]; });
+    add(fmt::format("joint.{}.speed", j), "rad/s", "speed" + of, [j](const Sample& s) { return s.state.qd[j]; });
+    if (driven) {
+      joint("voltage_command", command_unit, "controller output before clamping, in force just before t", &Sample::command);
+      joint("voltage", "V", "terminal voltage of the motor", &Sample::voltage);
+      joint("current", "A", "current of the motor", &Sample::current);
+      joint("torque", "N m", "motor torque on the joint, positive along the axis,", &Sample::torque);
+    }
+    joint("stop_torque", "N m", "torque of the hinge stop, positive along the axis,", &Sample::stop_torque);
+    if (driven) joint("saturation", "", "0 none, 1 voltage, 2 current:", &Sample::saturation);
+  }
+}
+
+void Probes::add_base() {
+  add_vector("base", "m", "origin of the base frame, world axes", [](const Sample& s) { return s.state.position; });
+  const std::string turn = "quaternion base -> world, sign continuous";
+  add("base.qw", "", turn, [](const Sample& s) { return s.state.orientation.w(); });
+  add("base.qx", "", turn, [](const Sample& s) { return s.state.orientation.x(); });
+  add("base.qy", "", turn, [](const Sample& s) { return s.state.orientation.y(); });
+  add("base.qz", "", turn, [](const Sample& s) { return s.state.orientation.z(); });
+  add_vector("base.v", "m/s", "velocity of the base frame's origin, world axes",
+             [](const Sample& s) { return s.state.velocity; });
+  add_vector("base.w", "rad/s", "angular velocity of the base, world axes",
+             [](const Sample& s) { return s.state.angular_velocity; });
+}
+
+void Probes::add_contacts(const std::vector<ContactElement>& contacts) {
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const std::string of = " of contact element " + contacts[c].name;
+    const std::string name = fmt::format("contact.{}.", c);
+    add(name + "fn", "N", "normal force" + of, [c](const Sample& s) { return s.contacts[c].fn; });
+    add(name + "penetration", "m", "penetration (<= 0: no contact)" + of,
+        [c](const Sample& s) { return s.contacts[c].penetration; });
+    add_vector(name + "f", "N", "force on the robot, world axes," + of, [c](const Sample& s) { return s.contacts[c].force; });
+  }
+}
+
+void Probes::add_bodies(const Robot& robot, const Sample& first) {
+  for (const Body& body : robot.bodies) {
+    const std::size_t link = body.link;
+    const Vec3 p = body.in_link.p;
+    add_vector("body." + body.name + ".", "m", "origin of the body's frame, world axes",
+               [link, p](const Sample& s) { return s.kinematics.point(link, p); });
+    const Quat in_link(body.in_link.R);
+    const double sign = (first.orientation[link] * in_link).w() < 0 ? -1 : 1;
+    constexpr const char* kPart[] = {"qx", "qy", "qz", "qw"};  // Eigen's order of coefficients
+    for (const Eigen::Index i : {3, 0, 1, 2}) {
+      add("body." + body.name + "." + kPart[i], "", "quaternion body -> world, sign continuous",
+          [=](const Sample& s) { return sign * (s.orientation[link] * in_link).coeffs()[i]; });
+    }
+  }
+}
+
+void Probes::add_energy() {
+  add("energy.kinetic", "J", "kinetic energy of all links", [](const Sample& s) { return s.sums.kinetic; });
+  add("energy.potential", "J", "weight times height of the centre of mass", [](const Sample& s) { return s.sums.potential; });
+  add_vector("momentum", "N s", "linear momentum, world axes", [](const Sample& s) { return s.sums.momentum; });
+  add_vector("angular_momentum", "N m s", "angular momentum about the world origin",
+             [](const Sample& s) { return s.sums.angular_momentum; });
+}
+
+void Probes::select(const Scenario& scenario) {
+  std::vector<bool> wanted(columns_.size(), false);
+  wanted[0] = true;
+  Problems problems;
+  for (const std::string& pattern : scenario.trace.columns) {
+    bool found = false;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (!glob(pattern, columns_[i].name)) continue;
+      wanted[i] = found = true;
+    }
+    if (found) continue;
+    std::vector<std::string> names;
+    for (const Column& column : columns_) names.push_back(column.name);
+    const std::string near = nearest(pattern, names);
+    problems.add(scenario.place("trace.columns"),
+                 fmt::format("'{}' matches no column{}", pattern,
+                             near.empty() ? "; groups are t, joint, base, com, contact, body, cpg, "
+                                            "energy, momentum, angular_momentum"
+                                          : "; did you mean '" + near + "'?"));
+  }
+  problems.raise();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (!wanted[i]) continue;
+    if (kept != i) {
+      columns_[kept] = std::move(columns_[i]);
+      reads_[kept] = std::move(reads_[i]);
+    }
+    ++kept;
+  }
+  columns_.resize(kept);
+  reads_.resize(kept);
+}
+
+void Probes::fill(const Sample& sample, Out row) const {
+  for (std::size_t i = 0; i < reads_.size(); ++i) row[i] = reads_[i](sample);
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,55 @@
+// What a trace row holds: every column with its unit, its definition and how it is read from a sample.
+#pragma once
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/scenario/scenario.h"
+#include "core/simulation/plant.h"
+#include "core/trace/trace.h"
+
+namespace gaitlab {
+
+/// One lane at a trace tick: the state at t_k and the actuator law at that state under the command in force just before t_k.
+struct Sample {
+  explicit Sample(const Robot& robot, std::size_t contacts, std::size_t cpg_states);
+  void place(const Robot& robot);  ///< fills kinematics, link orientations and sums from state
+
+  double t = 0;
+  RobotState state;
+  Kinematics kinematics;
+  std::vector<Quat> orientation;  ///< of every link frame; sign continuous in time
+  Sums sums;
+  Vec3 gravity = Vec3::Zero();
+  std::vector<double> setpoint, command, voltage, current, saturation, torque, stop_torque, power_in, copper, gear;
+  std::vector<ContactSample> contacts;
+  std::vector<double> cpg;
+};
+
+class Probes {
+ public:
+  /// The columns that match the scenario's patterns, in the order of docs/conventions. Throws InputError: a pattern that
+  /// matches nothing. `first`: the sample at the start; it fixes the signs of the bodies' quaternions (qw >= 0).
+  Probes(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg, std::string_view command_unit,
+         const Sample& first);
+
+  [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
+  void fill(const Sample& sample, Out row) const;
+
+ private:
+  using Read = std::function<double(const Sample&)>;
+  void add(std::string name, std::string unit, std::string definition, Read read);
+  void add_vector(const std::string& name, std::string unit, const std::string& definition,
+                  std::function<Vec3(const Sample&)> read);
+  void add_joints(const Robot& robot, bool driven, std::string_view command_unit);
+  void add_base();
+  void add_contacts(const std::vector<ContactElement>& contacts);
+  void add_bodies(const Robot& robot, const Sample& first);
+  void add_energy();
+  void select(const Scenario& scenario);
+
+  std::vector<Column> columns_;
+  std::vector<Read> reads_;
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,359 @@
+#include "core/simulation/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/laws/hinge_stop.h"
+#include "core/simulation/step_advice.h"
+
+namespace gaitlab {
+
+namespace {
+
+// Beyond this no joint is a joint any more; a run stops here rather than at the overflow a few steps later.
+constexpr double kLargestSpeed = 1e5;  // rad/s
+
+template <class T>
+std::unique_ptr<T> make(const Choice& choice, const RobotInfo& info) {
+  const std::array<const void*, 1> settings{choice.settings.get()};
+  return std::unique_ptr<T>(choice.entry == nullptr ? nullptr : static_cast<T*>(choice.entry->make(info, settings)));
+}
+
+}  // namespace
+
+std::int64_t whole(double period, double step) { return std::llround(period / step); }
+
+SimulationError::SimulationError(std::int64_t at_step, double at_time, std::string at, std::string what)
+    : RunError(std::move(what)), step(at_step), time(at_time), where(std::move(at)) {}
+
+/// The scalar half of one rollout: its CPG, controller, sensors, trace row.
+struct Simulation::Lane {
+  Lane(const Scenario& s, const RobotInfo& info, std::size_t contacts)
+      : scenario(s),
+        cpg(make<Cpg>(s.cpg, info)),
+        controller(make<Controller>(s.controller, info)),
+        sample(*s.robot, contacts, cpg == nullptr ? 0 : cpg->states()) {
+    const std::size_t n = info.joints.size();
+    for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit}) values->assign(n, 0.0);
+    touching.assign(info.modules.size(), 0.0);
+    for (auto* values : {&k1, &k2, &k3, &k4, &stage}) values->assign(sample.cpg.size(), 0.0);
+  }
+
+  [[nodiscard]] Measured measured(double t) const { return {t, scenario.control_period, angle, speed, torque, touching}; }
+
+  /// CPG states from t to t + Ts: classical Runge-Kutta, sub-step cpg.step, inputs held.
+  void integrate_cpg(double t) {
+    const std::int64_t sub_steps = whole(scenario.control_period, scenario.cpg_step);
+    const double h = scenario.cpg_step;
+    for (std::int64_t i = 0; i < sub_steps && !cpg_state.empty(); ++i) {
+      Measured m = measured(t + static_cast<double>(i) * h);
+      const auto slope = [&](double reach, In k, Out out) {
+        for (std::size_t j = 0; j < stage.size(); ++j) stage[j] = cpg_state[j] + (k.empty() ? 0 : reach * h * k[j]);
+        cpg->derivative(m, stage, out);
+      };
+      slope(0, {}, k1);
+      slope(0.5, k1, k2);
+      slope(0.5, k2, k3);
+      slope(1, k3, k4);
+      for (std::size_t j = 0; j < stage.size(); ++j) cpg_state[j] += h / 6 * (k1[j] + 2 * (k2[j] + k3[j]) + k4[j]);
+    }
+  }
+
+  const Scenario& scenario;
+  std::unique_ptr<Cpg> cpg;
+  std::unique_ptr<Controller> controller;
+  Out cpg_state, controller_state;                                               // parts of the one state array
+  std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // one lane, contiguous, for the plugins
+  std::vector<double> k1, k2, k3, k4, stage;
+  Sample sample;
+  std::unique_ptr<Probes> probes;
+  RunRecord record;
+};
+
+Simulation::Simulation(std::span<const Scenario> lanes)
+    : scenarios_(lanes.begin(), lanes.end()),
+      robot_(*scenarios_.at(0).robot),
+      h_(scenarios_[0].physics.step),
+      steps_(whole(scenarios_[0].duration, h_)),
+      control_every_(whole(scenarios_[0].control_period, h_)),
+      trace_every_(whole(scenarios_[0].trace.period, h_)),
+      contacts_(contact_elements(robot_, static_cast<ContactSet>(scenarios_[0].contact.on))),
+      layout_{robot_.joints.size(), scenarios_.size()},
+      meter_(robot_, scenarios_.size()) {
+  const Scenario& first = scenarios_[0];
+  const RobotInfo about = info(robot_);
+  if (first.actuator.entry != nullptr) {
+    std::vector<const void*> settings;
+    for (const Scenario& lane : scenarios_) settings.push_back(lane.actuator.settings.get());
+    actuator_.reset(static_cast<Actuator*>(first.actuator.entry->make(about, settings)));
+  }
+  PlantSettings settings{first.robot,     first.base,        first.physics.gravity,
+                         first.ground,    contacts_,         first.contact.penalty,
+                         actuator_.get(), scenarios_.size(), first.physics.integrator};
+  plant_ = first.physics.engine->make(settings);
+  for (const Scenario& lane : scenarios_) lanes_.push_back(std::make_unique<Lane>(lane, about, contacts_.size()));
+  for (auto* values : {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_, &angle_, &speed_}) {
+    values->assign(robot_.joints.size() * lanes_.size(), 0.0);
+  }
+  cut_state();
+  set_start();
+  check_standing();
+}
+
+Simulation::~Simulation() = default;
+
+/// step counter | plant | set points | commands | per lane: CPG states, controller states.
+void Simulation::cut_state() {
+  const std::size_t joints = robot_.joints.size() * lanes_.size();
+  std::size_t size = 1 + layout_.size() + 2 * joints;
+  for (const auto& lane : lanes_) {
+    size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states());
+  }
+  state_.assign(size, 0.0);
+  std::size_t at = 1;
+  const auto cut = [&](std::size_t count) {
+    const Out part = Out(state_).subspan(at, count);
+    at += count;
+    return part;
+  };
+  plant_state_ = cut(layout_.size());
+  setpoint_ = cut(joints);
+  command_ = cut(joints);
+  for (const auto& lane : lanes_) {
+    lane->cpg_state = cut(lane->sample.cpg.size());
+    lane->controller_state = cut(lane->controller == nullptr ? 0 : lane->controller->states());
+  }
+  plant_->bind(plant_state_);
+}
+
+void Simulation::set_start() {
+  const std::size_t lanes = lanes_.size();
+  for (std::size_t l = 0; l < lanes; ++l) {
+    Lane& lane = *lanes_[l];
+    const Scenario& s = lane.scenario;
+    Sample& sample = lane.sample;
+    sample.gravity = s.physics.gravity;
+    RobotState& start = sample.state;
+    start.orientation = Quat(rpy(s.orientation)).normalized();
+    if (start.orientation.w() < 0) start.orientation.coeffs() *= -1;
+    start.position = s.position;
+    start.velocity = s.initial.base_velocity;
+    start.angular_velocity = s.initial.base_angular_velocity;
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+      start.q[j] = s.initial.angles[j];
+      start.qd[j] = s.initial.speeds[j];
+    }
+    sample.place(robot_);
+    if (s.on_ground && s.ground.kind != Ground::Kind::none) {
+      start.position.z() -= lowest_point(robot_, sample.kinematics, contacts_);
+      sample.place(robot_);
+    }
+    layout_.write(start, l, plant_state_);
+    // No command yet: set point = angle, command 0.
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j) setpoint_[j * lanes + l] = start.q[j];
+    if (lane.cpg != nullptr) lane.cpg->start(lane.cpg_state);
+    if (lane.controller != nullptr) lane.controller->start(lane.controller_state);
+    for (std::size_t j = 0; actuator_ != nullptr && j < robot_.joints.size(); ++j) {
+      lane.limit[j] = actuator_->command_limit()[j * lanes + l];
+    }
+    lane.probes =
+        std::make_unique<Probes>(s, contacts_, lane.cpg.get(), actuator_ == nullptr ? "" : actuator_->command_unit(), sample);
+    const auto rows = static_cast<std::size_t>(steps_ / trace_every_ + 1);
+    lane.record.trace.columns = lane.probes->columns();
+    lane.record.trace.values.reserve(rows * lane.record.trace.columns.size());
+    for (auto* series : {&lane.record.com_x, &lane.record.com_y}) series->reserve(rows);
+    lane.record.poses.reserve(rows * 7);
+    for (auto* series : {&lane.record.angles, &lane.record.setpoints, &lane.record.torques})
+      series->reserve(rows * robot_.joints.size());
+  }
+}
+
+void Simulation::check_standing() {
+  for (std::size_t l = 0; l < lanes_.size(); ++l) {
+    const Stability one = plant_->stability(l, command_, true);
+    if (one.rate > standing_.rate) standing_ = one;
+  }
+  if (!(h_ * standing_.rate > 1)) return;
+  const Scenario& s = scenarios_[0];
+  throw InputError(s.place("physics.step"), step_advice(s, contacts_, standing_, "standing"));
+}
+
+void Simulation::step() {
+  if (trace_tick()) record();
+  if (control_tick()) {
+    sense();
+    command();
+  }
+  advance();
+  check();
+}
+
+bool Simulation::run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
+  const std::int64_t report_every = std::max<std::int64_t>(1, steps_ / 200);
+  while (!done()) {
+    step();
+    if (progress && step_number() % report_every == 0)
+      progress(static_cast<double>(step_number()) / static_cast<double>(steps_));
+    if (stop != nullptr && stop->load(std::memory_order_relaxed)) return false;
+  }
+  if (trace_tick()) record();
+  return true;
+}
+
+/// The actuator law at the present state under the commands in force.
+void Simulation::report() {
+  if (actuator_ == nullptr) return;
+  actuator_->report(command_, plant_state_.subspan(layout_.speeds(), command_.size()),
+                    {voltage_, current_, saturation_, power_in_, copper_, gear_});
+}
+
+Sample& Simulation::take_sample(Lane& lane, std::size_t l) {
+  const std::size_t lanes = lanes_.size();
+  Sample& s = lane.sample;
+  s.t = time();
+  layout_.read(plant_state_, l, s.state);
+  s.place(robot_);
+  plant_->contacts(l, s.contacts);
+  for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+    const std::size_t i = j * lanes + l;
+    s.setpoint[j] = setpoint_[i];
+    s.command[j] = command_[i];
+    s.voltage[j] = voltage_[i];
+    s.current[j] = current_[i];
+    s.saturation[j] = saturation_[i];
+    s.torque[j] = torque_[i];
+    s.stop_torque[j] = HingeStop::at(s.state.q[j], s.state.qd[j], robot_.joints[j].lo, robot_.joints[j].hi).torque;
+  }
+  std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
+  return s;
+}
+
+void Simulation::record() {
+  report();
+  if (actuator_ != nullptr) {
+    actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
+  }
+  for (std::size_t l = 0; l < lanes_.size(); ++l) {
+    Lane& lane = *lanes_[l];
+    const Sample& s = take_sample(lane, l);
+    RunRecord& r = lane.record;
+    r.trace.values.resize(r.trace.values.size() + r.trace.columns.size());
+    lane.probes->fill(s, Out(r.trace.values).last(r.trace.columns.size()));
+    r.com_x.push_back(s.sums.com.x());
+    r.com_y.push_back(s.sums.com.y());
+    const Quat& turn = s.state.orientation;
+    for (const double x :
+         {s.state.position.x(), s.state.position.y(), s.state.position.z(), turn.w(), turn.x(), turn.y(), turn.z()}) {
+      r.poses.push_back(x);
+    }
+    r.angles.insert(r.angles.end(), s.state.q.begin(), s.state.q.end());
+    r.setpoints.insert(r.setpoints.end(), s.setpoint.begin(), s.setpoint.end());
+    r.torques.insert(r.torques.end(), s.torque.begin(), s.torque.end());
+  }
+}
+
+void Simulation::sense() {
+  const std::size_t lanes = lanes_.size();
+  const In torque = plant_->applied();
+  for (std::size_t l = 0; l < lanes; ++l) {
+    Lane& lane = *lanes_[l];
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+      lane.angle[j] = plant_state_[layout_.angles() + j * lanes + l];
+      lane.speed[j] = plant_state_[layout_.speeds() + j * lanes + l];
+      lane.torque[j] = torque[j * lanes + l];
+    }
+    std::fill(lane.touching.begin(), lane.touching.end(), 0.0);
+    plant_->contacts(l, lane.sample.contacts);
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      if (lane.sample.contacts[c].fn > 0) lane.touching[robot_.bodies[contacts_[c].body].module] = 1;
+    }
+  }
+}
+
+void Simulation::command() {
+  const std::size_t lanes = lanes_.size();
+  for (std::size_t l = 0; l < lanes; ++l) {
+    Lane& lane = *lanes_[l];
+    const Measured measured = lane.measured(time());
+    if (lane.cpg != nullptr) {
+      lane.cpg->event(measured, lane.cpg_state);
+      lane.cpg->output(time(), lane.cpg_state, lane.setpoint);
+    } else {
+      for (std::size_t j = 0; j < lane.setpoint.size(); ++j) lane.setpoint[j] = lane.scenario.initial.angles[j];
+    }
+    if (lane.controller != nullptr) {
+      lane.controller->update(measured, lane.setpoint, lane.limit, lane.controller_state, lane.command);
+    }
+    for (std::size_t j = 0; j < lane.setpoint.size(); ++j) {
+      setpoint_[j * lanes + l] = lane.setpoint[j];
+      command_[j * lanes + l] = lane.command[j];
+    }
+    if (lane.cpg != nullptr) lane.integrate_cpg(time());
+  }
+  watch_stability();
+}
+
+void Simulation::watch_stability() {
+  for (std::size_t l = 0; l < lanes_.size(); ++l) {
+    RunRecord& record = lanes_[l]->record;
+    const Stability now = plant_->stability(l, command_, false);
+    ++record.ticks;
+    if (h_ * now.rate > 1) ++record.ticks_above_1;
+    if (now.rate > record.worst.rate) {
+      record.worst = now;
+      record.worst_time = time();
+    }
+  }
+}
+
+void Simulation::advance() {
+  report();
+  const auto part = [&](std::size_t at) { return plant_state_.subspan(at, command_.size()); };
+  std::ranges::copy(part(layout_.angles()), angle_.begin());
+  std::ranges::copy(part(layout_.speeds()), speed_.begin());
+  plant_->advance(command_, h_);
+  meter_.add(angle_, speed_, setpoint_, plant_->applied().first(command_.size()),
+             {voltage_, current_, saturation_, power_in_, copper_, gear_}, h_);
+  state_[0] += 1;
+}
+
+void Simulation::check() const {
+  bool fine = true;
+  for (const double value : plant_state_) fine = fine && std::abs(value) < kLargestSpeed;  // false for NaN too
+  if (!fine) diverged();
+}
+
+void Simulation::diverged() const {
+  const std::size_t lanes = lanes_.size();
+  std::string where = "base";
+  double worst = 0;
+  bool finite = true;
+  for (std::size_t i = 0; i < command_.size(); ++i) {
+    const double speed = std::abs(plant_state_[layout_.speeds() + i]);
+    if (!std::isfinite(speed) && finite) {
+      finite = false;
+      where = robot_.joints[i / lanes].name;
+    }
+    if (finite && speed > worst && speed >= kLargestSpeed) {
+      worst = speed;
+      where = robot_.joints[i / lanes].name;
+    }
+  }
+  throw SimulationError(
+      step_number(), time(), where,
+      fmt::format("diverged at step {}, t = {:.6g} s: {}{}", step_number(), time(),
+                  where == "base" ? "the base" : "joint " + where,
+                  finite && worst > 0 ? fmt::format(" turns at {:.3g} rad/s", worst) : " is no longer finite"));
+}
+
+RunRecord Simulation::take_record(std::size_t lane) {
+  RunRecord record = std::move(lanes_[lane]->record);
+  record.steps = step_number();
+  for (std::size_t j = 0; j < robot_.joints.size(); ++j) record.joints.push_back(meter_.figures(j, lane));
+  return record;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,104 @@
+// The loop: record, sense, command, advance, check. Owns the plant, the plugins and ALL state in one array.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/scenario/scenario.h"
+#include "core/simulation/meter.h"
+#include "core/simulation/plant.h"
+#include "core/simulation/probes.h"
+#include "core/trace/trace.h"
+
+namespace gaitlab {
+
+/// A run that left the numbers: step, time and joint are in what().
+class SimulationError : public RunError {
+ public:
+  SimulationError(std::int64_t step, double time, std::string where, std::string what);
+  std::int64_t step;
+  double time;
+  std::string where;  ///< a joint's name, or "base"
+};
+
+/// How one lane ran: what the summary is made from.
+struct RunRecord {
+  Trace trace;
+  std::vector<JointFigures> joints;
+  /// Every trace tick: centre of mass; base frame (x y z qw qx qy qz, tick * 7); angles, set points and motor torques (tick *
+  /// joints
+  /// + joint).
+  std::vector<double> com_x, com_y, poses;
+  std::vector<double> angles, setpoints, torques;
+  Stability worst;  ///< the largest rate seen at a control tick
+  double worst_time = 0;
+  std::int64_t ticks = 0, ticks_above_1 = 0;
+  std::int64_t steps = 0;
+};
+
+/// Simulates one or more scenarios of the same robot, engine, step and duration side by side, one a lane.
+/// The constructor checks the step: InputError where h lambda > 1 for the standing robot, naming the largest step allowed and
+/// the joint or contact that sets it. step() allocates nothing.
+class Simulation {
+ public:
+  explicit Simulation(std::span<const Scenario> lanes);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  void step();
+  [[nodiscard]] bool done() const { return step_number() == steps_; }
+  /// Steps to the end; `progress(share)` about 200 times; stops early (returns false) once `stop` is set.
+  bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
+
+  /// Everything that changes: step counter, plant, held set points and commands, plugins' states. A copy is a snapshot.
+  Out state() { return state_; }
+  [[nodiscard]] std::int64_t step_number() const { return static_cast<std::int64_t>(state_[0]); }
+  [[nodiscard]] double time() const { return static_cast<double>(step_number()) * h_; }
+  /// What lane `lane` has recorded so far. The trace is moved out: call it once, at the end.
+  RunRecord take_record(std::size_t lane);
+  [[nodiscard]] const Stability& standing() const { return standing_; }
+
+ private:
+  struct Lane;
+
+  [[nodiscard]] bool control_tick() const { return step_number() % control_every_ == 0; }
+  [[nodiscard]] bool trace_tick() const { return step_number() % trace_every_ == 0; }
+  void record();
+  void sense();
+  void command();
+  void advance();
+  void check() const;
+
+  void cut_state();
+  void set_start();
+  void check_standing();
+  void watch_stability();
+  void report();
+  Sample& take_sample(Lane& lane, std::size_t index);
+  [[noreturn]] void diverged() const;
+
+  std::vector<Scenario> scenarios_;
+  const Robot& robot_;
+  double h_;
+  std::int64_t steps_, control_every_, trace_every_;
+  std::vector<ContactElement> contacts_;
+  std::unique_ptr<Actuator> actuator_;
+  std::unique_ptr<Plant> plant_;
+  std::vector<std::unique_ptr<Lane>> lanes_;
+  StateLayout layout_;
+  std::vector<double> state_;
+  Out plant_state_, setpoint_, command_;  ///< parts of state_; joint * lanes + lane
+  std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, angle_,
+      speed_;  ///< scratch, elementwise
+  Meter meter_;
+  Stability standing_;
+};
+
+/// Number of steps in `period`: the nearest integer, which the scenario's check has made exact to 1e-9.
+std::int64_t whole(double period, double step);
+
+}  // namespace gaitlab

@@ -1,0 +1,97 @@
+#include "core/simulation/stability.h"
+
+#include <cmath>
+
+namespace gaitlab {
+
+RateMonitor::RateMonitor(const Robot& robot)
+    : motor(robot.joints.size(), 0.0),
+      stop(robot.joints.size(), 0.0),
+      x_(6 + robot.joints.size()),
+      kx_(x_.size()),
+      y_(x_.size()),
+      v_(robot.links.size()),
+      omega_(robot.links.size()),
+      force_(robot.links.size()),
+      moment_(robot.links.size()) {}
+
+Vec3 RateMonitor::velocity_at(const Kinematics& k, const ContactSlope& c) const {
+  return v_[c.link] + omega_[c.link].cross(c.point - k.p[c.link]);
+}
+
+/// force = (B + sum J^T G J) velocity: outward for the velocities, inward for the forces.
+void RateMonitor::damp(const Robot& robot, const Kinematics& k, In x, Out f) {
+  v_[0] = Vec3(x[0], x[1], x[2]);
+  omega_[0] = Vec3(x[3], x[4], x[5]);
+  for (std::size_t i = 1; i < robot.links.size(); ++i) {
+    const auto parent = static_cast<std::size_t>(robot.links[i].parent);
+    const auto joint = static_cast<std::size_t>(robot.links[i].joint);
+    omega_[i] = omega_[parent] + k.R[i] * robot.links[i].axis * x[6 + joint];
+    v_[i] = v_[parent] + omega_[parent].cross(k.p[i] - k.p[parent]);
+  }
+  for (std::size_t i = 0; i < robot.links.size(); ++i) force_[i] = moment_[i] = Vec3::Zero();
+  for (const ContactSlope& c : contacts) {
+    const Vec3 force = c.apply(velocity_at(k, c));
+    force_[c.link] += force;
+    moment_[c.link] += (c.point - k.p[c.link]).cross(force);
+  }
+  for (std::size_t i = robot.links.size() - 1; i > 0; --i) {
+    const auto parent = static_cast<std::size_t>(robot.links[i].parent);
+    const auto joint = static_cast<std::size_t>(robot.links[i].joint);
+    f[6 + joint] = (k.R[i] * robot.links[i].axis).dot(moment_[i]) + (motor[joint] + stop[joint]) * x[6 + joint];
+    force_[parent] += force_[i];
+    moment_[parent] += moment_[i] + (k.p[i] - k.p[parent]).cross(force_[i]);
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    f[a] = force_[0][static_cast<Eigen::Index>(a)];
+    f[3 + a] = moment_[0][static_cast<Eigen::Index>(a)];
+  }
+}
+
+Stability RateMonitor::attribute(const Kinematics& k, In x, double rate) const {
+  Stability result{rate, Stability::Source::motor, 0};
+  double most = -1;
+  const auto offer = [&](double power, Stability::Source source, std::size_t index) {
+    if (power > most) {
+      most = power;
+      result.source = source;
+      result.index = index;
+    }
+  };
+  for (std::size_t j = 0; j < motor.size(); ++j) {
+    offer(motor[j] * x[6 + j] * x[6 + j], Stability::Source::motor, j);
+    offer(stop[j] * x[6 + j] * x[6 + j], Stability::Source::stop, j);
+  }
+  for (const ContactSlope& c : contacts) {
+    const Vec3 v = velocity_at(k, c);
+    offer(v.dot(c.apply(v)), Stability::Source::contact, c.element);
+  }
+  return result;
+}
+
+Stability RateMonitor::largest(const Robot& robot, const Kinematics& k, InverseMass& inverse_mass, int iterations) {
+  // Any vector that is at right angles to no mode; joints alternate and differ so that no symmetry hides one.
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    x_[i] = (i % 2 == 0 ? 1.0 : -1.0) * (1.0 + 0.1 * static_cast<double>((7 * i) % 11));
+  }
+  double rate = 0;
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    damp(robot, k, x_, kx_);
+    inverse_mass.apply(kx_, y_);
+    double kxy = 0;
+    double kxx = 0;
+    double norm = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      kxy += kx_[i] * y_[i];
+      kxx += kx_[i] * x_[i];
+      norm += y_[i] * y_[i];
+    }
+    if (!(kxx > 0) || !(norm > 0)) return {};  // nothing damps
+    rate = kxy / kxx;
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = y_[i] / std::sqrt(norm);
+  }
+  damp(robot, k, x_, kx_);
+  return attribute(k, x_, rate);
+}
+
+}  // namespace gaitlab

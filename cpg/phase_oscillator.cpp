@@ -1,0 +1,77 @@
+#include "cpg/phase_oscillator.h"
+
+#include "core/math/functions.h"
+
+namespace gaitlab {
+
+const char* const PhaseOscillator::kManual = R"(A network of phase oscillators with any coupling graph.
+
+    phi_i' = 2 pi f_i + sum_j w_ij sin(phi_j - phi_i + L_ij)      (amplitude_weighted: w_ij r_j)
+    r_i'   = a_r (R_i - r_i)
+    x_i'   = a_x (X_i - x_i)
+    theta_i = x_i + r_i sin(phi_i)
+
+A coupling {from: j, to: i, weight: w, phase_lag: L} pulls to phi_i = phi_j + L (psi_ij = -L in the paper's symbols).
+Start: on the limit cycle (sums of lags along the couplings; where they contradict one another around a cycle, phi = 0 and a
+note), r = 0, x = X. Source: Chariot, Filippi, Verlinden 2012, eq. 7-10 and 16-19.
+
+    cpg: {type: phase_oscillator, frequency: 0.25, amplitude: 0.6, phase_lag: 1.2})";
+
+void PhaseOscillator::Model::fields(Fields& f) {
+  f.number("coupling", coupling, {"1/s", 0, 1000, "Weight w of the couplings made by a rule."});
+  f.number("amplitude_rate", amplitude_rate, {"1/s", 0, 1000, "a_r: how fast r goes to the amplitude."});
+  f.number("offset_rate", offset_rate, {"1/s", 0, 1000, "a_x: how fast x goes to the offset."});
+  f.flag("amplitude_weighted", amplitude_weighted,
+         "Weight each coupling with the amplitude r_j of the joint that is followed.");
+}
+
+PhaseOscillator::PhaseOscillator(const RobotInfo& robot, const Settings& settings)
+    : joints_(robot.joints.size()),
+      s_(settings),
+      couplings_(settings.graph(joints_, settings.model.coupling)),
+      phases_(phases_of(couplings_, joints_)) {
+  on_cycle_ = phases_.size() == joints_;
+  if (!on_cycle_) phases_.assign(joints_, 0.0);
+}
+
+std::string PhaseOscillator::state_name(std::size_t index) const {
+  static constexpr const char* kBlock[] = {"phi.", "r.", "x."};
+  return kBlock[index / joints_] + std::to_string(index % joints_);
+}
+
+void PhaseOscillator::start(Out state) const {
+  for (std::size_t i = 0; i < joints_; ++i) {
+    state[i] = phases_[i];
+    state[joints_ + i] = 0;
+    state[2 * joints_ + i] = s_.offset[i];
+  }
+}
+
+void PhaseOscillator::derivative(const Measured&, In state, Out rate) const {
+  const In phi = state.subspan(0, joints_);
+  const In r = state.subspan(joints_, joints_);
+  const In x = state.subspan(2 * joints_, joints_);
+  for (std::size_t i = 0; i < joints_; ++i) {
+    rate[i] = 2 * std::numbers::pi * s_.frequency[i];
+    rate[joints_ + i] = s_.model.amplitude_rate * (s_.amplitude[i] - r[i]);
+    rate[2 * joints_ + i] = s_.model.offset_rate * (s_.offset[i] - x[i]);
+  }
+  for (const Coupling& c : couplings_) {
+    const auto from = static_cast<std::size_t>(c.from);
+    const auto to = static_cast<std::size_t>(c.to);
+    const double weight = s_.model.amplitude_weighted ? c.weight * r[from] : c.weight;
+    rate[to] += weight * math::sin(phi[from] - phi[to] + c.phase_lag);
+  }
+}
+
+void PhaseOscillator::output(double, In state, Out setpoint) const {
+  for (std::size_t i = 0; i < joints_; ++i) {
+    setpoint[i] = state[2 * joints_ + i] + state[joints_ + i] * math::sin(state[i]);
+  }
+}
+
+std::string PhaseOscillator::note() const {
+  return on_cycle_ ? "" : "the couplings' lags contradict one another around a cycle: all phases start at 0";
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,50 @@
+// CPG `sine`: prescribed sines without states.
+#pragma once
+#include <stdexcept>
+
+#include "core/math/functions.h"
+#include "core/plugin/oscillators.h"
+#include "core/plugin/registry.h"
+
+namespace gaitlab {
+
+class Sine final : public Cpg {
+ public:
+  struct Model {
+    double ramp = 0;
+    void fields(Fields& f) { f.number("ramp", ramp, {"s", 0, 1e6, "Time over which the amplitude grows linearly from 0."}); }
+  };
+  struct Settings : OscillatorKeys {
+    Model model;
+    void fields(Fields& f) {
+      OscillatorKeys::fields(f);
+      f.group("model", model, "Keys of this model alone.");
+    }
+  };
+  static constexpr const char* kManual = R"(Prescribed sines: the limit cycle of a network of oscillators, without its states.
+
+    theta_i = X_i + min(1, t / ramp) R_i sin(2 pi f_i t + phi_i)
+
+phi_i: sum of the lags along the couplings; couplings that contradict one another around a cycle are an error.
+
+    cpg: {type: sine, frequency: 0.25, amplitude: 0.6, phase_lag: 1.2, model: {ramp: 1}})";
+
+  Sine(const RobotInfo& robot, const Settings& settings)
+      : joints_(robot.joints.size()), s_(settings), phases_(phases_of(settings.graph(joints_, 1), joints_)) {
+    if (phases_.size() != joints_) throw std::invalid_argument("the couplings' lags contradict one another around a cycle");
+  }
+
+  void output(double t, In, Out setpoint) const override {
+    const double grown = t < s_.model.ramp ? t / s_.model.ramp : 1;
+    for (std::size_t i = 0; i < joints_; ++i) {
+      setpoint[i] = s_.offset[i] + grown * s_.amplitude[i] * math::sin(2 * std::numbers::pi * s_.frequency[i] * t + phases_[i]);
+    }
+  }
+
+ private:
+  std::size_t joints_;
+  Settings s_;
+  std::vector<double> phases_;
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,188 @@
+#include "physics_bullet/engine.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/errors.h"
+#include "core/laws/hinge_stop.h"
+#include "core/simulation/stability.h"
+#include "physics_bullet/multibody.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr int kMonitorIterations = 20;  // the rate is right to second order in the vector's error: 20 give 1 % and better
+constexpr int kStartIterations = 200;   // once, before the run
+
+class BulletPlant final : public Plant, private InverseMass {
+ public:
+  explicit BulletPlant(const PlantSettings& s)
+      : settings_(s),
+        robot_(*s.robot),
+        layout_{robot_.joints.size(), 1},
+        body_(robot_, s.base, s.contacts),
+        kinematics_(robot_),
+        integrator_(s.integrator == 0 ? ExplicitIntegrator::semi_implicit : ExplicitIntegrator::rk4, robot_.joints.size()),
+        monitor_(robot_) {
+    const std::size_t n = robot_.joints.size();
+    state_.q.resize(n);
+    state_.qd.resize(n);
+    acceleration_.joints.resize(n);
+    torque_.resize(n);
+    slope_.resize(n);
+    applied_.resize(2 * n);
+    monitor_.contacts.reserve(s.contacts.size());
+  }
+
+  [[nodiscard]] std::size_t lanes() const override { return 1; }
+  void bind(Out numbers) override { numbers_ = numbers; }
+
+  void advance(In command, double h) override {
+    layout_.read(numbers_, 0, state_);
+    std::fill(applied_.begin(), applied_.end(), 0.0);
+    integrator_.step(state_, h, [&](const RobotState& state, double weight, Acceleration& out) {
+      evaluate(state, command);
+      for (std::size_t j = 0; j < torque_.size(); ++j) {
+        applied_[j] += weight * torque_[j];
+        const double stop = stop_at(state, j).torque;
+        applied_[torque_.size() + j] += weight * stop;
+        body_.add_torque(j, torque_[j] + stop);
+      }
+      body_.accelerate(state, out);
+    });
+    layout_.write(state_, 0, numbers_);
+  }
+
+  [[nodiscard]] In applied() const override { return applied_; }
+
+  void contacts(std::size_t, std::span<ContactSample> out) const override {
+    layout_.read(numbers_, 0, state_);
+    kinematics_.update(robot_, state_);
+    for (ContactSample& sample : out) sample = {};
+    for_each_contact([&](const Contact& c) { out[c.element] = {c.world(), c.force.fn, c.touch.penetration}; });
+  }
+
+  [[nodiscard]] Stability stability(std::size_t, In command, bool standing) override {
+    layout_.read(numbers_, 0, state_);
+    evaluate(state_, command);
+    body_.accelerate(state_, acceleration_);  // factorises the mass matrix for inverse_mass
+    for (std::size_t j = 0; j < torque_.size(); ++j) {
+      monitor_.motor[j] = slope_[j];
+      monitor_.stop[j] = stop_at(state_, j).damping;
+    }
+    monitor_.contacts.clear();
+    if (standing) {
+      stand();
+    } else {
+      for_each_contact([&](const Contact& c) {
+        monitor_.contacts.push_back({c.element, c.link, c.touch.point, c.touch.normal,
+                                     c.force.sliding ? Vec3(c.vt / c.slip) : Vec3::Zero(), c.force.friction_slope,
+                                     c.force.normal_slope});
+      });
+    }
+    return monitor_.largest(robot_, kinematics_, *this, standing ? kStartIterations : kMonitorIterations);
+  }
+
+ private:
+  void apply(In force, Out acceleration) override { body_.inverse_mass(force, acceleration); }
+
+  [[nodiscard]] HingeStop stop_at(const RobotState& state, std::size_t j) const {
+    return HingeStop::at(state.q[j], state.qd[j], robot_.joints[j].lo, robot_.joints[j].hi);
+  }
+
+  /// What one element in contact finds.
+  struct Contact {
+    std::size_t element, link;
+    Ground::Touch touch;
+    Vec3 vt;      ///< tangential velocity, m/s
+    double slip;  ///< |vt|
+    PenaltyContact::Force force;
+    [[nodiscard]] Vec3 world() const { return force.fn * touch.normal - force.friction_slope * vt; }
+  };
+
+  /// Contacts at the present kinematics.
+  template <class Visit>
+  void for_each_contact(Visit&& visit) const {
+    if (settings_.ground.kind == Ground::Kind::none) return;
+    body_.for_each_element(kinematics_, [&](std::size_t element, std::size_t link, const Vec3& centre, double radius) {
+      const Ground::Touch touch = settings_.ground.query(centre, radius);
+      if (!(touch.penetration > 0)) return;
+      const Vec3 v = kinematics_.velocity(link, touch.point);
+      const double vn = touch.normal.dot(v);
+      const Vec3 vt = v - vn * touch.normal;
+      const double slip = vt.norm();
+      visit(Contact{element, link, touch, vt, slip, settings_.law(touch.penetration, vn, slip, touch.friction)});
+    });
+  }
+
+  /// Places the body and gathers every force but the joints': weight, contacts; asks the actuator.
+  void evaluate(const RobotState& state, In command) {
+    kinematics_.update(robot_, state);
+    body_.set(state, kinematics_);
+    body_.add_weight(settings_.gravity);
+    for_each_contact([&](const Contact& c) {
+      body_.add_force(c.link, c.touch.point - kinematics_.point(c.link, robot_.links[c.link].com), c.world());
+    });
+    if (settings_.actuator != nullptr) settings_.actuator->effort(command, state.qd, torque_, slope_);
+  }
+
+  /// Slopes of a robot that stands: the weight in equal parts on the lowest elements, at the penetration that carries it.
+  void stand() {
+    if (settings_.ground.kind == Ground::Kind::none) return;
+    double lowest = 0;
+    bool first = true;
+    body_.for_each_element(kinematics_, [&](std::size_t, std::size_t, const Vec3& centre, double radius) {
+      const double gap = -settings_.ground.query(centre, radius).penetration;
+      lowest = first ? gap : std::min(lowest, gap);
+      first = false;
+    });
+    constexpr double kBand = 1e-3;  // m
+    body_.for_each_element(kinematics_, [&](std::size_t element, std::size_t link, const Vec3& centre, double radius) {
+      const Ground::Touch touch = settings_.ground.query(centre, radius);
+      if (-touch.penetration > lowest + kBand) return;
+      monitor_.contacts.push_back({element, link, touch.point, touch.normal, Vec3::Zero(), touch.friction, 0});
+    });
+    if (monitor_.contacts.empty()) return;
+    const double load = robot_.mass * settings_.gravity.norm() / static_cast<double>(monitor_.contacts.size());
+    const double sink = load / settings_.law.kn;  // k = 1; for other exponents an estimate, monitored from the first tick on
+    for (ContactSlope& contact : monitor_.contacts) {
+      const double friction = contact.tangential;
+      contact.along_normal = settings_.law(sink, 0, 0, friction).normal_slope;
+      contact.tangential = friction * load / settings_.law.v_lim;
+    }
+  }
+
+  PlantSettings settings_;
+  const Robot& robot_;
+  StateLayout layout_;
+  Out numbers_;
+  bullet::MultiBody body_;
+  mutable Kinematics kinematics_;  // caches: every entry point fills them anew from numbers_
+  mutable RobotState state_;
+  ExplicitIntegrator integrator_;
+  Acceleration acceleration_;
+  std::vector<double> torque_, slope_, applied_;
+  RateMonitor monitor_;
+};
+
+}  // namespace
+
+void register_bullet(Catalog& catalog) {
+  catalog.add(
+      Engine{"bullet",
+             "The robot as one btMultiBody; accelerations from Bullet's articulated-body algorithm; penalty contacts on the\n"
+             "points and spheres of its compound shapes; explicit integration, every step at most 1 / lambda long\n"
+             "(lambda: largest eigenvalue of M^-1 (B + sum J^T G J)).",
+             {"semi_implicit", "rk4"},
+             2.5e-5,
+             false,
+             [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<BulletPlant>(s); }});
+}
+
+std::string bullet_version() {
+  static_assert(sizeof(btScalar) == sizeof(double), "gaitlab needs Bullet in double precision");
+  return std::to_string(btGetVersion() / 100) + "." + std::to_string(btGetVersion() % 100) + " float64";
+}
+
+}  // namespace gaitlab

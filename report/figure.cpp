@@ -1,0 +1,340 @@
+#include "report/figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "report/axes.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kWidth = 1000;
+constexpr double kLeft = 80, kRight = 920;  // px, of both panels
+constexpr double kTitleHeight = 44;
+constexpr double kChartTop = 36, kChartHeight = 260, kChartFoot = 58;  // below the legend; px
+constexpr double kViewMost = 150;                                      // px, the tallest robot
+constexpr double kViewGap = 40;  // px, between one view's ground and the next one's headroom
+constexpr double kWindow = 8;    // s
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Bounds {
+  double lo = kInfinity, hi = -kInfinity;
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    lo = std::min(lo, value);
+    hi = std::max(hi, value);
+  }
+  [[nodiscard]] bool empty() const { return lo > hi; }
+};
+
+constexpr Style kGridLine{.stroke = colour::kPale};
+constexpr Style kAxisLine{.stroke = colour::kInk, .width = 1.2};
+constexpr Style kZeroLine{.stroke = colour::kGrey};
+constexpr Style kAngle{.stroke = colour::kBlue, .width = 2};
+constexpr Style kSetpoint{.stroke = colour::kBlack, .width = 1.1, .dash = "2 3"};
+constexpr Style kTorque{.stroke = colour::kVermillion, .width = 1.6, .dash = "8 3"};
+
+// ---- upper panel: one joint over time
+
+struct Curve {
+  std::string name;
+  const std::vector<double>* values;
+  Style style;
+};
+
+class Chart {
+ public:
+  Chart(Svg& svg, const FigureInput& input, double top) : svg_(svg), input_(input), top_(top), bottom_(top + kChartHeight) {
+    while (first_ < input.time.size() && input.time[first_] < input.time.back() - kWindow - 1e-9) ++first_;
+    time_ = ticks_within(input.time[first_], input.time.back(), 8);
+    x_ = {time_.lo, time_.hi, kLeft, kRight};
+  }
+
+  void draw(const std::vector<Curve>& left, const std::vector<Curve>& right) {
+    const auto [left_ticks, right_ticks] = ticks(left, right);
+    const Scale left_y{left_ticks.lo, left_ticks.hi, bottom_, top_};
+    const Scale right_y{right_ticks.lo, right_ticks.hi, bottom_, top_};
+    time_axis();
+    if (!left.empty()) {
+      grid(left_ticks, left_y);
+      labels(left_ticks, left_y, kLeft - 8, Anchor::end, colour::kBlue);
+      svg_.text({kLeft - 54, (top_ + bottom_) / 2}, "angle (rad)",
+                {.anchor = Anchor::middle, .fill = colour::kBlue, .upwards = true});
+    }
+    if (!right.empty()) {
+      if (left.empty()) grid(right_ticks, right_y);
+      labels(right_ticks, right_y, kRight + 8, Anchor::start, colour::kVermillion);
+      svg_.text({kRight + 62, (top_ + bottom_) / 2}, "torque (N m)",
+                {.anchor = Anchor::middle, .fill = colour::kVermillion, .upwards = true});
+    }
+    for (const Curve& curve : right) svg_.polyline(points(curve, right_y), curve.style);
+    for (const Curve& curve : left) svg_.polyline(points(curve, left_y), curve.style);
+    svg_.rectangle({kLeft, top_}, kRight - kLeft, bottom_ - top_, kAxisLine);
+    legend(left, right);
+  }
+
+ private:
+  [[nodiscard]] Bounds bounds(const std::vector<Curve>& curves) const {
+    Bounds bounds;
+    for (const Curve& curve : curves) {
+      for (std::size_t i = first_; i < curve.values->size(); ++i) bounds.add((*curve.values)[i]);
+    }
+    return bounds;
+  }
+
+  [[nodiscard]] TwinTicks ticks(const std::vector<Curve>& left, const std::vector<Curve>& right) const {
+    const Bounds a = bounds(left);
+    const Bounds b = bounds(right);
+    if (left.empty() || right.empty()) return {ticks_around(a.lo, a.hi, 6), ticks_around(b.lo, b.hi, 6)};
+    return twin_ticks(a.lo, a.hi, b.lo, b.hi);
+  }
+
+  void time_axis() {
+    for (const double t : time_.values()) {
+      svg_.line({x_(t), top_}, {x_(t), bottom_}, kGridLine);
+      svg_.text({x_(t), bottom_ + 18}, time_.label(t), {.anchor = Anchor::middle});
+    }
+    svg_.text({(kLeft + kRight) / 2, bottom_ + 38}, "time (s)", {.anchor = Anchor::middle});
+  }
+
+  void grid(const Ticks& ticks, const Scale& y) {
+    for (const double value : ticks.values()) {
+      const bool zero = std::abs(value) < 0.5 * ticks.step;
+      svg_.line({kLeft, y(value)}, {kRight, y(value)}, zero ? kZeroLine : kGridLine);
+    }
+  }
+
+  void labels(const Ticks& ticks, const Scale& y, double x, Anchor anchor, std::string_view fill) {
+    for (const double value : ticks.values())
+      svg_.text({x, y(value) + 4.5}, ticks.label(value), {.anchor = anchor, .fill = fill});
+  }
+
+  [[nodiscard]] std::vector<Point> points(const Curve& curve, const Scale& y) const {
+    std::vector<Point> points;
+    for (std::size_t i = first_; i < input_.time.size(); ++i) points.push_back({x_(input_.time[i]), y((*curve.values)[i])});
+    return thinned(points);
+  }
+
+  // In one row above the panel: the joint's name at the left, the curves at the right.
+  void legend(const std::vector<Curve>& left, const std::vector<Curve>& right) {
+    const double y = top_ - 13;
+    double x = kRight;
+    for (const std::vector<Curve>* curves : {&right, &left}) {
+      for (auto curve = curves->rbegin(); curve != curves->rend(); ++curve) {
+        x -= text_width(curve->name, 13);
+        svg_.text({x, y}, curve->name);
+        svg_.line({x - 42, y - 4.5}, {x - 8, y - 4.5}, curve->style);
+        x -= 62;
+      }
+    }
+    svg_.text({kLeft, y}, "joint " + input_.joint, {.bold = true});
+  }
+
+  Svg& svg_;
+  const FigureInput& input_;
+  double top_, bottom_;
+  std::size_t first_ = 0;
+  Ticks time_;
+  Scale x_;
+};
+
+// ---- lower panel: side views
+
+struct RoleLook {
+  Role role;
+  std::string_view fill, name;
+};
+constexpr std::array<RoleLook, 4> kLooks = {
+    RoleLook{Role::active, colour::kSky, "active block"}, RoleLook{Role::link, colour::kGrey, "link"},
+    RoleLook{Role::passive, colour::kOrange, "passive block"}, RoleLook{Role::other, colour::kPale, "body"}};
+
+const RoleLook& look(Role role) {
+  return *std::find_if(kLooks.begin(), kLooks.end(), [role](const RoleLook& look) { return look.role == role; });
+}
+
+struct Extent {
+  Bounds x, z;
+};
+
+Extent extent(const View& view) {
+  Extent extent;
+  for (const Outline& outline : view.outlines) {
+    for (const Polygon& polygon : outline.polygons) {
+      for (const Point& point : polygon) {
+        extent.x.add(point.x);
+        extent.z.add(point.y);
+      }
+    }
+  }
+  return extent;
+}
+
+// Middle of what is seen, weighted by area: close to the centre of mass, and enough to show the drift.
+double middle(const View& view) {
+  double moment = 0;
+  double area = 0;
+  for (const Outline& outline : view.outlines) {
+    for (const Polygon& polygon : outline.polygons) {
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Point a = polygon[i];
+        const Point b = polygon[(i + 1) % polygon.size()];
+        const double twice = a.x * b.y - b.x * a.y;
+        area += twice / 2;
+        moment += twice * (a.x + b.x) / 6;
+      }
+    }
+  }
+  return moment / area;
+}
+
+class Views {
+ public:
+  explicit Views(const FigureInput& input) : input_(input) {
+    Bounds x;
+    for (const View& view : input.views) {
+      const Extent seen = extent(view);
+      x.add(seen.x.lo);
+      x.add(seen.x.hi);
+      floors_.push_back(input.ground || seen.z.empty() ? 0 : seen.z.lo);
+      if (seen.z.empty()) continue;
+      above_ = std::max(above_, seen.z.hi - floors_.back());
+      below_ = std::max(below_, floors_.back() - seen.z.lo);
+    }
+    if (x.empty()) x = {-0.5, 0.5};
+    const double width = std::max(1.06 * (x.hi - x.lo), 1e-3);
+    per_metre_ = (kRight - kLeft) / width;
+    if (above_ + below_ > 0) per_metre_ = std::min(per_metre_, kViewMost / (above_ + below_));
+    const double half = 0.5 * (kRight - kLeft) / per_metre_;
+    ticks_ = ticks_within(0.5 * (x.lo + x.hi) - half, 0.5 * (x.lo + x.hi) + half, 8);
+    x_ = {ticks_.lo, ticks_.hi, kLeft, kRight};
+  }
+
+  [[nodiscard]] double height() const { return kHead + pitch() * static_cast<double>(input_.views.size()) + kFoot; }
+
+  void draw(Svg& svg, double top) const {
+    const double bottom = top + height() - kFoot;
+    header(svg, top);
+    for (const double x : ticks_.values()) svg.line({x_(x), top + kHead}, {x_(x), bottom}, kGridLine);
+    std::vector<Point> middles;
+    for (std::size_t i = 0; i < input_.views.size(); ++i) {
+      const double floor = top + kHead + pitch() * static_cast<double>(i + 1) - kViewGap / 2 - below_ * per_metre_;
+      const Scale z{floors_[i], floors_[i] + 1, floor, floor - per_metre_};
+      draw_view(svg, input_.views[i], z);
+      middles.push_back({x_(middle(input_.views[i])), floor + below_ * per_metre_ + 8});
+    }
+    for (const Point& m : middles)
+      svg.polygons(std::vector<Polygon>{{m, {m.x - 5, m.y + 8}, {m.x + 5, m.y + 8}}}, {.fill = colour::kInk});
+    axis(svg, bottom);
+  }
+
+ private:
+  static constexpr double kHead = 34, kFoot = 48;  // px, for the legend and the axis
+
+  [[nodiscard]] double pitch() const { return std::max(30.0, (above_ + below_) * per_metre_) + kViewGap; }
+
+  void draw_view(Svg& svg, const View& view, const Scale& z) const {
+    const auto paper = [&](Point p) { return Point{x_(p.x), z(p.y)}; };
+    if (input_.ground) {
+      svg.rectangle({kLeft, z(0)}, kRight - kLeft, 5, {.fill = colour::kPale});
+      svg.line({kLeft, z(0)}, {kRight, z(0)}, kAxisLine);
+    }
+    for (const Outline& outline : view.outlines) {
+      std::vector<Polygon> polygons = outline.polygons;
+      for (Polygon& polygon : polygons) std::transform(polygon.begin(), polygon.end(), polygon.begin(), paper);
+      svg.polygons(polygons, {.stroke = colour::kInk, .fill = look(outline.role).fill, .width = 1.8, .stroke_below = true});
+    }
+    for (const Point& contact : view.contacts)
+      svg.circle(paper(contact), 2.6, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 0.8});
+    if (view.joint) arrow(svg, paper(*view.joint));
+    svg.text({kLeft - 10, z(z.lo) + 4}, fmt::format("{:.4g} s", view.time), {.anchor = Anchor::end, .bold = true});
+  }
+
+  static void arrow(Svg& svg, Point tip) {
+    svg.line({tip.x, tip.y - 40}, {tip.x, tip.y - 10}, {.stroke = colour::kBlack, .width = 2});
+    svg.polygons(std::vector<Polygon>{{tip, {tip.x - 5, tip.y - 11}, {tip.x + 5, tip.y - 11}}}, {.fill = colour::kBlack});
+  }
+
+  void header(Svg& svg, double top) const {
+    const bool arrows = any([](const View& view) { return view.joint.has_value(); });
+    svg.text({kLeft, top + 14}, arrows ? "side view (arrow: joint above)" : "side view", {.bold = true});
+    double x = kRight;
+    const auto entry = [&](std::string_view name, double symbol) {
+      x -= text_width(name, 13);
+      svg.text({x, top + 14}, name);
+      x -= symbol;
+      return Point{x, top + 9.5};
+    };
+    const Point m = entry("middle of the outline", 12);
+    svg.polygons(std::vector<Polygon>{{{m.x, m.y - 4}, {m.x - 5, m.y + 4}, {m.x + 5, m.y + 4}}}, {.fill = colour::kInk});
+    x -= 26;
+    if (any([](const View& view) { return !view.contacts.empty(); })) {
+      svg.circle(entry("contact", 11), 3, {.fill = colour::kVermillion});
+      x -= 24;
+    }
+    for (auto role = kLooks.rbegin(); role != kLooks.rend(); ++role) {
+      if (!any([&](const View& view) { return shows(view, role->role); })) continue;
+      const Point corner = entry(role->name, 19);
+      svg.rectangle({corner.x, corner.y - 6}, 12, 12, {.stroke = colour::kInk, .fill = role->fill});
+      x -= 20;
+    }
+  }
+
+  void axis(Svg& svg, double bottom) const {
+    svg.line({kLeft, bottom}, {kRight, bottom}, kAxisLine);
+    for (const double x : ticks_.values()) {
+      svg.line({x_(x), bottom}, {x_(x), bottom + 5}, kAxisLine);
+      svg.text({x_(x), bottom + 20}, ticks_.label(x), {.anchor = Anchor::middle});
+    }
+    svg.text({(kLeft + kRight) / 2, bottom + 40}, "x (m), heights on the same scale", {.anchor = Anchor::middle});
+  }
+
+  static bool shows(const View& view, Role role) {
+    return std::any_of(view.outlines.begin(), view.outlines.end(), [role](const Outline& o) { return o.role == role; });
+  }
+  template <class Test>
+  [[nodiscard]] bool any(const Test& test) const {
+    return std::any_of(input_.views.begin(), input_.views.end(), test);
+  }
+
+  const FigureInput& input_;
+  std::vector<double> floors_ = {};  // height drawn on the base line of each view, m
+  double above_ = 0, below_ = 0;     // of the base line, m
+  double per_metre_ = 1;
+  Ticks ticks_;
+  Scale x_;
+};
+
+void title(Svg& svg, const std::string& text) {
+  double size = 18;
+  while (size > 10 && text_width(text, size) > kRight - kLeft) size -= 1;
+  svg.text({kWidth / 2, 28}, text, {.size = size, .anchor = Anchor::middle, .bold = true});
+}
+
+}  // namespace
+
+std::string figure_svg(const FigureInput& input) {
+  std::vector<Curve> left;
+  std::vector<Curve> right;
+  const auto add = [&](std::vector<Curve>& curves, const char* name, const std::vector<double>& values, const Style& style) {
+    if (!values.empty() && values.size() == input.time.size()) curves.push_back({name, &values, style});
+  };
+  add(left, "angle", input.angle, kAngle);
+  add(left, "set point", input.setpoint, kSetpoint);
+  add(right, "torque (right)", input.torque, kTorque);
+  const bool chart = !left.empty() || !right.empty();
+  const Views views(input);
+  const double views_top = kTitleHeight + (chart ? kChartTop + kChartHeight + kChartFoot : 0);
+  Svg svg(kWidth, views_top + (input.views.empty() ? 0 : views.height() + 8));
+  title(svg, input.title);
+  if (chart) Chart(svg, input, kTitleHeight + kChartTop).draw(left, right);
+  if (!input.views.empty()) views.draw(svg, views_top);
+  return svg.finish();
+}
+
+}  // namespace gaitlab

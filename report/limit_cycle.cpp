@@ -1,0 +1,281 @@
+#include "report/limit_cycle.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kRepeats = 0.02;     // e(t) of a repeating motion
+constexpr double kStill = 1e-3;       // rad, half a peak-to-peak
+constexpr double kPromising = 0.3;    // e of a lag next to a period: half a grid step off, harmonics included
+constexpr std::size_t kGrid = 256;    // lags and points per period in the search
+constexpr std::size_t kFine = 4096;   // points per period when refining a lag
+constexpr std::size_t kShortest = 5;  // samples
+constexpr double kNone = 1e300;       // "no error to speak of": above every threshold
+using Column = std::vector<double>;
+using Columns = std::vector<Column>;
+
+struct Range {
+  double lo = kNone, hi = -kNone;
+  void add(double x) {
+    lo = std::min(lo, x);
+    hi = std::max(hi, x);
+  }
+  [[nodiscard]] double half() const { return 0.5 * (hi - lo); }
+};
+
+// Replaces the steps of a column that is held between ticks by straight lines between the changes. Only runs up to twice the
+// median one are joined: a pause stays a pause.
+void join_steps(Column& x) {
+  std::vector<std::size_t> changes;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    if (x[i] != x[i - 1]) changes.push_back(i);
+  }
+  if (changes.size() < 3) return;
+  std::vector<std::size_t> runs;
+  for (std::size_t k = 1; k < changes.size(); ++k) runs.push_back(changes[k] - changes[k - 1]);
+  const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
+  std::nth_element(runs.begin(), middle, runs.end());
+  for (std::size_t k = 1; k < changes.size(); ++k) {
+    const std::size_t first = changes[k - 1];
+    const std::size_t length = changes[k] - first;
+    if (length > 2 * *middle) continue;
+    const double step = (x[changes[k]] - x[first]) / static_cast<double>(length);
+    for (std::size_t i = 1; i < length; ++i) x[first + i] = x[first] + step * static_cast<double>(i);
+  }
+}
+
+// One contiguous array a column; empty if a number is not finite.
+Columns columns_of(std::span<const double> values, std::size_t columns) {
+  const std::size_t rows = values.size() / columns;
+  Columns split(columns, Column(rows));
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      const double value = values[row * columns + c];
+      if (!std::isfinite(value)) return {};
+      split[c][row] = value;
+    }
+  }
+  for (Column& column : split) join_steps(column);
+  return split;
+}
+
+// e at the last window for a whole number of samples, on every `stride`-th of them; kNone as soon as it is not promising or if
+// nothing moves.
+double rough_error(const Columns& columns, std::size_t lag, std::size_t stride) {
+  const std::size_t rows = columns[0].size();
+  double worst = 0;
+  bool moves = false;
+  for (const Column& x : columns) {
+    Range range;
+    double squares = 0;
+    std::size_t count = 0;
+    for (std::size_t back = 0; back < lag; back += stride, ++count) {
+      const double later = x[rows - 1 - back];
+      const double earlier = x[rows - 1 - back - lag];
+      range.add(later);
+      range.add(earlier);
+      squares += (later - earlier) * (later - earlier);
+    }
+    const double scale = std::max(range.half(), kStill);
+    moves = moves || range.half() > kStill;
+    worst = std::max(worst, std::sqrt(squares / static_cast<double>(count)) / scale);
+    if (worst >= kPromising) return kNone;
+  }
+  return moves ? worst : kNone;
+}
+
+// Sum over the columns of the mean square of x(t) - x(t - lag) / s_c over a fixed window at the end: smooth in the lag, and a
+// parabola near its minimum, which the worst column's error is not.
+class Misfit {
+ public:
+  Misfit(const Columns& columns, std::size_t window) : columns_(columns), window_(window) {
+    stride_ = std::max<std::size_t>(1, window / kFine);
+    const std::size_t rows = columns[0].size();
+    for (const Column& x : columns) {
+      Range range;
+      for (std::size_t back = 0; back < std::min(rows, 2 * window); back += stride_) range.add(x[rows - 1 - back]);
+      const double scale = std::max(range.half(), kStill);
+      weights_.push_back(1 / (scale * scale));
+    }
+  }
+
+  // kNone where the data do not reach back.
+  [[nodiscard]] double at(std::size_t lag) const {
+    const std::size_t rows = columns_[0].size();
+    if (lag < 2 || window_ + lag > rows) return kNone;
+    double sum = 0;
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      const double* end = columns_[c].data() + rows - 1;
+      double squares = 0;
+      for (std::size_t back = 0; back < window_; back += stride_) {
+        const double difference = *(end - back) - *(end - back - lag);
+        squares += difference * difference;
+      }
+      sum += squares * weights_[c];
+    }
+    return sum;
+  }
+
+ private:
+  const Columns& columns_;
+  std::size_t window_;
+  std::size_t stride_ = 1;
+  std::vector<double> weights_;
+};
+
+// The period in samples near the lag `lag` of a grid with steps of `step`; 0 if the minimum is not inside the data.
+double refine(const Columns& columns, std::size_t lag, std::size_t step) {
+  const Misfit misfit(columns, lag);
+  double here = misfit.at(lag);
+  for (; step > 0; step /= 2) {
+    for (bool better = true; better;) {
+      better = false;
+      for (const std::size_t next : {lag - std::min(lag, step), lag + step}) {
+        const double there = misfit.at(next);
+        if (there >= here) continue;
+        lag = next;
+        here = there;
+        better = true;
+        break;
+      }
+    }
+  }
+  const double below = misfit.at(lag - 1);
+  const double above = misfit.at(lag + 1);
+  if (below >= kNone || above >= kNone) return 0;
+  const double bend = below - 2 * here + above;
+  const double shift = bend > 0 ? 0.5 * (below - above) / bend : 0;
+  return static_cast<double>(lag) + std::clamp(shift, -0.5, 0.5);
+}
+
+// x between samples: the cubic through four neighbours, the last one repeated at the end of the data.
+class Between {
+ public:
+  explicit Between(double lag) : whole_(static_cast<std::size_t>(lag)) {
+    const double f = lag - static_cast<double>(whole_);
+    weights_ = {-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2,
+                (f + 1) * f * (f - 1) / 6};
+    reach_ = whole_ + (f > 0 ? 1 : 0);
+  }
+  // x(i + lag) for i + reach() < size.
+  [[nodiscard]] double operator()(const Column& x, std::size_t i) const {
+    const std::size_t last = x.size() - 1;
+    double sum = 0;
+    for (std::size_t k = 0; k < 4; ++k) sum += weights_[k] * x[std::min(i + whole_ + k - 1, last)];
+    return sum;
+  }
+  [[nodiscard]] std::size_t reach() const { return reach_; }
+
+ private:
+  std::size_t whole_, reach_ = 0;
+  std::array<double, 4> weights_ = {};
+};
+
+// e(t) of one period (in samples) over the whole of the data.
+class Repetition {
+ public:
+  Repetition(const Columns& columns, double period)
+      : columns_(columns), later_(period), window_(static_cast<std::size_t>(period + 0.5)) {
+    const std::size_t rows = columns[0].size();
+    if (later_.reach() + window_ > rows) return;
+    starts_ = rows - later_.reach() - window_ + 1;
+    for (const Column& x : columns) {
+      Range range;
+      for (std::size_t i = starts_ - 1; i < rows; ++i) range.add(x[i]);
+      scales_.push_back(std::max(range.half(), kStill));
+      moves_ = moves_ || range.half() > kStill;
+    }
+  }
+
+  // At the last window; kNone if there is none or nothing moves.
+  [[nodiscard]] double error() const {
+    if (starts_ == 0 || !moves_) return kNone;
+    double worst = 0;
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      double squares = 0;
+      for (std::size_t i = starts_ - 1; i < starts_ - 1 + window_; ++i) squares += squared(c, i);
+      worst = std::max(worst, std::sqrt(squares / static_cast<double>(window_)) / scales_[c]);
+    }
+    return worst;
+  }
+
+  // The earliest start of a window from which on no window fails, in samples. Assumes that the last one does not.
+  [[nodiscard]] std::size_t from() const {
+    std::size_t from = 0;
+    std::vector<double> sums(starts_ + window_);  // of the squares before a sample: a window is a difference of two
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      for (std::size_t i = 0; i + 1 < sums.size(); ++i) sums[i + 1] = sums[i] + squared(c, i);
+      const double limit = kRepeats * scales_[c];
+      const double most = limit * limit * static_cast<double>(window_);
+      std::size_t start = starts_ - 1;
+      while (start > from && sums[start - 1 + window_] - sums[start - 1] < most) --start;
+      from = std::max(from, start);
+    }
+    return from;
+  }
+
+ private:
+  [[nodiscard]] double squared(std::size_t c, std::size_t i) const {
+    const double difference = later_(columns_[c], i) - columns_[c][i];
+    return difference * difference;
+  }
+
+  const Columns& columns_;
+  Between later_;
+  std::size_t window_;
+  std::size_t starts_ = 0;  // number of windows
+  std::vector<double> scales_ = {};
+  bool moves_ = false;
+};
+
+struct Candidate {
+  std::size_t lag = 0, step = 0;
+  double error = kNone;
+};
+
+// The best lag of every stretch of promising ones, shortest first.
+std::vector<Candidate> candidates(const Columns& columns) {
+  std::vector<Candidate> found;
+  Candidate best;
+  const std::size_t longest = columns[0].size() / 2;
+  std::size_t step = 1;
+  for (std::size_t lag = kShortest; lag <= longest; lag += step) {
+    step = std::max<std::size_t>(1, lag / kGrid);
+    const double error = rough_error(columns, lag, step);
+    if (error < best.error) best = {lag, step, error};
+    if (error < kPromising && lag + step <= longest) continue;
+    if (best.error < kPromising) found.push_back(best);
+    best = {};
+  }
+  return found;
+}
+
+}  // namespace
+
+LimitCycle find_limit_cycle(std::span<const double> values, std::size_t columns, double sample_period) {
+  LimitCycle best;
+  if (columns == 0 || values.size() / columns < 2 * kShortest + 2) return best;
+  const Columns split = columns_of(values, columns);
+  if (split.empty()) return best;
+  for (const Candidate& candidate : candidates(split)) {
+    const double period = refine(split, candidate.lag, candidate.step);
+    if (period <= 0) continue;
+    const Repetition repetition(split, period);
+    const double error = repetition.error();
+    if (error >= best.error) continue;
+    best.period = period * sample_period;
+    best.error = error;
+    best.found = error < kRepeats;
+    if (!best.found) continue;
+    best.from = static_cast<double>(repetition.from()) * sample_period;
+    break;
+  }
+  return best;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,184 @@
+#include "report/summary.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "core/simulation/step_advice.h"
+#include "report/build_id.h"
+
+namespace gaitlab {
+
+namespace {
+
+double yaw(const std::vector<double>& poses, std::size_t tick) {
+  const double* p = poses.data() + 7 * tick;
+  const Mat3 R = Quat(p[3], p[4], p[5], p[6]).toRotationMatrix();
+  return math::atan2(R(1, 0), R(0, 0));
+}
+
+void travel(const RunRecord& r, Summary& s) {
+  const std::size_t ticks = r.com_x.size();
+  if (ticks == 0) return;
+  s.displacement_x = r.com_x.back() - r.com_x.front();
+  s.displacement_y = r.com_y.back() - r.com_y.front();
+  s.distance = std::hypot(s.displacement_x, s.displacement_y);
+  s.speed = s.simulated > 0 ? s.distance / s.simulated : 0;
+  for (std::size_t k = 1; k < ticks; ++k) {
+    s.path_length += std::hypot(r.com_x[k] - r.com_x[k - 1], r.com_y[k] - r.com_y[k - 1]);
+    // Turns add up tick by tick, so that more than half a turn is counted as such.
+    s.heading_change += std::remainder(yaw(r.poses, k) - yaw(r.poses, k - 1), 2 * std::numbers::pi);
+  }
+}
+
+void transport(const Scenario& scenario, const RunRecord& r, Summary& s) {
+  double electrical = 0;
+  double mechanical = 0;
+  for (const JointFigures& joint : r.joints) {
+    electrical += joint.electrical;
+    mechanical += joint.shaft_positive;
+  }
+  const double work = scenario.robot->mass * scenario.physics.gravity.norm() * s.distance;
+  if (!(work > 0)) return;
+  s.cost_electrical = electrical / work;
+  s.cost_mechanical = mechanical / work;
+}
+
+LimitCycle cycle(const Scenario& scenario, const RunRecord& r) {
+  const std::size_t n = scenario.robot->joints.size();
+  if (n == 0) return {};
+  std::vector<double> both;
+  both.reserve(r.angles.size() * 2);
+  for (std::size_t at = 0; at < r.angles.size(); at += n) {
+    both.insert(both.end(), r.angles.begin() + static_cast<std::ptrdiff_t>(at),
+                r.angles.begin() + static_cast<std::ptrdiff_t>(at + n));
+    both.insert(both.end(), r.setpoints.begin() + static_cast<std::ptrdiff_t>(at),
+                r.setpoints.begin() + static_cast<std::ptrdiff_t>(at + n));
+  }
+  return find_limit_cycle(both, 2 * n, scenario.trace.period);
+}
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+}  // namespace
+
+Summary summarise(const Scenario& scenario, const RunRecord& r, double wall_time) {
+  Summary s;
+  s.wall_time = wall_time;
+  s.build = build_id();
+  s.simulated = static_cast<double>(r.steps) * scenario.physics.step;
+  travel(r, s);
+  transport(scenario, r, s);
+  s.limit_cycle = cycle(scenario, r);
+  s.stability_max = scenario.physics.step * r.worst.rate;
+  s.stability_share = r.ticks > 0 ? static_cast<double>(r.ticks_above_1) / static_cast<double>(r.ticks) : 0;
+  const auto contacts = contact_elements(*scenario.robot, static_cast<ContactSet>(scenario.contact.on));
+  if (r.worst.rate > 0) s.stability_source = source_of(r.worst, *scenario.robot, contacts);
+  for (std::size_t j = 1; j < r.joints.size(); ++j) {
+    if (r.joints[j].torque_peak > r.joints[s.most_loaded].torque_peak) s.most_loaded = j;
+  }
+  s.trace_hash = hash(r.trace);
+  return s;
+}
+
+std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord& r) {
+  const Robot& robot = *scenario.robot;
+  nlohmann::ordered_json names = nlohmann::ordered_json::array();
+  nlohmann::ordered_json per_joint = nlohmann::ordered_json::object();
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const JointFigures& f = r.joints[j];
+    names.push_back(robot.joints[j].name);
+    per_joint[robot.joints[j].name] = {
+        {"torque", {{"peak", f.torque_peak}, {"rms", f.torque_rms}}},
+        {"speed", {{"peak", f.speed_peak}}},
+        {"current", {{"peak", f.current_peak}, {"rms", f.current_rms}}},
+        {"tracking_error", {{"rms", f.error_rms}, {"peak", f.error_peak}}},
+        {"saturated", {{"voltage", f.saturated_voltage}, {"current", f.saturated_current}}},
+        {"range", {{"share", f.range_share}, {"worst", f.range_worst}, {"setpoint_share", f.setpoint_outside}}},
+        {"energy", {{"electrical", f.electrical}, {"copper", f.copper}, {"gear", f.gear}, {"shaft", f.shaft}}}};
+  }
+  nlohmann::ordered_json json = {
+      {"name", scenario.name},
+      {"engine", scenario.physics.engine->name},
+      {"step", scenario.physics.step},
+      {"integrator", scenario.physics.engine->integrators[static_cast<std::size_t>(scenario.physics.integrator)]},
+      {"duration", scenario.duration},
+      {"simulated", s.simulated},
+      {"wall_time", s.wall_time},
+      {"real_time_factor", s.wall_time > 0 ? s.simulated / s.wall_time : 0},
+      {"seed", scenario.seed},
+      {"build", s.build},
+      {"modules", robot.modules.size()},
+      {"bodies", robot.bodies.size()},
+      {"dof", robot.dof(scenario.base)},
+      {"mass", robot.mass},
+      {"joints", names},
+      {"displacement", {s.displacement_x, s.displacement_y}},
+      {"distance", s.distance},
+      {"speed", s.speed},
+      {"path_length", s.path_length},
+      {"heading_change", s.heading_change},
+      {"cost_of_transport", {{"electrical", s.cost_electrical}, {"mechanical", s.cost_mechanical}}},
+      {"per_joint", per_joint},
+      {"limit_cycle",
+       {{"found", s.limit_cycle.found},
+        {"from", s.limit_cycle.from},
+        {"period", s.limit_cycle.period},
+        {"error", s.limit_cycle.error}}},
+      {"stability", {{"max", s.stability_max}, {"share_above_1", s.stability_share}, {"source", s.stability_source}}},
+      {"trace_hash", s.trace_hash}};
+  return json.dump(2) + "\n";
+}
+
+std::string to_text(const Summary& s, const Scenario& scenario, const RunRecord& r) {
+  const Robot& robot = *scenario.robot;
+  const auto line = [](const char* what, const std::string& text) { return fmt::format("  {:<13} {}\n", what, text); };
+  std::string text = fmt::format("{}: {:.6g} s simulated in {:.2f} s ({:.2g} times real time)\n", scenario.name, s.simulated,
+                                 s.wall_time, s.wall_time > 0 ? s.simulated / s.wall_time : 0);
+  text +=
+      line("engine", fmt::format("{} ({}), step {} s", scenario.physics.engine->name,
+                                 scenario.physics.engine->integrators[static_cast<std::size_t>(scenario.physics.integrator)],
+                                 scenario.physics.step));
+  text += line("robot", fmt::format("{} modules, {} bodies, {} joints, {} degrees of freedom, {:.3f} kg", robot.modules.size(),
+                                    robot.bodies.size(), robot.joints.size(), robot.dof(scenario.base), robot.mass));
+  text += line("distance", fmt::format("{:.4f} m (x {:+.4f}, y {:+.4f}), heading change {:+.3f} rad", s.distance,
+                                       s.displacement_x, s.displacement_y, s.heading_change));
+  text += line("speed", fmt::format("{:.4f} m/s over a path of {:.4f} m", s.speed, s.path_length));
+  text += line("limit cycle", s.limit_cycle.found
+                                  ? fmt::format("from t = {:.2f} s, period {:.4f} s, repeats to {}", s.limit_cycle.from,
+                                                s.limit_cycle.period, percent(s.limit_cycle.error))
+                                  : std::string("none found"));
+  if (scenario.actuator.entry != nullptr && !r.joints.empty()) {
+    text += line("transport", fmt::format("cost {:.3g} electrical, {:.3g} mechanical (J per N of weight and m)",
+                                          s.cost_electrical, s.cost_mechanical));
+    const JointFigures& f = r.joints[s.most_loaded];
+    text += line("most loaded",
+                 fmt::format("joint {} ({}): torque peak {:.3f} N m, RMS {:.3f} N m; saturated {} voltage, {} current",
+                             s.most_loaded, robot.joints[s.most_loaded].name, f.torque_peak, f.torque_rms,
+                             percent(f.saturated_voltage), percent(f.saturated_current)));
+  }
+  for (std::size_t j = 0; j < r.joints.size(); ++j) {
+    const JointFigures& f = r.joints[j];
+    if (f.setpoint_outside > 0 || f.range_share > 0) {
+      text +=
+          line("range", fmt::format("joint {} ({}): outside its range {} of the time, worst by {:.3g} rad; its set point {}", j,
+                                    robot.joints[j].name, percent(f.range_share), f.range_worst, percent(f.setpoint_outside)));
+    }
+  }
+  text += line("stability", s.stability_source.empty()
+                                ? std::string("nothing damps: the step has no such limit")
+                                : fmt::format("h lambda at most {:.2f} at t = {:.2f} s ({}); above 1 in {} of the ticks",
+                                              s.stability_max, r.worst_time, s.stability_source, percent(s.stability_share)));
+  return text;
+}
+
+std::string stability_warning(const Summary& s, const Scenario& scenario, const RunRecord& r) {
+  if (!(s.stability_share > 0.01)) return "";
+  const auto contacts = contact_elements(*scenario.robot, static_cast<ContactSet>(scenario.contact.on));
+  return fmt::format("in {} of the control ticks {}", percent(s.stability_share),
+                     step_advice(scenario, contacts, r.worst, fmt::format("at t = {:.2f} s", r.worst_time)));
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,39 @@
+// The figures of a run: summary.json and what the terminal shows.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/scenario/scenario.h"
+#include "core/simulation/simulation.h"
+#include "report/limit_cycle.h"
+
+namespace gaitlab {
+
+/// Definitions of every figure: docs/conventions.md. SI.
+struct Summary {
+  double wall_time = 0;  ///< s; the only figure that two equal runs do not share
+  std::string build;
+  double simulated = 0;                             ///< s, less than the duration where the run stopped early
+  double displacement_x = 0, displacement_y = 0;    ///< of the centre of mass, m
+  double distance = 0, speed = 0, path_length = 0;  ///< m, m/s, m
+  double heading_change = 0;                        ///< rad, of the base's x axis about world z
+  double cost_electrical = 0, cost_mechanical = 0;  ///< J / (N m); 0 where the robot has not moved or weighs nothing
+  LimitCycle limit_cycle;
+  double stability_max = 0, stability_share = 0;  ///< h lambda; share of control ticks above 1
+  std::string stability_source;
+  std::size_t most_loaded = 0;  ///< joint of the largest torque peak
+  std::string trace_hash;
+};
+
+Summary summarise(const Scenario& scenario, const RunRecord& record, double wall_time);
+
+/// The text of summary.json.
+std::string to_json(const Summary& summary, const Scenario& scenario, const RunRecord& record);
+
+/// What `gaitlab run` prints.
+std::string to_text(const Summary& summary, const Scenario& scenario, const RunRecord& record);
+
+/// The warning about a step that was too long for more than 1 % of the control ticks, or "".
+std::string stability_warning(const Summary& summary, const Scenario& scenario, const RunRecord& record);
+
+}  // namespace gaitlab
