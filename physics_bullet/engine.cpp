@@ -6,6 +6,7 @@
 #include "core/errors.h"
 #include "core/laws/hinge_stop.h"
 #include "core/simulation/stability.h"
+#include "core/simulation/support.h"
 #include "physics_bullet/multibody.h"
 
 namespace gaitlab {
@@ -127,22 +128,20 @@ class BulletPlant final : public Plant, private InverseMass {
     if (settings_.actuator != nullptr) settings_.actuator->effort(command, state.qd, torque_, slope_);
   }
 
-  /// Slopes of a robot that stands: the weight in equal parts on the lowest elements, at the penetration that carries it.
+  /// Slopes of a robot that stands: the weight in equal parts on its support, at the penetration that carries it.
   void stand() {
     if (settings_.ground.kind == Ground::Kind::none) return;
-    double lowest = 0;
-    bool first = true;
-    body_.for_each_element(kinematics_, [&](std::size_t, std::size_t, const Vec3& centre, double radius) {
-      const double gap = -settings_.ground.query(centre, radius).penetration;
-      lowest = first ? gap : std::min(lowest, gap);
-      first = false;
-    });
-    constexpr double kBand = 1e-3;  // m
+    std::vector<Support> elements;
+    std::vector<std::size_t> links(settings_.contacts.size());
     body_.for_each_element(kinematics_, [&](std::size_t element, std::size_t link, const Vec3& centre, double radius) {
       const Ground::Touch touch = settings_.ground.query(centre, radius);
-      if (-touch.penetration > lowest + kBand) return;
-      monitor_.contacts.push_back({element, link, touch.point, touch.normal, Vec3::Zero(), touch.friction, 0});
+      elements.push_back({element, -touch.penetration, touch.point});
+      links[element] = link;
     });
+    for (const Support& s : standing_on(std::move(elements), sums(robot_, kinematics_, settings_.gravity).com)) {
+      const Ground::Touch touch = settings_.ground.query(s.point, 0);
+      monitor_.contacts.push_back({s.element, links[s.element], s.point, touch.normal, Vec3::Zero(), touch.friction, 0});
+    }
     if (monitor_.contacts.empty()) return;
     const double load = robot_.mass * settings_.gravity.norm() / static_cast<double>(monitor_.contacts.size());
     const double sink = load / settings_.law.kn;  // k = 1; for other exponents an estimate, monitored from the first tick on

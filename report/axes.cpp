@@ -12,6 +12,7 @@ namespace {
 constexpr double kSlack = 1e-9;  // of a step: a tick that rounding moved out of the range still counts
 constexpr double kTouch = 0.01;  // of a step: a peak may stick out so little rather than cost a whole step of paper
 constexpr double kAnyWaste = 1e300;
+constexpr double kHuge = 1e300;
 
 // A range that is empty or not finite, made drawable.
 void widen(double& lo, double& hi) {
@@ -19,6 +20,8 @@ void widen(double& lo, double& hi) {
     lo = -1;
     hi = 1;
   }
+  lo = std::clamp(lo, -kHuge, kHuge);  // the difference of two doubles may be none
+  hi = std::clamp(hi, -kHuge, kHuge);
   const double size = std::max(std::abs(lo), std::abs(hi));
   if (hi - lo > 1e-9 * size && hi - lo > 1e-12) return;
   const double pad = std::max(0.1 * size, 0.01);
@@ -41,22 +44,27 @@ double nice_step(double least) {
 std::vector<double> Ticks::values() const {
   std::vector<double> values;
   const double first = std::ceil(lo / step - kSlack);
-  const double last = std::floor(hi / step + kSlack);
-  for (double k = first; k <= last; ++k) values.push_back(k * step);
+  const auto count = static_cast<int>(std::floor(hi / step + kSlack) - first) + 1;
+  values.reserve(static_cast<std::size_t>(std::max(0, count)));
+  for (int k = 0; k < count; ++k) values.push_back((first + k) * step);
   return values;
 }
 
 std::string Ticks::label(double value) const {
   if (step >= 1e6 || step < 1e-6 || std::abs(value) >= 1e7) return fmt::format("{:.4g}", value);
   int decimals = 0;
-  for (double s = step; s < 1 - kSlack; s *= 10) ++decimals;
+  double scaled = step;
+  while (scaled < 1 - kSlack) {
+    scaled *= 10;
+    ++decimals;
+  }
   const std::string text = fmt::format("{:.{}f}", value, decimals);
   return text.find_first_not_of("-0.") == std::string::npos && text.front() == '-' ? text.substr(1) : text;
 }
 
 Ticks ticks_around(double lo, double hi, int count) {
   widen(lo, hi);
-  const double step = nice_step((hi - lo) / count);
+  const double step = nice_step((hi - lo) / count * (1 - kTouch));
   return {std::floor(lo / step + kTouch) * step, std::ceil(hi / step - kTouch) * step, step};
 }
 
@@ -77,8 +85,9 @@ TwinTicks twin_ticks(double a_lo, double a_hi, double b_lo, double b_hi) {
       const double below = std::round(-a.lo / a.step) + (a_lo < 0 || b_lo < 0 ? more : 0);
       const double above = std::round(a.hi / a.step) + (a_hi > 0 || b_hi > 0 ? more : 0);
       if (below + above > 10 || below + above < 3 || (b_lo < 0 && below < 1) || (b_hi > 0 && above < 1)) continue;
-      const double step = nice_step(std::max({b_lo < 0 ? -b_lo / below : 0, b_hi > 0 ? b_hi / above : 0, 1e-12}));
       const double steps = below + above;
+      const double least = std::max({b_lo < 0 ? -b_lo / below : 0, b_hi > 0 ? b_hi / above : 0, 1e-12});
+      const double step = nice_step(least * (1 - kTouch / steps));
       const double waste = steps * a.step / (a_hi - a_lo) * steps * step / (b_hi - b_lo);
       if (waste >= least_waste * (1 - kSlack)) continue;
       least_waste = waste;

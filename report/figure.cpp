@@ -252,7 +252,7 @@ class Views {
     for (const Point& contact : view.contacts)
       svg.circle(paper(contact), 2.6, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 0.8});
     if (view.joint) arrow(svg, paper(*view.joint));
-    svg.text({kLeft - 10, z(z.lo) + 4}, fmt::format("{:.4g} s", view.time), {.anchor = Anchor::end, .bold = true});
+    svg.text({kLeft - 10, z(z.lo) + 4}, fmt::format("{:.6g} s", view.time), {.anchor = Anchor::end, .bold = true});
   }
 
   static void arrow(Svg& svg, Point tip) {

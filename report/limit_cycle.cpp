@@ -180,7 +180,7 @@ class Between {
 class Repetition {
  public:
   Repetition(const Columns& columns, double period)
-      : columns_(columns), later_(period), window_(static_cast<std::size_t>(period + 0.5)) {
+      : columns_(columns), later_(period), window_(static_cast<std::size_t>(std::lround(period))) {
     const std::size_t rows = columns[0].size();
     if (later_.reach() + window_ > rows) return;
     starts_ = rows - later_.reach() - window_ + 1;

@@ -55,8 +55,9 @@ std::string run_figure(const Scenario& scenario, const RunRecord& r, const Summa
   input.ground = scenario.ground.kind != Ground::Kind::none;
   const std::size_t ticks = r.com_x.size();
   if (n > 0) {
-    input.joint = scenario.robot->joints[joint].name;
-    for (std::size_t k = 0; k < ticks; ++k) input.time.push_back(static_cast<double>(k) * scenario.trace.period);
+    input.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
+    for (std::size_t k = 0; k < ticks; ++k)
+      input.time.push_back(std::min(static_cast<double>(k) * scenario.trace.period, summary.simulated));
     input.angle = series(r.angles, n, joint);
     input.setpoint = series(r.setpoints, n, joint);
     if (scenario.actuator.entry != nullptr) input.torque = series(r.torques, n, joint);

@@ -113,6 +113,7 @@ std::vector<Outline> side_view(const Robot& robot, const Kinematics& kinematics)
   std::stable_sort(seen.begin(), seen.end(),
                    [](const Seen& a, const Seen& b) { return std::tie(a.mean_y, a.front_y) > std::tie(b.mean_y, b.front_y); });
   std::vector<Outline> outlines;
+  outlines.reserve(seen.size());
   for (Seen& each : seen) outlines.push_back(std::move(each.outline));
   return outlines;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -46,12 +47,14 @@ void transport(const Scenario& scenario, const RunRecord& r, Summary& s) {
   s.cost_mechanical = mechanical / work;
 }
 
-LimitCycle cycle(const Scenario& scenario, const RunRecord& r) {
+LimitCycle cycle(const Scenario& scenario, const RunRecord& r, const Summary& s) {
   const std::size_t n = scenario.robot->joints.size();
   if (n == 0) return {};
+  // The last row may lie off the grid of trace periods.
+  const auto ticks = static_cast<std::size_t>(std::floor(s.simulated / scenario.trace.period + 1e-9)) + 1;
   std::vector<double> both;
   both.reserve(r.angles.size() * 2);
-  for (std::size_t at = 0; at < r.angles.size(); at += n) {
+  for (std::size_t at = 0; at < std::min(ticks * n, r.angles.size()); at += n) {
     both.insert(both.end(), r.angles.begin() + static_cast<std::ptrdiff_t>(at),
                 r.angles.begin() + static_cast<std::ptrdiff_t>(at + n));
     both.insert(both.end(), r.setpoints.begin() + static_cast<std::ptrdiff_t>(at),
@@ -71,7 +74,7 @@ Summary summarise(const Scenario& scenario, const RunRecord& r, double wall_time
   s.simulated = static_cast<double>(r.steps) * scenario.physics.step;
   travel(r, s);
   transport(scenario, r, s);
-  s.limit_cycle = cycle(scenario, r);
+  s.limit_cycle = cycle(scenario, r, s);
   s.stability_max = scenario.physics.step * r.worst.rate;
   s.stability_share = r.ticks > 0 ? static_cast<double>(r.ticks_above_1) / static_cast<double>(r.ticks) : 0;
   const auto contacts = contact_elements(*scenario.robot, static_cast<ContactSet>(scenario.contact.on));

@@ -51,27 +51,34 @@ std::size_t character(std::string_view text) {
   return overlong || forbidden ? 0 : length;
 }
 
+// For a character that cannot stand in XML: white space stays white space.
+std::string_view replacement(char c) { return c == '\t' || c == '\n' || c == '\r' ? " " : "\xEF\xBF\xBD"; }
+
+// For the ASCII character that starts `text`.
+std::string_view entity(std::string_view text) {
+  switch (text.front()) {
+    case '&':
+      return "&amp;";
+    case '<':
+      return "&lt;";
+    case '>':
+      return "&gt;";
+    case '"':
+      return "&quot;";
+    case '\'':
+      return "&#39;";
+    default:
+      return text.substr(0, 1);
+  }
+}
+
 }  // namespace
 
 std::string xml_escaped(std::string_view text) {
   std::string escaped;
   while (!text.empty()) {
     const std::size_t length = character(text);
-    const char c = text.front();
-    if (length == 0)
-      escaped += c == '\t' || c == '\n' ? " " : "\xEF\xBF\xBD";
-    else if (c == '&')
-      escaped += "&amp;";
-    else if (c == '<')
-      escaped += "&lt;";
-    else if (c == '>')
-      escaped += "&gt;";
-    else if (c == '"')
-      escaped += "&quot;";
-    else if (c == '\'')
-      escaped += "&#39;";
-    else
-      escaped += text.substr(0, length);
+    escaped += length == 0 ? replacement(text.front()) : length == 1 ? entity(text) : text.substr(0, length);
     text.remove_prefix(std::max<std::size_t>(1, length));
   }
   return escaped;

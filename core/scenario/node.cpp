@@ -134,6 +134,10 @@ class TreeBuilder final : public YAML::EventHandler {
   /// A duplicate key's value is dropped: the problem is noted, and reading goes on to find others.
   void add_item(Node node) {
     Open& top = stack_.back();
+    const bool in_map = top.node.kind == Node::Kind::map;
+    // yaml-cpp places a value that is absent where the next text stands.
+    const bool absent = node.kind == Node::Kind::null && in_map && !top.duplicate;
+    if (absent && node.place.line != top.node.keys.back().second.line) node.place = top.node.keys.back().second;
     if (!top.duplicate) top.node.items.push_back(std::move(node));
     top.has_key = top.duplicate = false;
   }

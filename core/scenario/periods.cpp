@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "core/scenario/value.h"
@@ -22,6 +23,13 @@ double common_divisor(double a, double b) {
     if (b <= a * 1e-7) return a;
   }
   return 0;
+}
+
+/// To 12 digits, far within the tolerance: 0.015 is offered rather than 0.015000000000000001.
+double rounded(double value) {
+  const std::string text = fmt::format("{:.12g}", value);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
 }
 
 std::size_t digits(double value) {
@@ -45,7 +53,7 @@ double fitting(const std::vector<double>& periods, double divisor, double first,
   const double last = towards > 0 ? first * 2 : std::max(1.0, std::floor(first / 2));
   double nearest = 0;
   for (double k = first; (last - k) * towards >= 0 && std::abs(k - first) < 5000; k += towards) {
-    const double step = divisor / k;
+    const double step = rounded(divisor / k);
     if (!fits(step)) continue;
     if (digits(step) <= 4) return step;
     if (nearest == 0) nearest = step;
@@ -84,8 +92,7 @@ std::vector<double> fitting_steps(const std::vector<double>& periods, double ste
 std::vector<double> fitting_periods(double period, double step) {
   std::vector<double> out;
   for (const double count : {std::floor(period / step), std::ceil(period / step)}) {
-    // Rounded to 1e-12 s, so that 3 * 0.005 is offered as 0.015 and not as 0.015000000000000001.
-    if (count >= 1) out.push_back(std::round(count * step * 1e12) / 1e12);
+    if (count >= 1) out.push_back(rounded(count * step));
   }
   out.erase(std::remove_if(out.begin(), out.end(), [&](double p) { return whole_multiple(p, step) == 0; }), out.end());
   return out;

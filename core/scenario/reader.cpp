@@ -34,7 +34,7 @@ Reader::Reader(const Place& place, Problems& problems, JointNames joints)
     : empty_(empty_map(place)), map_(&empty_), problems_(problems), joints_(joints) {}
 
 const Node* Reader::take(const char* key) {
-  known_.emplace_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
   return map_->find(key);
 }
 
@@ -198,7 +198,12 @@ std::int64_t Reader::joint_number(const std::string& name, const Place& place) {
 
 void Reader::joint(const char* key, std::int64_t& value, const char*) {
   const Node* node = take(key);
-  if (node == nullptr) return;
+  if (node == nullptr) {
+    // A plugin's default joint may be one that this robot has not; -1 means none.
+    const bool beyond = joints_ != nullptr && value >= 0 && static_cast<std::size_t>(value) >= joints_->size();
+    if (beyond && !tolerant_) problems_.add(map_->place, "missing key " + in_quotes(key));
+    return;
+  }
   if (node->kind != Node::Kind::scalar) {
     problems_.add(node->place, fmt::format("{} is {}; expected a joint's name or number", key, found(*node)));
     return;

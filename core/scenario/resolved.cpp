@@ -74,7 +74,11 @@ std::string explain_scenario(const Catalog& catalog) {
   for (PluginFields* plugin : {&sections.actuator, &sections.controller, &sections.cpg}) plugin->own_keys = false;
   sections.fields(explainer);
   explainer.row("sensors", "", "[]", "[]", "There are no sensor types yet.");
-  return table(explainer.rows());
+  std::vector<KeyRow> rows = explainer.rows();
+  for (KeyRow& row : rows) {
+    if (row.key == "duration") row.preset.clear();
+  }
+  return table(rows);
 }
 
 std::string explain_plugin(const Entry& entry) {

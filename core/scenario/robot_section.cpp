@@ -191,9 +191,10 @@ RobotParts read_robot(Reader& reader, const Place& place, const std::string& fol
   const std::vector<Dock> docks = read_connections(reader, folder, problems);
   // Modules are counted by the rows; without them every number of a module would look wrong.
   const bool counted = problems.size() == before;
+  Node reference{Node::Kind::scalar, place};
+  reference.text = kDefaultType;
   const Node* modules = reader.take("modules");
-  reader.require({"modules"});
-  if (modules == nullptr) return parts;
+  if (modules == nullptr) modules = &reference;
   if (!counted) {
     if (modules->kind == Node::Kind::scalar) library.find(*modules);
     return parts;

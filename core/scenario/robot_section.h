@@ -9,6 +9,8 @@
 
 namespace gaitlab {
 
+inline constexpr const char* kDefaultType = "mtran";  ///< of the modules, where the scenario names none
+
 /// What `modules`, `types`, `build` and `docks` say. robot == nullptr: there were problems.
 struct RobotParts {
   std::shared_ptr<const Robot> robot = {};

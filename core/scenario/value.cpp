@@ -142,7 +142,7 @@ std::string range_text(const Spec& spec) {
   const bool high = !unbounded(spec.max);
   const bool positive = spec.min == std::numeric_limits<double>::denorm_min();
   const std::string unit = spec.unit;
-  if (positive && high) return "above 0 to " + with_unit(spec.max, unit);
+  if (positive && high) return "more than 0 and up to " + with_unit(spec.max, unit);
   if (positive) return "more than " + with_unit(0, unit);
   if (low && high) return number_text(spec.min) + " to " + with_unit(spec.max, unit);
   if (low) return "at least " + with_unit(spec.min, unit);

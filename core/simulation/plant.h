@@ -66,8 +66,8 @@ class Plant {
   [[nodiscard]] virtual In applied() const = 0;
   /// Forces of every contact element at the present state.
   virtual void contacts(std::size_t lane, std::span<ContactSample> out) const = 0;
-  /// At the present state under these commands. standing: the weight rests in equal parts on the elements within 1 mm of the
-  /// lowest one, whatever their forces now.
+  /// At the present state under these commands. standing: the weight rests in equal parts on the robot's support (support.h),
+  /// whatever the contact forces are now.
   [[nodiscard]] virtual Stability stability(std::size_t lane, In command, bool standing) = 0;
 };
 

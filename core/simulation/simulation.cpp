@@ -199,7 +199,7 @@ bool Simulation::run(const std::function<void(double)>& progress, const std::ato
       progress(static_cast<double>(step_number()) / static_cast<double>(steps_));
     if (stop != nullptr && stop->load(std::memory_order_relaxed)) return false;
   }
-  if (trace_tick()) record();
+  record();  // t = duration is a row even where it is no multiple of the trace period
   return true;
 }
 

@@ -27,10 +27,11 @@ int cannot_write(const fs::path& folder) {
 
 RunFolder::RunFolder(const std::optional<fs::path>& out, const std::string& name) {
   try {
-    if (out)
+    if (out) {
       use(*out);
-    else
+    } else {
       number(name);
+    }
   } catch (...) {
     remove_made();  // a constructor that throws has no destructor
     throw;
@@ -94,10 +95,11 @@ void RunFolder::number(const std::string& name) {
     int error = make_parents(path_);
     if (error == 0) error = make(path_);
     if (error == 0) return;
-    if (error == EEXIST)
+    if (error == EEXIST) {
       ++k;
-    else if (error != ENOENT || ++vanished > kPatience)
+    } else if (error != ENOENT || ++vanished > kPatience) {
       throw InputError(Place{path_.string()}, "cannot be made: " + reason(error));
+    }
   }
 }
 

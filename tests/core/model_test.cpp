@@ -33,8 +33,9 @@ std::string error_of(const std::vector<std::array<int, 5>>& rows) {
   return "no error";
 }
 
-const std::vector<std::array<int, 5>> kHexapod = {{1, 1, 4, 0, 1}, {1, 2, 4, 1, 3}, {1, 3, 4, 2, 1}, {1, 4, 4, 3, 3}, {0, 5, 3, 0, 3},
-                                                  {2, 6, 5, 0, 1}, {0, 7, 3, 2, 3}, {2, 8, 5, 2, 1}, {0, 9, 3, 4, 3}, {2, 10, 5, 4, 1}};
+const std::vector<std::array<int, 5>> kHexapod = {{1, 1, 4, 0, 1}, {1, 2, 4, 1, 3}, {1, 3, 4, 2, 1}, {1, 4, 4, 3, 3},
+                                                  {0, 5, 3, 0, 3}, {2, 6, 5, 0, 1}, {0, 7, 3, 2, 3}, {2, 8, 5, 2, 1},
+                                                  {0, 9, 3, 4, 3}, {2, 10, 5, 4, 1}};
 
 constexpr double kRounding = 1e-15;  // m: a few sums of numbers below 1
 
@@ -62,7 +63,8 @@ TEST(Mtran, MassSizeAndInertiaAreThoseOfTheShape) {
   const double xb = -0.5 * r;
   const double xc = 4 * r / (3 * pi);
   const double com = (mb * xb + mc * xc) / 0.16;
-  const double about_y = mb * (r * r + w * w) / 12 + mb * (xb - com) * (xb - com) + mc * (r * r / 2 - xc * xc) + mc * (xc - com) * (xc - com);
+  const double about_y =
+      mb * (r * r + w * w) / 12 + mb * (xb - com) * (xb - com) + mc * (r * r / 2 - xc * xc) + mc * (xc - com) * (xc - com);
   const BodyType& active = mtran().bodies[0];
   EXPECT_NEAR(active.com.x(), -0.0325 + com, 1e-17);
   EXPECT_NEAR(active.inertia(1, 1), about_y, 1e-18);
@@ -159,9 +161,10 @@ TEST(Fusion, EqualsTheSumOfTheBodies) {
 }
 
 TEST(DockingErrors, NameTheRowTheMistakeAndARemedy) {
-  EXPECT_EQ(error_of({{1, 1, 1, 0, 0}}),
-            "robot.dat:1:1: error: wrong gender: face 1 of module 1 and face 1 of module 0 are both active; active docks on passive, "
-            "so module 1 could take face 3, 4, 5");
+  EXPECT_EQ(
+      error_of({{1, 1, 1, 0, 0}}),
+      "robot.dat:1:1: error: wrong gender: face 1 of module 1 and face 1 of module 0 are both active; active docks on passive, "
+      "so module 1 could take face 3, 4, 5");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {0, 2, 4, 0, 0}}),
             "robot.dat:2:1: error: face 4 of module 0 is used twice: a face docks once\n"
             "robot.dat:1:1: note: it is docked here already");
@@ -184,8 +187,9 @@ TEST(DockingErrors, NameTheRowTheMistakeAndARemedy) {
 }
 
 TEST(DockingErrors, OverlappingCells) {
-  // Four modules bent round by side docks until the last one comes back into the first one's cell.
-  EXPECT_EQ(error_of({{0, 1, 3, 0, 0}, {1, 2, 3, 1, 0}, {4, 3, 0, 2, 0}}), "?");
+  // Modules bent round by side docks until the last one comes back into the first one's cell.
+  EXPECT_EQ(error_of({{1, 1, 3, 0, 0}, {1, 2, 5, 1, 0}, {1, 3, 5, 2, 0}, {1, 4, 5, 3, 0}}),
+            "robot.dat:4:1: error: overlapping cells: m0/active and m4/active are in the same lattice cell at zero angles");
 }
 
 }  // namespace

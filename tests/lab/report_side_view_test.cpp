@@ -53,8 +53,8 @@ TEST(SideView, ShapesHaveTheirAreas) {
 }
 
 TEST(SideView, HalfCylindersBulgeForward) {
-  for (const Point& point :
-       seen({Shape::Kind::half_cylinder, {}, {0.1, 0.2, 0}}, {Mat3::Identity(), {1, 0, 0}}).polygons.at(0)) {
+  const Outline outline = seen({Shape::Kind::half_cylinder, {}, {0.1, 0.2, 0}}, {Mat3::Identity(), {1, 0, 0}});
+  for (const Point& point : outline.polygons.at(0)) {
     EXPECT_GE(point.x, 1 - 1e-12);
     EXPECT_LE(point.x, 1.1 + 1e-12);
   }

@@ -1,0 +1,105 @@
+// Shared by the tests of the whole program: scenarios from text, runs in memory, the program as a user calls it.
+#pragma once
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "app/app.h"
+#include "core/simulation/simulation.h"
+
+namespace gaitlab::test {
+
+inline const std::string kScenarios = std::string(GAITLAB_SOURCE_DIR) + "/scenarios/";
+
+/// A folder of its own, removed at the end.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "gaitlab-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+    return *this / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// Lives as long as the scenarios made from it.
+inline Catalog& catalog() {
+  static Catalog all = app::standard_catalog();
+  return all;
+}
+
+inline Scenario shipped(const std::string& name, const std::vector<std::string>& sets = {}) {
+  return read_scenario(kScenarios + name, sets, catalog());
+}
+
+/// A scenario from text, with the shipped module types.
+inline Scenario scenario(const std::string& text) {
+  const Folder folder;
+  std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
+  std::filesystem::create_directory_symlink(kScenarios + "robots", folder / "robots");
+  return read_scenario(folder.write("test.yaml", text), {}, catalog());
+}
+
+inline RunRecord run(const Scenario& scenario) {
+  Simulation simulation({&scenario, 1});
+  simulation.run();
+  return simulation.take_record(0);
+}
+
+/// A column by name; a missing one is a test failure.
+class Table {
+ public:
+  explicit Table(const Trace& trace) : trace_(trace) {}
+  [[nodiscard]] double operator()(double t, const std::string& name) const {
+    const double period = trace_.at(1, 0) - trace_.at(0, 0);
+    return at(static_cast<std::size_t>(std::llround(t / period)), name);
+  }
+  [[nodiscard]] double at(std::size_t row, const std::string& name) const {
+    const std::size_t column = trace_.find(name);
+    if (column == trace_.columns.size()) throw std::out_of_range("no column " + name);
+    return trace_.at(row, column);
+  }
+
+ private:
+  const Trace& trace_;
+};
+
+struct Result {
+  int code = 0;
+  std::string out, err;
+};
+
+/// The program as a user calls it, in `folder`.
+inline Result gaitlab(const std::string& arguments, const std::string& folder) {
+  const Folder capture;
+  const std::string command = "cd '" + folder + "' && '" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' " + arguments +
+                              " >'" + (capture / "out") + "' 2>'" + (capture / "err") + "'";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(capture / "out"), read(capture / "err")};
+}
+
+}  // namespace gaitlab::test
