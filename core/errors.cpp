@@ -60,6 +60,13 @@ std::string nearest(const std::string& found, const std::vector<std::string>& kn
       best_distance = d;
     }
   }
+  if (!best.empty() || found.size() < 3) return best;
+  // An abbreviation is no typing error: the one name that begins with it.
+  for (const std::string& name : known) {
+    if (!name.starts_with(found)) continue;
+    if (!best.empty()) return {};
+    best = name;
+  }
   return best;
 }
 

@@ -56,7 +56,8 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The known name nearest to `found` (edit distance, at most a third of its length), or empty.
+/// The known name nearest to `found` (edit distance, at most a third of its length), or the only one that begins with it, or
+/// empty.
 std::string nearest(const std::string& found, const std::vector<std::string>& known);
 
 }  // namespace gaitlab

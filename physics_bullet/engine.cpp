@@ -168,15 +168,15 @@ class BulletPlant final : public Plant, private InverseMass {
 }  // namespace
 
 void register_bullet(Catalog& catalog) {
-  catalog.add(
-      Engine{"bullet",
-             "The robot as one btMultiBody; accelerations from Bullet's articulated-body algorithm; penalty contacts on the\n"
-             "points and spheres of its compound shapes; explicit integration, every step at most 1 / lambda long\n"
-             "(lambda: largest eigenvalue of M^-1 (B + sum J^T G J)).",
-             {"semi_implicit", "rk4"},
-             2.5e-5,
-             false,
-             [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<BulletPlant>(s); }});
+  catalog.add(Engine{
+      "bullet",
+      "One btMultiBody, Bullet's articulated-body algorithm, penalty contacts, explicit integration.\n\n"
+      "Contacts act on the points and spheres of the compound shapes of the multibody. Every step must be at most 1 / lambda\n"
+      "long (lambda: largest eigenvalue of M^-1 (B + sum J^T G J), checked at the start and watched at every control tick).",
+      {"semi_implicit", "rk4"},
+      2.5e-5,
+      false,
+      [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<BulletPlant>(s); }});
 }
 
 std::string bullet_version() {

@@ -281,6 +281,7 @@ class ScenarioReader {
     const auto controller = sections.actuator.none ? nullptr : make<Controller>(sections.controller, robot, "controller");
     const auto cpg = sections.has_cpg ? make<Cpg>(sections.cpg, robot, "cpg") : nullptr;
     if (actuator && controller) check_units(*actuator, *controller);
+    if (actuator) check_rotors(*actuator);
     if (cpg && !cpg->note().empty()) scenario_.notes.push_back("cpg: " + cpg->note());
   }
 
@@ -294,6 +295,22 @@ class ScenarioReader {
         fmt::format("controller '{}' commands {}, but actuator '{}' takes {}", giver, command, taker, actuator.command_unit()));
     problem.notes.emplace_back(place_of(root_, "actuator", "type"),
                                fmt::format("actuator '{}' takes {}", taker, actuator.command_unit()));
+  }
+
+  /// An engine that cannot add rotor inertia refuses it and names the ones that can.
+  void check_rotors(const Actuator& actuator) {
+    const In inertia = actuator.reflected_inertia();
+    const Engine* engine = scenario_.physics.engine;
+    const bool some = std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; });
+    if (!some || engine == nullptr || engine->rotor_inertia) return;
+    std::vector<std::string> able;
+    for (const std::string& name : catalog_.engines()) {
+      if (catalog_.engine(name)->rotor_inertia) able.push_back(name);
+    }
+    problems_.add(place_of(root_, "actuator", "rotor_inertia"),
+                  fmt::format("engine '{}' cannot add rotor inertia; {}", engine->name,
+                              able.empty() ? "no engine of this build can: set it to 0"
+                                           : fmt::format("expected 0, or engine: {}", fmt::join(able, " or "))));
   }
 
   std::string path_, folder_;

@@ -63,13 +63,16 @@ TEST_F(Program, ScenarioErrors) {
   expect_refused_text("gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\nduration: 2\n",
                       "bad.yaml:4:1: error: duplicate key 'duration'\nbad.yaml:3:1: note: it is given here first");
   expect_refused_text("gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\ncontroller: {period: 0.0151}\nphysics: {step: 4e-5}\n",
-                      "PERIOD");
+                      "bad.yaml:4:22: error: control period 0.0151 s is not a whole multiple of the step 4e-05 s (377.5 "
+                      "steps); steps that fit: 2.5e-05, 5e-05; periods that fit: 0.01508, 0.01512");
   expect_refused_text("gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\ncpg: {frequency: .nan}\n",
                       "bad.yaml:4:18: error: frequency is .nan; expected a finite number in Hz");
   expect_refused("missing.yaml", "missing.yaml: error: cannot be read: No such file or directory");
   expect_refused_text("gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\ntrace: {columns: [joint.0.torqe]}\n",
                       "bad.yaml:4:18: error: 'joint.0.torqe' matches no column; did you mean 'joint.0.torque'?");
-  expect_refused_text("gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\nactuator: {rotor_inertia: 1e-8}\n", "ROTOR");
+  expect_refused_text(
+      "gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\nactuator: {rotor_inertia: 1e-8}\n",
+      "bad.yaml:4:27: error: engine 'bullet' cannot add rotor inertia; no engine of this build can: set it to 0");
 }
 
 TEST_F(Program, OutputFolders) {
