@@ -4,8 +4,8 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <functional>
 #include <cstdio>
+#include <functional>
 
 #include "app/app.h"
 #include "core/simulation/simulation.h"
@@ -75,7 +75,8 @@ int run(const RunArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   try {
     const Progress progress(arguments.quiet);
-    if (!simulation.run(std::cref(progress), &interrupted)) failure = fmt::format("interrupted at t = {:.6g} s", simulation.time());
+    if (!simulation.run(std::cref(progress), &interrupted))
+      failure = fmt::format("interrupted at t = {:.6g} s", simulation.time());
   } catch (const SimulationError& error) {
     failure = error.what();
   }

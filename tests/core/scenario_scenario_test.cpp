@@ -124,6 +124,17 @@ TEST_F(ScenarioTest, ModuleTypes) {
             "DIR/s.yaml:2:13: error: unknown key 'defualt' in modules; expected a module's number or default");
 }
 
+TEST_F(ScenarioTest, TheDefaultTypeIsMtran) {
+  EXPECT_EQ(error("robot: {}\nduration: 1\n").find("DIR/s.yaml:1:8: error: no module type 'mtran'; known types: duo"), 0U);
+  folder_.write("modules/mtran.yaml", fakes::kDuo);
+  EXPECT_EQ(read("robot: {}\nduration: 1\n").robot->modules.size(), 1U);
+}
+
+TEST_F(ScenarioTest, ASmallTextAsksForNoHugeRobot) {
+  EXPECT_NE(error("robot: {modules: duo, docks: [[1, 100000, 4, 0, 0]]}\nduration: 1\n").find("gap in the numbering"),
+            std::string::npos);
+}
+
 TEST_F(ScenarioTest, InlineModuleTypes) {
   std::string indented;
   for (const char c : std::string(fakes::kDuo)) indented += c == '\n' ? "\n    " : std::string(1, c);
@@ -189,7 +200,8 @@ TEST_F(ScenarioTest, CommandUnitsMustAgree) {
   EXPECT_EQ(error(kShort + "actuator: {type: torque}\ncontroller: {type: pid}\n"),
             "DIR/s.yaml:4:20: error: controller 'pid' commands V, but actuator 'torque' takes N m\n"
             "DIR/s.yaml:3:18: note: actuator 'torque' takes N m");
-  EXPECT_EQ(error(kShort + "actuator: {type: torque}\n").substr(0, 22), "DIR/s.yaml:1:1: error:");
+  EXPECT_EQ(error(kShort + "actuator: {type: torque}\n"),
+            "DIR/s.yaml:3:18: error: the default controller 'pid' commands V, but actuator 'torque' takes N m");
   EXPECT_EQ(error(kShort + "actuator: {type: torque}\ncontroller: {type: hold}\n"), "no error");
 }
 
