@@ -204,11 +204,7 @@ std::vector<ContactElement> contact_elements(const Robot& robot, ContactSet on) 
 }
 
 RobotInfo info(const Robot& robot) {
-  Kinematics kinematics(robot);
-  RobotState zero;
-  zero.q.assign(robot.joints.size(), 0.0);
-  zero.qd = zero.q;
-  kinematics.update(robot, zero);
+  const Kinematics kinematics = at_zero(robot);
   const auto array = [](const Vec3& v) { return std::array<double, 3>{v.x(), v.y(), v.z()}; };
   RobotInfo result;
   for (const Joint& joint : robot.joints) {
@@ -222,7 +218,7 @@ RobotInfo info(const Robot& robot) {
     const ModuleType& type = robot.types[module.type];
     const Body& root = robot.bodies[module.first_body + type.root];
     const Mat3 R = kinematics.R[root.link] * root.in_link.R;
-    ModuleInfo one{type.name, module.parent, -1, {}, array(kinematics.point(root.link, root.in_link.p)), {}, {}, {}};
+    ModuleInfo one{type.name, module.parent, -1, {}, array(kinematics.point(root.link, root.in_link.p)), {}, {}, {}, {}};
     for (int i = 0; i < 9; ++i) one.rotation[static_cast<std::size_t>(i)] = R(i / 3, i % 3);
     for (const std::size_t joint : module.joints) one.joints.push_back(static_cast<std::int64_t>(joint));
     if (module.parent >= 0) {
@@ -234,6 +230,9 @@ RobotInfo info(const Robot& robot) {
       result.modules[static_cast<std::size_t>(module.parent)].children.push_back(static_cast<std::int64_t>(m));
     }
     result.modules.push_back(std::move(one));
+  }
+  for (const ContactElement& foot : contact_elements(robot, ContactSet::feet)) {
+    result.modules[robot.bodies[foot.body].module].feet.push_back(array(kinematics.point(foot.link, foot.centre)));
   }
   return result;
 }

@@ -162,11 +162,7 @@ void check_docks(const std::vector<ModuleType>& types, const std::vector<std::si
 }
 
 void check_cells(const Robot& robot) {
-  Kinematics kinematics(robot);
-  RobotState zero;
-  zero.q.assign(robot.joints.size(), 0.0);
-  zero.qd = zero.q;
-  kinematics.update(robot, zero);
+  const Kinematics kinematics = at_zero(robot);
   Problems problems;
   std::map<std::array<long, 3>, const Body*> cells;
   for (const Body& body : robot.bodies) {

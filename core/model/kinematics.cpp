@@ -30,6 +30,15 @@ void Kinematics::update(const Robot& robot, const RobotState& state) {
   }
 }
 
+Kinematics at_zero(const Robot& robot) {
+  RobotState zero;
+  zero.q.assign(robot.joints.size(), 0.0);
+  zero.qd = zero.q;
+  Kinematics kinematics(robot);
+  kinematics.update(robot, zero);
+  return kinematics;
+}
+
 Sums sums(const Robot& robot, const Kinematics& k, const Vec3& gravity) {
   Sums total;
   for (std::size_t i = 0; i < robot.links.size(); ++i) {

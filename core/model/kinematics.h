@@ -32,6 +32,9 @@ struct Kinematics {
   std::vector<Quat> turns;  ///< rotation of each joint at its angle (links 1..), link frame at angle 0 <- link frame
 };
 
+/// All angles and speeds 0, base frame = world.
+Kinematics at_zero(const Robot& robot);
+
 /// Mechanical sums over all links.
 struct Sums {
   Vec3 com = Vec3::Zero(), momentum = Vec3::Zero();

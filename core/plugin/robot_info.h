@@ -25,6 +25,8 @@ struct ModuleInfo {
   std::array<double, 9> rotation = {};    ///< module axes in the base frame, row major
   std::vector<std::int64_t> joints = {};  ///< from the reference body outwards
   std::vector<std::int64_t> children = {};
+  std::vector<std::array<double, 3>> feet =
+      {};  ///< its foot contact points, m, base frame, all angles zero; without children only
 };
 
 /// A robot as a tree of modules and joints, with its geometry at zero angles.

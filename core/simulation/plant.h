@@ -34,7 +34,7 @@ struct Stability {
   std::size_t index = 0;  ///< joint, or contact element
 };
 
-/// World force on the robot at a contact element, N, and its penetration, m (<= 0: no contact).
+/// World force on the robot at a contact element, N, and its penetration, m; both 0 without contact.
 struct ContactSample {
   Vec3 force = Vec3::Zero();
   double fn = 0, penetration = 0;

@@ -94,7 +94,7 @@ void Probes::add_contacts(const std::vector<ContactElement>& contacts) {
     const std::string of = " of contact element " + contacts[c].name;
     const std::string name = fmt::format("contact.{}.", c);
     add(name + "fn", "N", "normal force" + of, [c](const Sample& s) { return s.contacts[c].fn; });
-    add(name + "penetration", "m", "penetration (<= 0: no contact)" + of,
+    add(name + "penetration", "m", "penetration, 0 without contact," + of,
         [c](const Sample& s) { return s.contacts[c].penetration; });
     add_vector(name + "f", "N", "force on the robot, world axes," + of, [c](const Sample& s) { return s.contacts[c].force; });
   }

@@ -102,11 +102,7 @@ TEST(Docking, FeetOfTheHexapodAreBelowTheSpine) {
   const Robot robot = robot_of(kHexapod);
   const auto feet = contact_elements(robot, ContactSet::feet);
   ASSERT_EQ(feet.size(), 24U);
-  Kinematics k(robot);
-  RobotState zero;
-  zero.q.assign(22, 0.0);
-  zero.qd = zero.q;
-  k.update(robot, zero);
+  const Kinematics k = at_zero(robot);
   for (const ContactElement& foot : feet) EXPECT_NEAR(k.point(foot.link, foot.centre).z(), -0.0975, kRounding) << foot.name;
   EXPECT_EQ(feet.front().name, "m5/passive/p0");
 }

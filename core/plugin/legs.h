@@ -1,0 +1,82 @@
+// The legs of a robot, found from how it is assembled. Standard library only.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/plugin/robot_info.h"
+
+namespace gaitlab {
+
+/// A chain of modules without branches that ends in feet and is docked sideways (normal within 45 degrees of +-y) to a module
+/// of the spine. Its joints that turn about y, by number; a positive `sign` means that a positive angle is a right-hand turn
+/// about +y.
+struct Leg {
+  std::vector<std::int64_t> modules;  ///< from the spine outwards
+  std::int64_t hip = -1, ankle = -1;  ///< first and last joint about y
+  double hip_sign = 1, ankle_sign = 1;
+  bool left = false;      ///< on the +y side
+  double x = 0;           ///< of the hip, m, base frame: larger is further to the front
+  double length = 0;      ///< hip to ankle at zero angles, along -z, m
+  double sole_depth = 0;  ///< ankle to the lowest foot point, m
+  double sole_reach = 0;  ///< ankle to the foremost and rearmost lowest foot point, along x, m
+};
+
+namespace detail {
+
+inline bool about_y(const JointInfo& joint) { return std::abs(joint.axis[1]) > 0.9; }
+
+inline void measure(const RobotInfo& robot, Leg& leg) {
+  for (const std::int64_t m : leg.modules) {
+    for (const std::int64_t j : robot.modules[static_cast<std::size_t>(m)].joints) {
+      const JointInfo& joint = robot.joints[static_cast<std::size_t>(j)];
+      if (!about_y(joint)) continue;
+      if (leg.hip < 0) {
+        leg.hip = j;
+        leg.hip_sign = joint.axis[1] > 0 ? 1 : -1;
+      }
+      leg.ankle = j;
+      leg.ankle_sign = joint.axis[1] > 0 ? 1 : -1;
+    }
+  }
+  if (leg.hip < 0 || leg.ankle == leg.hip) return;
+  const auto& hip = robot.joints[static_cast<std::size_t>(leg.hip)].origin;
+  const auto& ankle = robot.joints[static_cast<std::size_t>(leg.ankle)].origin;
+  leg.x = hip[0];
+  leg.left = hip[1] > 0;
+  leg.length = hip[2] - ankle[2];
+  for (const auto& foot : robot.modules[static_cast<std::size_t>(leg.modules.back())].feet) {
+    leg.sole_depth = std::max(leg.sole_depth, ankle[2] - foot[2]);
+  }
+  for (const auto& foot : robot.modules[static_cast<std::size_t>(leg.modules.back())].feet) {
+    if (ankle[2] - foot[2] > leg.sole_depth - 1e-6) leg.sole_reach = std::max(leg.sole_reach, std::abs(foot[0] - ankle[0]));
+  }
+}
+
+}  // namespace detail
+
+/// All legs, from the front to the rear, left before right. A leg needs a hip and an ankle that turn about y and feet that hang
+/// below the ankle; other side chains are no legs.
+inline std::vector<Leg> find_legs(const RobotInfo& robot) {
+  std::vector<Leg> legs;
+  for (std::size_t m = 0; m < robot.modules.size(); ++m) {
+    const ModuleInfo& module = robot.modules[m];
+    if (module.parent < 0 || std::abs(module.normal[1]) < 0.7) continue;
+    Leg leg;
+    auto at = static_cast<std::int64_t>(m);
+    leg.modules.push_back(at);
+    while (robot.modules[static_cast<std::size_t>(at)].children.size() == 1) {
+      at = robot.modules[static_cast<std::size_t>(at)].children[0];
+      leg.modules.push_back(at);
+    }
+    if (robot.modules[static_cast<std::size_t>(at)].feet.empty()) continue;
+    detail::measure(robot, leg);
+    if (leg.hip >= 0 && leg.ankle != leg.hip && leg.length > 0 && leg.sole_depth > 0) legs.push_back(leg);
+  }
+  // Neighbours left and right stand within a millimetre of the same x.
+  std::stable_sort(legs.begin(), legs.end(),
+                   [](const Leg& a, const Leg& b) { return std::abs(a.x - b.x) > 1e-3 ? a.x > b.x : a.left && !b.left; });
+  return legs;
+}
+
+}  // namespace gaitlab
