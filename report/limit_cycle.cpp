@@ -11,13 +11,18 @@ namespace {
 
 constexpr double kRepeats = 0.02;     // e(t) of a repeating motion
 constexpr double kStill = 1e-3;       // rad, half a peak-to-peak
+constexpr double kSmall = 0.1;        // of the largest column: a joint that only trembles is judged by those that move
 constexpr double kPromising = 0.3;    // e of a lag next to a period: half a grid step off, harmonics included
 constexpr std::size_t kGrid = 256;    // lags and points per period in the search
 constexpr std::size_t kFine = 4096;   // points per period when refining a lag
 constexpr std::size_t kShortest = 5;  // samples
 constexpr double kNone = 1e300;       // "no error to speak of": above every threshold
 using Column = std::vector<double>;
-using Columns = std::vector<Column>;
+
+struct Columns : std::vector<Column> {
+  using std::vector<Column>::vector;
+  double floor = kStill;  // smallest scale of a column, rad
+};
 
 struct Range {
   double lo = kNone, hi = -kNone;
@@ -61,6 +66,12 @@ Columns columns_of(std::span<const double> values, std::size_t columns) {
     }
   }
   for (Column& column : split) join_steps(column);
+  // The last quarter: a start that was livelier says nothing.
+  for (const Column& column : split) {
+    Range range;
+    for (std::size_t row = rows - rows / 4; row < rows; ++row) range.add(column[row]);
+    split.floor = std::max(split.floor, kSmall * range.half());
+  }
   return split;
 }
 
@@ -81,7 +92,7 @@ double rough_error(const Columns& columns, std::size_t lag, std::size_t stride) 
       range.add(earlier);
       squares += (later - earlier) * (later - earlier);
     }
-    const double scale = std::max(range.half(), kStill);
+    const double scale = std::max(range.half(), columns.floor);
     moves = moves || range.half() > kStill;
     worst = std::max(worst, std::sqrt(squares / static_cast<double>(count)) / scale);
     if (worst >= kPromising) return kNone;
@@ -99,7 +110,7 @@ class Misfit {
     for (const Column& x : columns) {
       Range range;
       for (std::size_t back = 0; back < std::min(rows, 2 * window); back += stride_) range.add(x[rows - 1 - back]);
-      const double scale = std::max(range.half(), kStill);
+      const double scale = std::max(range.half(), columns.floor);
       weights_.push_back(1 / (scale * scale));
     }
   }
@@ -187,7 +198,7 @@ class Repetition {
     for (const Column& x : columns) {
       Range range;
       for (std::size_t i = starts_ - 1; i < rows; ++i) range.add(x[i]);
-      scales_.push_back(std::max(range.half(), kStill));
+      scales_.push_back(std::max(range.half(), columns.floor));
       moves_ = moves_ || range.half() > kStill;
     }
   }

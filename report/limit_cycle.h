@@ -5,7 +5,8 @@
 
 namespace gaitlab {
 
-/// With T the period, x_c a column and s_c = max(half its peak-to-peak over the last 2 T, 1e-3 rad):
+/// With T the period, x_c a column and s_c = half its peak-to-peak over the last 2 T, at least a tenth of the largest column's
+/// and 1e-3 rad:
 ///     e(t) = max over c of RMS over [t, t + T] of (x_c(u + T) - x_c(u)) / s_c
 /// `error` is e at the last t the data allow (two periods before the end); found means error < 0.02.
 struct LimitCycle {
