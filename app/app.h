@@ -22,7 +22,7 @@ std::map<std::string, std::string> shipped_files(const std::string& kind);
 struct ScenarioArguments {
   std::string file;
   std::vector<std::string> sets;
-  std::optional<std::int64_t> seed;
+  std::optional<std::string> seed;
   bool quiet = false;
 };
 

@@ -88,5 +88,8 @@ int main(int argc, char** argv) {
     const int code = app.exit(error);
     return code == 0 ? 0 : 2;
   }
-  return guarded(chosen);
+  const int code = guarded(chosen);
+  if (std::fflush(stdout) == 0) return code;
+  fmt::print(stderr, "gaitlab: error: standard output cannot be written\n");
+  return code == 0 ? 1 : code;
 }

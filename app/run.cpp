@@ -28,8 +28,11 @@ class StopOnSignal {
   StopOnSignal() {
     struct sigaction action = {};
     action.sa_handler = [](int) { interrupted = true; };
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    for (const int signal : {SIGINT, SIGTERM}) {
+      struct sigaction before = {};
+      sigaction(signal, nullptr, &before);
+      if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // a shell's background job ignores SIGINT
+    }
   }
 };
 
@@ -83,7 +86,8 @@ int run(const RunArguments& arguments) {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
 
   const RunRecord record = simulation.take_record(0);
-  const Summary summary = summarise(scenario, record, wall.count());
+  Summary summary = summarise(scenario, record, wall.count());
+  if (!failure.empty()) summary.outcome = failure;
   write_files(folder.path(), scenario, record, summary);
   folder.keep();
   if (!arguments.quiet) {

@@ -30,6 +30,7 @@ PhaseOscillator::PhaseOscillator(const RobotInfo& robot, const Settings& setting
       s_(settings),
       couplings_(settings.graph(joints_, settings.model.coupling)),
       phases_(phases_of(couplings_, joints_)) {
+  s_.check(robot);
   on_cycle_ = phases_.size() == joints_;
   if (!on_cycle_) phases_.assign(joints_, 0.0);
 }

@@ -31,6 +31,7 @@ phi_i: sum of the lags along the couplings; couplings that contradict one anothe
 
   Sine(const RobotInfo& robot, const Settings& settings)
       : joints_(robot.joints.size()), s_(settings), phases_(phases_of(settings.graph(joints_, 1), joints_)) {
+    s_.check(robot);
     if (phases_.size() != joints_) throw std::invalid_argument("the couplings' lags contradict one another around a cycle");
   }
 

@@ -33,6 +33,7 @@ class BulletPlant final : public Plant, private InverseMass {
     torque_.resize(n);
     slope_.resize(n);
     applied_.resize(2 * n);
+    at_rest_.resize(n);
     monitor_.contacts.reserve(s.contacts.size());
   }
 
@@ -68,12 +69,14 @@ class BulletPlant final : public Plant, private InverseMass {
     layout_.read(numbers_, 0, state_);
     evaluate(state_, command);
     body_.accelerate(state_, acceleration_);  // factorises the mass matrix for inverse_mass
+    // A robot that stands does not turn its motors: at speed they may be saturated, and their slope 0.
+    if (standing && settings_.actuator != nullptr) settings_.actuator->effort(at_rest_, at_rest_, torque_, slope_);
     for (std::size_t j = 0; j < torque_.size(); ++j) {
       monitor_.motor[j] = slope_[j];
       monitor_.stop[j] = stop_at(state_, j).damping;
     }
     monitor_.contacts.clear();
-    if (standing) {
+    if (standing && settings_.base != Base::fixed) {
       stand();
     } else {
       for_each_contact([&](const Contact& c) {
@@ -161,7 +164,7 @@ class BulletPlant final : public Plant, private InverseMass {
   mutable RobotState state_;
   ExplicitIntegrator integrator_;
   Acceleration acceleration_;
-  std::vector<double> torque_, slope_, applied_;
+  std::vector<double> torque_, slope_, applied_, at_rest_;
   RateMonitor monitor_;
 };
 
@@ -175,6 +178,7 @@ void register_bullet(Catalog& catalog) {
       "long (lambda: largest eigenvalue of M^-1 (B + sum J^T G J), checked at the start and watched at every control tick).",
       {"semi_implicit", "rk4"},
       2.5e-5,
+      1,
       false,
       [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<BulletPlant>(s); }});
 }

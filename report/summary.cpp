@@ -14,10 +14,12 @@ namespace gaitlab {
 
 namespace {
 
-double yaw(const std::vector<double>& poses, std::size_t tick) {
-  const double* p = poses.data() + 7 * tick;
-  const Mat3 R = Quat(p[3], p[4], p[5], p[6]).toRotationMatrix();
-  return math::atan2(R(1, 0), R(0, 0));
+/// Turn about world z from one tick to the next: the twist of the rotation between them. Defined however far the base is
+/// pitched.
+double twist(const std::vector<double>& poses, std::size_t tick) {
+  const auto at = [&](std::size_t k) { return Quat(poses[7 * k + 3], poses[7 * k + 4], poses[7 * k + 5], poses[7 * k + 6]); };
+  const Quat turn = at(tick) * at(tick - 1).conjugate();
+  return std::remainder(2 * math::atan2(turn.z(), turn.w()), 2 * std::numbers::pi);
 }
 
 void travel(const RunRecord& r, Summary& s) {
@@ -29,8 +31,7 @@ void travel(const RunRecord& r, Summary& s) {
   s.speed = s.simulated > 0 ? s.distance / s.simulated : 0;
   for (std::size_t k = 1; k < ticks; ++k) {
     s.path_length += std::hypot(r.com_x[k] - r.com_x[k - 1], r.com_y[k] - r.com_y[k - 1]);
-    // Turns add up tick by tick, so that more than half a turn is counted as such.
-    s.heading_change += std::remainder(yaw(r.poses, k) - yaw(r.poses, k - 1), 2 * std::numbers::pi);
+    s.heading_change += twist(r.poses, k);
   }
 }
 
@@ -62,6 +63,8 @@ LimitCycle cycle(const Scenario& scenario, const RunRecord& r, const Summary& s)
   }
   return find_limit_cycle(both, 2 * n, scenario.trace.period);
 }
+
+constexpr double kNowhere = 1e-3;  // m: the work of a robot that stays is divided by noise
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
@@ -108,6 +111,7 @@ std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord&
       {"step", scenario.physics.step},
       {"integrator", scenario.physics.engine->integrators[static_cast<std::size_t>(scenario.physics.integrator)]},
       {"duration", scenario.duration},
+      {"outcome", s.outcome},
       {"simulated", s.simulated},
       {"wall_time", s.wall_time},
       {"real_time_factor", s.wall_time > 0 ? s.simulated / s.wall_time : 0},
@@ -154,8 +158,10 @@ std::string to_text(const Summary& s, const Scenario& scenario, const RunRecord&
                                                 s.limit_cycle.period, percent(s.limit_cycle.error))
                                   : std::string("none found"));
   if (scenario.actuator.entry != nullptr && !r.joints.empty()) {
-    text += line("transport", fmt::format("cost {:.3g} electrical, {:.3g} mechanical (J per N of weight and m)",
-                                          s.cost_electrical, s.cost_mechanical));
+    text += line("transport", s.distance < kNowhere
+                                  ? std::string("no cost: it went nowhere")
+                                  : fmt::format("cost {:.3g} electrical, {:.3g} mechanical (J per N of weight and m)",
+                                                s.cost_electrical, s.cost_mechanical));
     const JointFigures& f = r.joints[s.most_loaded];
     text += line("most loaded",
                  fmt::format("joint {} ({}): torque peak {:.3f} N m, RMS {:.3f} N m; saturated {} voltage, {} current",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/model/kinematics.h"
@@ -165,6 +166,7 @@ void check_cells(const Robot& robot) {
   const Kinematics kinematics = at_zero(robot);
   Problems problems;
   std::map<std::array<long, 3>, const Body*> cells;
+  std::optional<Vec3> first;
   for (const Body& body : robot.bodies) {
     const Module& module = robot.modules[body.module];
     const ModuleType& type = robot.types[module.type];
@@ -173,12 +175,9 @@ void check_cells(const Robot& robot) {
         std::find_if(type.faces.begin(), type.faces.end(), [&](const FaceType& f) { return f.body == body.type; });
     if (!type.lattice || face == type.faces.end() || !(half > 0)) continue;
     const Vec3 centre = kinematics.point(body.link, body.in_link * (face->origin - half * face->normal));
-    // Cells are counted from the first block's centre, in the base frame.
-    static_assert(sizeof(long) == 8);
-    const Vec3 first = robot.bodies.front().in_link * (robot.types[robot.modules[0].type].faces.front().origin -
-                                                       half * robot.types[robot.modules[0].type].faces.front().normal);
+    if (!first) first = centre;  // cells are counted from the first block's centre
     std::array<long, 3> cell{};
-    for (int i = 0; i < 3; ++i) cell[static_cast<std::size_t>(i)] = std::lround((centre[i] - first[i]) / (2 * half));
+    for (int i = 0; i < 3; ++i) cell[static_cast<std::size_t>(i)] = std::lround((centre[i] - (*first)[i]) / (2 * half));
     const auto [at, fresh] = cells.try_emplace(cell, &body);
     if (fresh) continue;
     problems.add(module.dock.place, fmt::format("overlapping cells: {} and {} are in the same lattice cell at zero angles",

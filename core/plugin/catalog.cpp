@@ -41,7 +41,10 @@ void Catalog::add(const Entry& entry) {
   entries_.push_back({name, origin_, entry});
 }
 
-void Catalog::add(Engine engine) { engines_.push_back(std::move(engine)); }
+void Catalog::add(const Engine& engine) {
+  if (this->engine(engine.name) != nullptr) throw std::invalid_argument("engine '" + engine.name + "' is registered twice");
+  engines_.push_back(engine);
+}
 
 const Entry* Catalog::find(Kind kind, const std::string& name) const {
   for (const Registered& known : entries_) {

@@ -18,6 +18,7 @@ struct Engine {
   std::string name, manual;
   std::vector<std::string> integrators;  ///< the first is the default
   double step = 0;                       ///< default, s
+  std::size_t max_lanes = 1;             ///< rollouts side by side
   bool rotor_inertia = false;            ///< can add a joint's reflected rotor inertia
   std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
 };
@@ -26,7 +27,7 @@ class Catalog final : public Registry {
  public:
   /// Names are unique within a kind: a second one throws std::invalid_argument naming both origins.
   void add(const Entry& entry) override;
-  void add(Engine engine);
+  void add(const Engine& engine);
   /// Where the entries added from now on come from: "built in" or the path of a library.
   void set_origin(std::string origin) { origin_ = std::move(origin); }
   void set_loaded(const std::string& path) { loaded_.insert(path); }

@@ -2,9 +2,11 @@
 #pragma once
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 #include "core/plugin/fields.h"
+#include "core/plugin/robot_info.h"
 
 namespace gaitlab {
 
@@ -34,6 +36,16 @@ struct OscillatorKeys {
     f.per_joint("offset", offset, {"rad", -3.2, 3.2, "Mean of the set point."});
     f.per_joint("phase_lag", phase_lag, {"rad", -100, 100, "Lead of each joint over its predecessor (rule chain)."});
     f.rule_or_list("couplings", rule, kRules, couplings, "chain: each joint follows the one numbered before it; or a list.");
+  }
+
+  /// Throws std::invalid_argument for a joint that would hold a set point outside its range. One that only passes there is
+  /// reported by the run, not refused.
+  void check(const RobotInfo& robot) const {
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+      const JointInfo& joint = robot.joints[j];
+      if (amplitude[j] != 0 || (offset[j] >= joint.lo && offset[j] <= joint.hi)) continue;
+      throw std::invalid_argument("joint " + joint.name + " would hold its offset, outside its range (amplitude 0)");
+    }
   }
 
   /// The coupling graph; the rule's couplings get `weight`.

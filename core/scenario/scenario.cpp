@@ -103,6 +103,7 @@ class ScenarioReader {
     if (!head.version("gaitlab")) raise();  // another version's keys mean something else
     if (const Node* plugins = root_.find("plugins")) {
       scenario_.plugins = read_plugins(*plugins, folder_, catalog_, problems_);
+      raise();  // what a library would have registered would be reported as unknown
     }
     scenario_.notes = drop_old_keys(root_, retyped, catalog_);
     read_name(head);
@@ -175,6 +176,7 @@ class ScenarioReader {
     check_motors(motor);
     if (sections.actuator.none) refuse_controller();
     check_initial();
+    check_base_velocity();
     check_all_periods();
     make_plugins(sections);
   }
@@ -243,7 +245,24 @@ class ScenarioReader {
     }
   }
 
+  /// A base cannot start with a velocity that it cannot have.
+  void check_base_velocity() {
+    const Vec3& v = scenario_.initial.base_velocity;
+    const Vec3& w = scenario_.initial.base_angular_velocity;
+    const bool planar = scenario_.base == Base::planar;
+    if (scenario_.base == Base::floating) return;
+    const std::string allowed = planar ? "a planar base moves along x and z and turns about y" : "a fixed base does not move";
+    if (planar ? v.y() != 0 : v != Vec3::Zero()) problems_.add(place_of(root_, "initial", "base_velocity"), allowed);
+    if (planar ? w.x() != 0 || w.z() != 0 : w != Vec3::Zero()) {
+      problems_.add(place_of(root_, "initial", "base_angular_velocity"), allowed);
+    }
+  }
+
   void check_all_periods() {
+    // Nothing is commanded: the control tick only watches the step.
+    if (scenario_.actuator.entry == nullptr && root_.find("cpg") == nullptr) {
+      scenario_.control_period = scenario_.cpg_step = scenario_.trace.period;
+    }
     const Period step{"step", scenario_.physics.step, given(root_, "physics", "step")};
     const Period control{"control period", scenario_.control_period, given(root_, "controller", "period")};
     const Place physics = place_of(root_, "physics", "step");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/scenario/data_folder.h"
 #include "core/scenario/module_file.h"
 #include "core/scenario/plugin_files.h"
 #include "core/scenario/text_file.h"
@@ -109,9 +110,7 @@ std::optional<std::size_t> TypeLibrary::read(const Node& document, bool versione
 
 std::vector<std::string> TypeLibrary::search_folders() const {
   std::vector<std::string> folders{path_from(folder_, "modules"), path_from(folder_, "../modules")};
-#ifdef GAITLAB_DATA_DIR
-  if (*GAITLAB_DATA_DIR != '\0') folders.emplace_back(GAITLAB_DATA_DIR "/modules");
-#endif
+  folders.push_back(data_folder() + "/modules");
   return folders;
 }
 

@@ -62,7 +62,7 @@ void Probes::add_joints(const Robot& robot, bool driven, std::string_view comman
       add(fmt::format("joint.{}.{}", j, quantity), std::string(unit), definition + of,
           [values, j](const Sample& s) { return (s.*values)[j]; });
     };
-    joint("setpoint", "rad", "set point in force just before t", &Sample::setpoint);
+    if (driven) joint("setpoint", "rad", "set point in force just before t", &Sample::setpoint);
     add(fmt::format("joint.{}.angle", j), "rad", "angle" + of, [j](const Sample& s) { return s.state.q[j]; });
     add(fmt::format("joint.{}.speed", j), "rad/s", "speed" + of, [j](const Sample& s) { return s.state.qd[j]; });
     if (driven) {

@@ -49,8 +49,8 @@ struct Simulation::Lane {
     const std::int64_t sub_steps = whole(scenario.control_period, scenario.cpg_step);
     const double h = scenario.cpg_step;
     for (std::int64_t i = 0; i < sub_steps && !cpg_state.empty(); ++i) {
-      Measured m = measured(t + static_cast<double>(i) * h);
       const auto slope = [&](double reach, In k, Out out) {
+        const Measured m = measured(t + (static_cast<double>(i) + reach) * h);
         for (std::size_t j = 0; j < stage.size(); ++j) stage[j] = cpg_state[j] + (k.empty() ? 0 : reach * h * k[j]);
         cpg->derivative(m, stage, out);
       };
@@ -84,6 +84,10 @@ Simulation::Simulation(std::span<const Scenario> lanes)
       layout_{robot_.joints.size(), scenarios_.size()},
       meter_(robot_, scenarios_.size()) {
   const Scenario& first = scenarios_[0];
+  if (scenarios_.size() > first.physics.engine->max_lanes) {
+    throw std::invalid_argument(fmt::format("engine {} runs {} rollouts side by side, not {}", first.physics.engine->name,
+                                            first.physics.engine->max_lanes, scenarios_.size()));
+  }
   const RobotInfo about = info(robot_);
   if (first.actuator.entry != nullptr) {
     std::vector<const void*> settings;
@@ -168,6 +172,7 @@ void Simulation::set_start() {
     lane.record.poses.reserve(rows * 7);
     for (auto* series : {&lane.record.angles, &lane.record.setpoints, &lane.record.torques})
       series->reserve(rows * robot_.joints.size());
+    lane.record.loads.reserve(rows * robot_.modules.size());
   }
 }
 
@@ -252,18 +257,25 @@ void Simulation::record() {
     r.angles.insert(r.angles.end(), s.state.q.begin(), s.state.q.end());
     r.setpoints.insert(r.setpoints.end(), s.setpoint.begin(), s.setpoint.end());
     r.torques.insert(r.torques.end(), s.torque.begin(), s.torque.end());
+    r.loads.resize(r.loads.size() + robot_.modules.size(), 0.0);
+    const Out loads = Out(r.loads).last(robot_.modules.size());
+    for (std::size_t c = 0; c < contacts_.size(); ++c) loads[robot_.bodies[contacts_[c].body].module] += s.contacts[c].fn;
   }
 }
 
 void Simulation::sense() {
   const std::size_t lanes = lanes_.size();
-  const In torque = plant_->applied();
+  // The left limit, as in a row: what is measured depends on the state and the command in force, not on how the last step was
+  // taken.
+  if (actuator_ != nullptr) {
+    actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
+  }
   for (std::size_t l = 0; l < lanes; ++l) {
     Lane& lane = *lanes_[l];
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
       lane.angle[j] = plant_state_[layout_.angles() + j * lanes + l];
       lane.speed[j] = plant_state_[layout_.speeds() + j * lanes + l];
-      lane.torque[j] = torque[j * lanes + l];
+      lane.torque[j] = torque_[j * lanes + l];
     }
     std::fill(lane.touching.begin(), lane.touching.end(), 0.0);
     plant_->contacts(l, lane.sample.contacts);
@@ -342,11 +354,11 @@ void Simulation::diverged() const {
       where = robot_.joints[i / lanes].name;
     }
   }
-  throw SimulationError(
-      step_number(), time(), where,
-      fmt::format("diverged at step {}, t = {:.6g} s: {}{}", step_number(), time(),
-                  where == "base" ? "the base" : "joint " + where,
-                  finite && worst > 0 ? fmt::format(" turns at {:.3g} rad/s", worst) : " is no longer finite"));
+  throw SimulationError(step_number(), time(), where,
+                        fmt::format("diverged at step {}, t = {:.6g} s: {}{}", step_number(), time(),
+                                    where == "base" ? "the base" : "joint " + where,
+                                    finite && worst > 0 ? fmt::format(" turns at {:.3g} rad/s", worst)
+                                                        : fmt::format(" has left the numbers (+-{:g})", kLargestSpeed)));
 }
 
 RunRecord Simulation::take_record(std::size_t lane) {

@@ -33,6 +33,8 @@ struct RunRecord {
   /// + joint).
   std::vector<double> com_x, com_y, poses;
   std::vector<double> angles, setpoints, torques;
+  /// Every trace tick: normal force on all contact elements of a module, N (tick * modules + module).
+  std::vector<double> loads;
   Stability worst;  ///< the largest rate seen at a control tick
   double worst_time = 0;
   std::int64_t ticks = 0, ticks_above_1 = 0;
@@ -40,8 +42,8 @@ struct RunRecord {
 };
 
 /// Simulates one or more scenarios of the same robot, engine, step and duration side by side, one a lane.
-/// The constructor checks the step: InputError where h lambda > 1 for the standing robot, naming the largest step allowed and
-/// the joint or contact that sets it. step() allocates nothing.
+/// Throws std::invalid_argument for more lanes than the engine has. The constructor checks the step: InputError where h lambda
+/// > 1 for the standing robot, naming the largest step allowed and the joint or contact that sets it. step() allocates nothing.
 class Simulation {
  public:
   explicit Simulation(std::span<const Scenario> lanes);

@@ -21,6 +21,8 @@ void* counted(std::size_t size) {
 
 void* operator new(std::size_t size) { return counted(size); }
 void* operator new[](std::size_t size) { return counted(size); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
@@ -61,6 +63,56 @@ TEST(Determinism, OtherLocaleSameBytes) {
   const auto german = texts();
   std::locale::global(before);
   EXPECT_EQ(plain, german);
+}
+
+/// Feels its joints: set points lean on the torques and touches that are measured.
+struct Feeling final : Cpg {
+  struct Settings {
+    void fields(Fields&) {}
+  };
+  Feeling(const RobotInfo& robot, const Settings&) : n(robot.joints.size()) {}
+  [[nodiscard]] std::size_t states() const override { return n; }
+  void derivative(const Measured& m, In, Out rate) const override {
+    for (std::size_t i = 0; i < n; ++i) rate[i] = 0.3 + 5 * m.torque[i] + m.touching[i / 2];
+  }
+  void output(double, In x, Out setpoint) const override {
+    for (std::size_t i = 0; i < n; ++i) setpoint[i] = 0.3 * x[i];
+  }
+  std::size_t n;
+};
+
+TEST(Determinism, SnapshotGoesOnInAnotherWorldWhateverTheCpgMeasures) {
+  add_cpg<Feeling>(catalog(), "feeling", "a test's");
+  const Scenario s = shipped("caterpillar.yaml", {"duration=0.2", "cpg.type=feeling"});
+  const auto go = [](Simulation& simulation, int steps) {
+    for (int i = 0; i < steps; ++i) simulation.step();
+    return std::vector<double>(simulation.state().begin(), simulation.state().end());
+  };
+  Simulation first({&s, 1});
+  const std::vector<double> snapshot = go(first, 1200);
+  const std::vector<double> end = go(first, 3000);
+  Simulation second({&s, 1});
+  std::copy(snapshot.begin(), snapshot.end(), second.state().begin());
+  EXPECT_EQ(go(second, 3000), end);
+}
+
+/// x' = cos(2 t): only the stages' own times make RK4 of fourth order.
+struct Clock final : Cpg {
+  struct Settings {
+    void fields(Fields&) {}
+  };
+  Clock(const RobotInfo& robot, const Settings&) : n(robot.joints.size()) {}
+  [[nodiscard]] std::size_t states() const override { return 1; }
+  void derivative(const Measured& m, In, Out rate) const override { rate[0] = math::cos(2 * m.t); }
+  void output(double, In, Out setpoint) const override { std::fill(setpoint.begin(), setpoint.end(), 0.0); }
+  std::size_t n;
+};
+
+TEST(Simulation, CpgStatesAreIntegratedToFourthOrder) {
+  add_cpg<Clock>(catalog(), "clock", "a test's");
+  const RunRecord record = run(shipped("caterpillar.yaml", {"duration=0.6", "cpg.type=clock", "trace.columns=[cpg.*]"}));
+  // Simpson's rule at 15 ms: h^4 / 2880 * max of 16 cos(2t) * 0.6 s = 1.7e-10.
+  EXPECT_NEAR(Table(record.trace)(0.6, "cpg.0"), 0.5 * math::sin(1.2), 2e-10);
 }
 
 TEST(Determinism, SnapshotGoesOnAsIfNothingHadHappened) {

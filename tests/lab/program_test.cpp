@@ -75,6 +75,20 @@ TEST_F(Program, ScenarioErrors) {
       "bad.yaml:4:27: error: engine 'bullet' cannot add rotor inertia; no engine of this build can: set it to 0");
 }
 
+TEST_F(Program, ABaseCannotStartWithAVelocityItCannotHave) {
+  expect_refused_text("gaitlab: 1\nrobot: {modules: mtran, base: fixed}\nduration: 1\ninitial: {base_velocity: [1, 0, 0]}\n",
+                      "bad.yaml:4:26: error: a fixed base does not move");
+  expect_refused_text(
+      "gaitlab: 1\nrobot: {modules: mtran, base: planar}\nduration: 1\ninitial: {base_angular_velocity: [1, 2, 0]}\n",
+      "bad.yaml:4:34: error: a planar base moves along x and z and turns about y");
+}
+
+TEST_F(Program, AConstantSetPointOutsideItsRangeIsRefused) {
+  expect_refused_text(
+      "gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\ncpg: {type: sine, amplitude: 0, offset: 2}\n",
+      "bad.yaml:4:13: error: cpg 'sine': joint m0/active would hold its offset, outside its range (amplitude 0)");
+}
+
 TEST_F(Program, OutputFolders) {
   folder.write("full", "");
   std::filesystem::remove(folder / "full");

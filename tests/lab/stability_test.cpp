@@ -95,6 +95,22 @@ TEST(LambdaRule, RefusesAStepThatIsTooLong) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
+TEST(LambdaRule, JudgesTheStandingRobotByMotorsAtRest) {
+  // At 20 rad/s the current limit flattens the motors; they will not stay there.
+  const Folder folder;
+  const Result result =
+      gaitlab("check '" + kScenarios + "caterpillar.yaml' --set physics.step=1e-4 --set initial.speeds=20", folder / "");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("h lambda = 1.55"), std::string::npos) << result.err;
+}
+
+TEST(LambdaRule, AFixedRobotInTheAirStandsOnNothing) {
+  const Scenario s = scenario(
+      "gaitlab: 1\nrobot: {modules: mtran, base: fixed, position: [0, 0, 1]}\nduration: 0.1\n"
+      "physics: {step: 5e-5}\nground: {friction: 5}\ncontact: {slip_speed: 1e-3}\n");
+  EXPECT_NO_THROW(Simulation({&s, 1}));
+}
+
 TEST(LambdaRule, WarnsInTheSameWordsWhereTheGroundBindsLater) {
   const Folder folder;
   const Result result = gaitlab("run '" + kScenarios +

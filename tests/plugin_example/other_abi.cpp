@@ -1,0 +1,3 @@
+// What a library built for another gaitlab looks like.
+extern "C" const char* gaitlab_abi() { return "gaitlab-0, cc 1, libc 1"; }
+extern "C" void gaitlab_register(void*) {}
