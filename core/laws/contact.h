@@ -7,7 +7,7 @@
 
 namespace gaitlab {
 
-/// Fn = Kn p^k + Cd p^d p' >= 0;  Ft = -f Fn v/v_lim for |v| <= v_lim, else -f Fn v/|v|.  (eq. 12; model.md section 6)
+/// Fn = Kn p^k + Cd p^d p' >= 0;  Ft = -f Fn v/v_lim for |v| <= v_lim, else -f Fn v/|v|.  (eq. 12; docs/equations.md, 6)
 /// p: penetration, m, > 0 in contact; p' = -vn; v: tangential velocity, m/s. Forces in N.
 struct PenaltyContact {
   double kn = 1e4, k = 1, cd = 1e5, d = 1, v_lim = 0.01;
