@@ -1,0 +1,106 @@
+#include "cpg/tripod.h"
+
+#include <numbers>
+#include <stdexcept>
+
+#include "core/math/functions.h"
+
+namespace gaitlab {
+
+const char* const Tripod::kManual =
+    R"(Alternating groups of legs: one stands and pushes the body on, the other swings forward; legs are found from the assembly.
+
+    stance:  a = A (1 - 2 u)          u: 0 to 1 over the stance, duty_factor of the period
+    swing:   a = -A cos(pi s)         s: 0 to 1 over the swing; |a| is never below the stance's, so it crosses quickly
+    hip = a (towards +x), ankle = -hip + tilt        the foot is flat but for its tilt, 0 in the swing
+    tilt in stance: so that all feet that stand reach the same depth,
+        l cos(a) + z cos(tilt) + x sin(tilt) = max over the stance of l cos(a) + z cos(d') + x sin(d'),  d' = d sin^2(pi s)
+
+l: hip to ankle; z, x: depth of the sole below the ankle and its half length; all from the robot. In order alternate with
+duty_factor 0.5 all legs that stand have the same a, and tilt = d sin^2(pi u): the body is low when the feet are farthest and
+rises in mid-stance, as in figure 11 of the paper. A square foot that turns about its ankle only ever gets lower, so a swing foot
+cannot be lifted; the stance feet stand on their edges instead and lift the body.
+
+A leg is a chain of modules docked sideways to the spine that ends in feet. Groups, counted from the front on each side:
+alternate - every other leg, the sides opposite (6 legs: tripods, 4 legs: diagonal pairs); wave - one after another from the
+rear to the front, the sides half a period apart (4 legs: with duty_factor 0.75 three always stand). Spine: 0.
+Source: Chariot, Filippi, Verlinden 2012, section IV-B and figure 11; angles and timing chosen.
+
+    cpg: {type: tripod, frequency: 0.5, amplitude: 0.4})";
+
+void Tripod::Settings::fields(Fields& f) {
+  f.number("frequency", frequency, {"Hz", 0, 20, "Of the whole cycle, stance and swing."});
+  f.number("amplitude", amplitude, {"rad", 0, 1.5, "A: a leg swings from -A to +A."});
+  f.group("model", model, "Keys of this gait alone.");
+}
+
+void Tripod::Model::fields(Fields& f) {
+  static constexpr const char* kOrders[] = {"alternate", "wave"};
+  f.number("tilt", tilt, {"rad", 0, 0.7, "d: tilt of the standing feet in mid-stance, which lifts the body."});
+  f.number("duty_factor", duty_factor, {"", 0.5, 0.95, "Share of the period that a foot stands."});
+  f.choice("order", order, kOrders, "Which legs swing together.");
+  f.number("ramp", ramp, {"s", 0, 100, "Time over which amplitude and tilt grow from 0."});
+  f.flag("reverse", reverse, "Run the gait backwards in time.");
+}
+
+Tripod::Tripod(const RobotInfo& robot, const Settings& settings) : joints_(robot.joints.size()), s_(settings) {
+  const std::vector<Leg> legs = find_legs(robot);
+  const auto left = static_cast<std::size_t>(std::count_if(legs.begin(), legs.end(), [](const Leg& leg) { return leg.left; }));
+  if (legs.size() < 4 || 2 * left != legs.size()) {
+    throw std::invalid_argument("it needs legs in pairs, four or more; found " + std::to_string(left) + " on the left and " +
+                                std::to_string(legs.size() - left) +
+                                " on the right (a leg is a chain docked sideways, with two hinges about y and feet below)");
+  }
+  std::size_t rank[2] = {0, 0};  // from the front, right and left
+  for (const Leg& leg : legs) {
+    const std::size_t at = rank[leg.left ? 1 : 0]++;
+    const bool other = (at + (leg.left ? 1 : 0)) % 2 == 1;
+    const double from_rear = static_cast<double>(left - 1 - at);
+    const double wave = (leg.left ? 0.5 : 0.0) - from_rear * (1 - s_.model.duty_factor);
+    steps_.push_back({leg, s_.model.order == 0 ? (other ? 0.5 : 0.0) : wave});
+  }
+}
+
+Tripod::Motion Tripod::motion(const Step& step, double cycles, double amplitude) const {
+  const double at = cycles + step.phase;
+  const double p = at - std::floor(at);
+  const double duty = s_.model.duty_factor;
+  if (p < duty) return {true, p / duty, amplitude * (1 - 2 * p / duty)};
+  const double s = (p - duty) / (1 - duty);
+  return {false, s, -amplitude * math::cos(std::numbers::pi * s)};
+}
+
+/// The tilt of the foot whose lowest point is `height` below its ankle: z cos(tilt) + x sin(tilt) = height.
+double Tripod::tilt_to_reach(const Leg& leg, double height) {
+  const double longest = std::sqrt(leg.sole_depth * leg.sole_depth + leg.sole_reach * leg.sole_reach);
+  const double flat = math::atan2(leg.sole_depth, leg.sole_reach);
+  return std::max(0.0, math::asin(std::min(1.0, height / longest)) - flat);
+}
+
+void Tripod::output(double t, In, Out setpoint) const {
+  std::fill(setpoint.begin(), setpoint.end(), 0.0);
+  const double grown = t < s_.model.ramp ? t / s_.model.ramp : 1;
+  const double cycles = (s_.model.reverse ? -t : t) * s_.frequency;
+  const double amplitude = grown * s_.amplitude;
+  double lift = 0;   // d': the tilt in mid-stance, by the progress of the legs that swing
+  double reach = 0;  // the longest leg that stands, without its foot
+  for (const Step& step : steps_) {
+    const Motion m = motion(step, cycles, amplitude);
+    const double bump = math::sin(std::numbers::pi * m.progress);
+    if (!m.stands) lift = std::max(lift, grown * s_.model.tilt * bump * bump);
+    if (m.stands) reach = std::max(reach, step.leg.length * math::cos(m.forward));
+  }
+  for (const Step& step : steps_) {
+    const Motion m = motion(step, cycles, amplitude);
+    const Leg& leg = step.leg;
+    const double depth = reach + leg.sole_depth * math::cos(lift) + leg.sole_reach * math::sin(lift);
+    const double tilt = m.stands ? tilt_to_reach(leg, depth - leg.length * math::cos(m.forward)) : 0;
+    // Towards +x is a left-hand turn about +y for a leg that hangs down.
+    setpoint[static_cast<std::size_t>(leg.hip)] = -leg.hip_sign * m.forward;
+    setpoint[static_cast<std::size_t>(leg.ankle)] = leg.ankle_sign * (m.forward - tilt);
+  }
+}
+
+std::string Tripod::note() const { return std::to_string(steps_.size()) + " legs found"; }
+
+}  // namespace gaitlab

@@ -1,0 +1,47 @@
+// Gait `tripod`: alternating groups of legs that stand while the others swing; for any even number of legs.
+#pragma once
+#include "core/plugin/legs.h"
+#include "core/plugin/registry.h"
+
+namespace gaitlab {
+
+class Tripod final : public Cpg {
+ public:
+  struct Model {
+    double tilt = 0.4, duty_factor = 0.5, ramp = 1;
+    int order = 0;
+    bool reverse = false;
+    void fields(Fields& f);
+  };
+  struct Settings {
+    double frequency = 0.5, amplitude = 0.4;
+    Model model;
+    void fields(Fields& f);
+  };
+  static const char* const kManual;
+
+  /// Throws std::invalid_argument: fewer than four legs, or not as many on the left as on the right.
+  Tripod(const RobotInfo& robot, const Settings& settings);
+  void output(double t, In, Out setpoint) const override;
+  [[nodiscard]] std::string note() const override;
+
+ private:
+  /// A leg and where it is in its cycle.
+  struct Step {
+    Leg leg;
+    double phase = 0;  ///< share of the period by which it is ahead
+  };
+  struct Motion {
+    bool stands = true;
+    double progress = 0;  ///< of the stance or the swing, 0 to 1
+    double forward = 0;   ///< angle of the leg towards +x, rad
+  };
+  [[nodiscard]] Motion motion(const Step& step, double cycles, double amplitude) const;
+  [[nodiscard]] static double tilt_to_reach(const Leg& leg, double height);
+
+  std::size_t joints_;
+  Settings s_;
+  std::vector<Step> steps_;
+};
+
+}  // namespace gaitlab
