@@ -31,13 +31,35 @@ Scenario read(const ScenarioArguments& arguments, Catalog& catalog);
 
 struct RunArguments : ScenarioArguments {
   std::optional<std::string> out;
-  std::string format = "csv";
+  std::string format = "h5";
 };
 int run(const RunArguments& arguments);
+/// The same for a scenario that is already read.
+int run(const Scenario& scenario, const RunArguments& arguments);
 int check(const ScenarioArguments& arguments);
 int list(const std::string& kind);
 int explain(const std::string& kind, const std::string& name);
 int converge(const ScenarioArguments& arguments, int halvings);
+
+struct CompareArguments {
+  std::string a, b;                  ///< run folders or trace files
+  std::vector<std::string> columns;  ///< patterns; none: all
+};
+int compare(const CompareArguments& arguments);
+
+struct ExportArguments {
+  std::string run;   ///< run folder or trace file
+  std::string file;  ///< to write; must not exist
+};
+int export_run(const ExportArguments& arguments);
+
+struct RerunArguments {
+  std::string run;                 ///< run folder, or trace.h5
+  bool verify = false;             ///< compare with the recorded trace instead of writing
+  std::optional<std::string> out;  ///< as for run
+  bool quiet = false;
+};
+int rerun(const RerunArguments& arguments);
 
 /// `version, build id, Bullet version and precision`
 std::string version();

@@ -24,28 +24,26 @@ void add_scenario(CLI::App& command, ScenarioArguments& arguments) {
 
 /// Bad arguments and bad input exit with 2, failed runs with 1; nobody sees a raw exception.
 int guarded(const std::function<int()>& command) {
+  // fputs, not fmt: nothing may throw any more.
+  const auto say = [](const char* before, const char* what, const char* after) {
+    for (const char* text : {before, what, after}) (void)std::fputs(text, stderr);
+  };
   try {
     return command();
   } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    say("", error.what(), "\n");
     return 2;
   } catch (const RunError& error) {
-    fmt::print(stderr, "gaitlab: error: {}\n", error.what());
-    return 1;
+    say("gaitlab: error: ", error.what(), "\n");
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "gaitlab: error: out of memory\n");
-    return 1;
+    say("gaitlab: error: ", "out of memory", "\n");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "gaitlab: error: {} (this is a defect of gaitlab: please report it)\n", error.what());
-    return 1;
+    say("gaitlab: error: ", error.what(), " (this is a defect of gaitlab: please report it)\n");
   }
+  return 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  // A file size limit is a full disk, reported as such.
-  std::signal(SIGXFSZ, SIG_IGN);
+int program(int argc, char** argv) {
   CLI::App app{"gaitlab: a gait lab for modular robots"};
   app.require_subcommand(1);
   app.set_version_flag("--version", [] { return version(); });
@@ -55,7 +53,8 @@ int main(int argc, char** argv) {
   CLI::App* run_command = app.add_subcommand("run", "simulate; write a run folder; print the summary");
   add_scenario(*run_command, run_arguments);
   run_command->add_option("--out", run_arguments.out, "run folder (default runs/NAME, then NAME-2 ...); new or empty");
-  run_command->add_option("--format", run_arguments.format, "of the trace")->check(CLI::IsMember({"csv"}));
+  run_command->add_option("--format", run_arguments.format, "of the trace: h5 (default) or csv")
+      ->check(CLI::IsMember({"h5", "csv"}));
   run_command->callback([&] { chosen = [&] { return run(run_arguments); }; });
 
   ScenarioArguments check_arguments;
@@ -82,14 +81,48 @@ int main(int argc, char** argv) {
   converge_command->add_option("--halvings", halvings, "how often (default 1)")->check(CLI::Range(1, 8));
   converge_command->callback([&] { chosen = [&] { return converge(converge_arguments, halvings); }; });
 
+  CompareArguments compare_arguments;
+  CLI::App* compare_command = app.add_subcommand(
+      "compare", "what differs between two runs, column by column; a report: exit code 0 whether or not they differ");
+  compare_command->add_option("RUN_A", compare_arguments.a, "run folder or trace file: the reference")->required();
+  compare_command->add_option("RUN_B", compare_arguments.b, "run folder or trace file")->required();
+  compare_command->add_option("--columns", compare_arguments.columns, "only columns that match this pattern (with * and ?)")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  compare_command->callback([&] { chosen = [&] { return compare(compare_arguments); }; });
+
+  RerunArguments rerun_arguments;
+  CLI::App* rerun_command = app.add_subcommand("rerun", "run again from a run folder alone");
+  rerun_command->add_option("RUN", rerun_arguments.run, "run folder, or its trace.h5")->required();
+  CLI::Option* out_option = rerun_command->add_option("--out", rerun_arguments.out, "run folder, as for run");
+  rerun_command->add_flag("--verify", rerun_arguments.verify, "write nothing; compare with the recorded trace; 4: it differs")
+      ->excludes(out_option);
+  rerun_command->add_flag("--quiet", rerun_arguments.quiet, "no progress, no summary on the terminal");
+  rerun_command->callback([&] { chosen = [&] { return rerun(rerun_arguments); }; });
+
+  ExportArguments export_arguments;
+  std::string export_format;
+  CLI::App* export_command = app.add_subcommand("export", "write the trace of a run in another format");
+  export_command->add_option("RUN", export_arguments.run, "run folder or trace file")->required();
+  export_command->add_option("--to", export_format, "csv")->required()->check(CLI::IsMember({"csv"}));
+  export_command->add_option("FILE", export_arguments.file, "file to write; must not exist")->required();
+  export_command->callback([&] { chosen = [&] { return export_run(export_arguments); }; });
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error);
     return code == 0 ? 0 : 2;
   }
-  const int code = guarded(chosen);
-  if (std::fflush(stdout) == 0) return code;
-  fmt::print(stderr, "gaitlab: error: standard output cannot be written\n");
-  return code == 0 ? 1 : code;
+  const int code = chosen();
+  if (std::fflush(stdout) != 0) throw RunError("standard output cannot be written");
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A file size limit is a full disk, reported as such.
+  std::signal(SIGXFSZ, SIG_IGN);
+  return guarded([&] { return program(argc, argv); });
 }

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -8,10 +7,13 @@
 #include <functional>
 
 #include "app/app.h"
+#include "app/progress.h"
 #include "core/simulation/simulation.h"
 #include "core/trace/atomic_file.h"
 #include "core/trace/csv.h"
+#include "core/trace/h5.h"
 #include "core/trace/run_folder.h"
+#include "report/build_id.h"
 #include "report/figure.h"
 #include "report/run_figure.h"
 #include "report/summary.h"
@@ -36,29 +38,13 @@ class StopOnSignal {
   }
 };
 
-/// A bar on a terminal, nothing elsewhere.
-class Progress {
- public:
-  explicit Progress(bool quiet) : shown_(!quiet && isatty(fileno(stderr)) != 0) {}
-  ~Progress() {
-    if (shown_) fmt::print(stderr, "\r{:60}\r", "");
+void write_files(const std::filesystem::path& folder, const std::string& format, const Scenario& scenario,
+                 const RunRecord& record, const Summary& summary) {
+  if (format == "csv") {
+    write_csv(record.trace, folder / "trace.csv");
+  } else {
+    write_h5(record.trace, {resolved(scenario), scenario.seed, build_id()}, folder / "trace.h5");
   }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  void operator()(double share) const {
-    if (!shown_) return;
-    const auto filled = static_cast<std::size_t>(40 * share);
-    fmt::print(stderr, "\r[{:<40}] {:3.0f} %", std::string(filled, '#'), 100 * share);
-    (void)std::fflush(stderr);
-  }
-
- private:
-  bool shown_;
-};
-
-void write_files(const std::filesystem::path& folder, const Scenario& scenario, const RunRecord& record,
-                 const Summary& summary) {
-  write_csv(record.trace, folder / "trace.csv");
   write_file(folder / "scenario.resolved.yaml", resolved(scenario));
   write_file(folder / "figure.svg", run_figure(scenario, record, summary));
   // Last: a folder with a summary is a whole run.
@@ -69,7 +55,10 @@ void write_files(const std::filesystem::path& folder, const Scenario& scenario, 
 
 int run(const RunArguments& arguments) {
   Catalog catalog = standard_catalog();
-  const Scenario scenario = read(arguments, catalog);
+  return run(read(arguments, catalog), arguments);
+}
+
+int run(const Scenario& scenario, const RunArguments& arguments) {
   Simulation simulation({&scenario, 1});
   RunFolder folder(arguments.out, scenario.name);
 
@@ -88,11 +77,11 @@ int run(const RunArguments& arguments) {
   const RunRecord record = simulation.take_record(0);
   Summary summary = summarise(scenario, record, wall.count());
   if (!failure.empty()) summary.outcome = failure;
-  write_files(folder.path(), scenario, record, summary);
+  write_files(folder.path(), arguments.format, scenario, record, summary);
   folder.keep();
   if (!arguments.quiet) {
-    fmt::print("{}  {:<13} {}: trace.csv, summary.json, scenario.resolved.yaml, figure.svg\n",
-               to_text(summary, scenario, record), "files", folder.path().string());
+    fmt::print("{}  {:<13} {}: trace.{}, summary.json, scenario.resolved.yaml, figure.svg\n",
+               to_text(summary, scenario, record), "files", folder.path().string(), arguments.format);
   }
   const std::string warning = stability_warning(summary, scenario, record);
   if (!warning.empty()) fmt::print(stderr, "{}: warning: {}\n", to_string(scenario.place("physics.step")), warning);

@@ -1,5 +1,6 @@
 #include "cpg/register.h"
 
+#include "cpg/keyframes.h"
 #include "cpg/phase_oscillator.h"
 #include "cpg/sine.h"
 #include "cpg/tripod.h"
@@ -7,6 +8,7 @@
 namespace gaitlab {
 
 void register_cpgs(Registry& registry) {
+  add_cpg<Keyframes>(registry, "keyframes", Keyframes::kManual);
   add_cpg<PhaseOscillator>(registry, "phase_oscillator", PhaseOscillator::kManual);
   add_cpg<Sine>(registry, "sine", Sine::kManual);
   add_cpg<Tripod>(registry, "tripod", Tripod::kManual);

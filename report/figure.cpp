@@ -15,7 +15,8 @@ namespace gaitlab {
 namespace {
 
 constexpr double kWidth = 1000;
-constexpr double kLeft = 80, kRight = 920;  // px, of both panels
+constexpr double kLeft = 80, kRight = 920;  // px, of all panels
+constexpr double kLeftOfNames = 120;        // px, where legs have their names at the left
 constexpr double kTitleHeight = 44;
 constexpr double kChartTop = 36, kChartHeight = 260, kChartFoot = 58;  // below the legend; px
 constexpr double kViewMost = 150;                                      // px, the tallest robot
@@ -32,6 +33,17 @@ struct Bounds {
   }
   [[nodiscard]] bool empty() const { return lo > hi; }
 };
+
+double left_edge(const FigureInput& input) { return input.footfalls.empty() ? kLeft : kLeftOfNames; }
+
+// First of the samples that are shown; `time` is not empty.
+std::size_t first_shown(const std::vector<double>& time) {
+  std::size_t first = 0;
+  while (time[first] < time.back() - kWindow - 1e-9) ++first;
+  return first;
+}
+
+Ticks shown_time(const std::vector<double>& time) { return ticks_within(time[first_shown(time)], time.back(), 8); }
 
 constexpr Style kGridLine{.stroke = colour::kPale};
 constexpr Style kAxisLine{.stroke = colour::kInk, .width = 1.2};
@@ -50,11 +62,15 @@ struct Curve {
 
 class Chart {
  public:
-  Chart(Svg& svg, const FigureInput& input, double top) : svg_(svg), input_(input), top_(top), bottom_(top + kChartHeight) {
-    while (first_ < input.time.size() && input.time[first_] < input.time.back() - kWindow - 1e-9) ++first_;
-    time_ = ticks_within(input.time[first_], input.time.back(), 8);
-    x_ = {time_.lo, time_.hi, kLeft, kRight};
-  }
+  Chart(Svg& svg, const FigureInput& input, double top)
+      : svg_(svg),
+        input_(input),
+        left_(left_edge(input)),
+        top_(top),
+        bottom_(top + kChartHeight),
+        first_(first_shown(input.time)),
+        time_(shown_time(input.time)),
+        x_{time_.lo, time_.hi, left_, kRight} {}
 
   void draw(const std::vector<Curve>& left, const std::vector<Curve>& right) {
     const auto [left_ticks, right_ticks] = ticks(left, right);
@@ -63,8 +79,8 @@ class Chart {
     time_axis();
     if (!left.empty()) {
       grid(left_ticks, left_y);
-      labels(left_ticks, left_y, kLeft - 8, Anchor::end, colour::kBlue);
-      svg_.text({kLeft - 54, (top_ + bottom_) / 2}, "angle (rad)",
+      labels(left_ticks, left_y, left_ - 8, Anchor::end, colour::kBlue);
+      svg_.text({left_ - 54, (top_ + bottom_) / 2}, "angle (rad)",
                 {.anchor = Anchor::middle, .fill = colour::kBlue, .upwards = true});
     }
     if (!right.empty()) {
@@ -75,7 +91,7 @@ class Chart {
     }
     for (const Curve& curve : right) svg_.polyline(points(curve, right_y), curve.style);
     for (const Curve& curve : left) svg_.polyline(points(curve, left_y), curve.style);
-    svg_.rectangle({kLeft, top_}, kRight - kLeft, bottom_ - top_, kAxisLine);
+    svg_.rectangle({left_, top_}, kRight - left_, bottom_ - top_, kAxisLine);
     legend(left, right);
   }
 
@@ -89,7 +105,12 @@ class Chart {
   }
 
   [[nodiscard]] TwinTicks ticks(const std::vector<Curve>& left, const std::vector<Curve>& right) const {
-    const Bounds a = bounds(left);
+    Bounds a = bounds(left);
+    const double least = a.empty() ? 0 : input_.least_angle;
+    if (least > 0) {
+      a.add(-least);
+      a.add(least);
+    }
     const Bounds b = bounds(right);
     if (left.empty() || right.empty()) return {ticks_around(a.lo, a.hi, 6), ticks_around(b.lo, b.hi, 6)};
     return twin_ticks(a.lo, a.hi, b.lo, b.hi);
@@ -100,13 +121,13 @@ class Chart {
       svg_.line({x_(t), top_}, {x_(t), bottom_}, kGridLine);
       svg_.text({x_(t), bottom_ + 18}, time_.label(t), {.anchor = Anchor::middle});
     }
-    svg_.text({(kLeft + kRight) / 2, bottom_ + 38}, "time (s)", {.anchor = Anchor::middle});
+    svg_.text({(left_ + kRight) / 2, bottom_ + 38}, "time (s)", {.anchor = Anchor::middle});
   }
 
   void grid(const Ticks& ticks, const Scale& y) {
     for (const double value : ticks.values()) {
       const bool zero = std::abs(value) < 0.5 * ticks.step;
-      svg_.line({kLeft, y(value)}, {kRight, y(value)}, zero ? kZeroLine : kGridLine);
+      svg_.line({left_, y(value)}, {kRight, y(value)}, zero ? kZeroLine : kGridLine);
     }
   }
 
@@ -133,13 +154,13 @@ class Chart {
         x -= 62;
       }
     }
-    svg_.text({kLeft, y}, "joint " + input_.joint, {.bold = true});
+    svg_.text({left_, y}, "joint " + input_.joint, {.bold = true});
   }
 
   Svg& svg_;
   const FigureInput& input_;
-  double top_, bottom_;
-  std::size_t first_ = 0;
+  double left_, top_, bottom_;
+  std::size_t first_;
   Ticks time_;
   Scale x_;
 };
@@ -195,7 +216,7 @@ double middle(const View& view) {
 
 class Views {
  public:
-  explicit Views(const FigureInput& input) : input_(input) {
+  explicit Views(const FigureInput& input) : input_(input), left_(left_edge(input)) {
     Bounds x;
     for (const View& view : input.views) {
       const Extent seen = extent(view);
@@ -208,11 +229,11 @@ class Views {
     }
     if (x.empty()) x = {-0.5, 0.5};
     const double width = std::max(1.06 * (x.hi - x.lo), 1e-3);
-    per_metre_ = (kRight - kLeft) / width;
+    per_metre_ = (kRight - left_) / width;
     if (above_ + below_ > 0) per_metre_ = std::min(per_metre_, kViewMost / (above_ + below_));
-    const double half = 0.5 * (kRight - kLeft) / per_metre_;
+    const double half = 0.5 * (kRight - left_) / per_metre_;
     ticks_ = ticks_within(0.5 * (x.lo + x.hi) - half, 0.5 * (x.lo + x.hi) + half, 8);
-    x_ = {ticks_.lo, ticks_.hi, kLeft, kRight};
+    x_ = {ticks_.lo, ticks_.hi, left_, kRight};
   }
 
   [[nodiscard]] double height() const { return kHead + pitch() * static_cast<double>(input_.views.size()) + kFoot; }
@@ -241,8 +262,8 @@ class Views {
   void draw_view(Svg& svg, const View& view, const Scale& z) const {
     const auto paper = [&](Point p) { return Point{x_(p.x), z(p.y)}; };
     if (input_.ground) {
-      svg.rectangle({kLeft, z(0)}, kRight - kLeft, 5, {.fill = colour::kPale});
-      svg.line({kLeft, z(0)}, {kRight, z(0)}, kAxisLine);
+      svg.rectangle({left_, z(0)}, kRight - left_, 5, {.fill = colour::kPale});
+      svg.line({left_, z(0)}, {kRight, z(0)}, kAxisLine);
     }
     for (const Outline& outline : view.outlines) {
       std::vector<Polygon> polygons = outline.polygons;
@@ -252,7 +273,7 @@ class Views {
     for (const Point& contact : view.contacts)
       svg.circle(paper(contact), 2.6, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 0.8});
     if (view.joint) arrow(svg, paper(*view.joint));
-    svg.text({kLeft - 10, z(z.lo) + 4}, fmt::format("{:.6g} s", view.time), {.anchor = Anchor::end, .bold = true});
+    svg.text({left_ - 10, z(z.lo) + 4}, fmt::format("{:.6g} s", view.time), {.anchor = Anchor::end, .bold = true});
   }
 
   static void arrow(Svg& svg, Point tip) {
@@ -262,7 +283,8 @@ class Views {
 
   void header(Svg& svg, double top) const {
     const bool arrows = any([](const View& view) { return view.joint.has_value(); });
-    svg.text({kLeft, top + 14}, arrows ? "side view (arrow: joint above)" : "side view", {.bold = true});
+    const std::string title = arrows ? "side view (arrow: joint above)" : "side view";
+    svg.text({left_, top + 14}, input_.views_title.empty() ? title : input_.views_title, {.bold = true});
     double x = kRight;
     const auto entry = [&](std::string_view name, double symbol) {
       x -= text_width(name, 13);
@@ -286,12 +308,12 @@ class Views {
   }
 
   void axis(Svg& svg, double bottom) const {
-    svg.line({kLeft, bottom}, {kRight, bottom}, kAxisLine);
+    svg.line({left_, bottom}, {kRight, bottom}, kAxisLine);
     for (const double x : ticks_.values()) {
       svg.line({x_(x), bottom}, {x_(x), bottom + 5}, kAxisLine);
       svg.text({x_(x), bottom + 20}, ticks_.label(x), {.anchor = Anchor::middle});
     }
-    svg.text({(kLeft + kRight) / 2, bottom + 40}, "x (m), heights on the same scale", {.anchor = Anchor::middle});
+    svg.text({(left_ + kRight) / 2, bottom + 40}, input_.views_axis, {.anchor = Anchor::middle});
   }
 
   static bool shows(const View& view, Role role) {
@@ -303,6 +325,7 @@ class Views {
   }
 
   const FigureInput& input_;
+  double left_;
   std::vector<double> floors_ = {};  // height drawn on the base line of each view, m
   double above_ = 0, below_ = 0;     // of the base line, m
   double per_metre_ = 1;
@@ -329,10 +352,16 @@ std::string figure_svg(const FigureInput& input) {
   add(right, "torque (right)", input.torque, kTorque);
   const bool chart = !left.empty() || !right.empty();
   const Views views(input);
-  const double views_top = kTitleHeight + (chart ? kChartTop + kChartHeight + kChartFoot : 0);
+  const bool footfalls = !input.footfalls.empty() && !input.time.empty();
+  const double footfall_top = kTitleHeight + (chart ? kChartTop + kChartHeight + kChartFoot : 0);
+  const double views_top = footfall_top + (footfalls ? footfall_height(input.footfalls.size()) : 0);
   Svg svg(kWidth, views_top + (input.views.empty() ? 0 : views.height() + 8));
   title(svg, input.title);
   if (chart) Chart(svg, input, kTitleHeight + kChartTop).draw(left, right);
+  if (footfalls) {
+    const Ticks time = shown_time(input.time);
+    draw_footfalls(svg, input.footfalls, input.footfall_note, time, {time.lo, time.hi, kLeftOfNames, kRight}, footfall_top);
+  }
   if (!input.views.empty()) views.draw(svg, views_top);
   return svg.finish();
 }

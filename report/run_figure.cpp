@@ -1,6 +1,10 @@
 #include "report/run_figure.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "report/figure.h"
 
@@ -44,23 +48,151 @@ View view_at(const Scenario& scenario, const RunRecord& r, std::size_t tick, std
   return view;
 }
 
+constexpr std::size_t kViews = 5;
+constexpr double kShown = 8;         // s, of the upper panels
+constexpr double kLongest = 4;       // s, of the side views: a period may have been found as a multiple of the gait's
+constexpr double kPeriodless = 2;    // s, of the side views without a limit cycle
+constexpr double kStands = 0.02;     // of the weight
+constexpr double kPaperAngle = 0.1;  // rad, the angle axis of the paper's figure 14
+constexpr double kAboutY = 0.9;      // least |y| of an axis
+constexpr double kSamePlace = 1e-3;  // m
+
+std::vector<Leg> legs_that_walk(const Scenario& s) {
+  if (s.ground.kind == Ground::Kind::none || static_cast<ContactSet>(s.contact.on) == ContactSet::none) return {};
+  std::vector<Leg> legs = find_legs(info(*s.robot));
+  if (legs.size() < 4) legs.clear();
+  return legs;
+}
+
+std::vector<double> times(const Scenario& scenario, const RunRecord& r, const Summary& summary) {
+  std::vector<double> time;
+  for (std::size_t k = 0; k < r.com_x.size(); ++k)
+    time.push_back(std::min(static_cast<double>(k) * scenario.trace.period, summary.simulated));
+  return time;
+}
+
+// Angle, set point and torque of a joint over `input.time`.
+void add_joint(FigureInput& input, const Scenario& scenario, const RunRecord& r, std::size_t joint) {
+  const std::size_t n = scenario.robot->joints.size();
+  input.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
+  input.angle = series(r.angles, n, joint);
+  if (scenario.actuator.entry != nullptr) {
+    input.setpoint = series(r.setpoints, n, joint);
+    input.torque = series(r.torques, n, joint);
+  }
+}
+
+// The start of the whole periods at the end of the run, as many as are shown.
+double periods_from(const Summary& s) {
+  const double shown = std::min(kShown, s.simulated);
+  const double period = s.limit_cycle.period;
+  if (!s.limit_cycle.found || period > shown) return s.simulated - shown;
+  return s.simulated - std::floor(shown / period + 1e-3) * period;
+}
+
+std::vector<double> torque_peaks(const RunRecord& r, std::size_t joints, std::size_t from_tick) {
+  std::vector<double> peaks(joints, 0.0);
+  for (std::size_t at = from_tick * joints; at < r.torques.size(); ++at) {
+    peaks[at % joints] = std::max(peaks[at % joints], std::abs(r.torques[at]));
+  }
+  return peaks;
+}
+
+std::vector<Footfall> footfalls(const Scenario& scenario, const RunRecord& r, const std::vector<Leg>& legs,
+                                const std::vector<double>& time, double from) {
+  const std::size_t modules = scenario.robot->modules.size();
+  const double weight = scenario.robot->mass * scenario.physics.gravity.norm();
+  const std::vector<std::string> names = leg_names(legs);
+  std::vector<Footfall> rows;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    std::vector<double> load(time.size(), 0.0);
+    for (std::size_t k = 0; k < time.size(); ++k) {
+      for (const std::int64_t m : legs[i].modules) load[k] += r.loads[k * modules + static_cast<std::size_t>(m)];
+    }
+    Footfall row{names[i], stances(time, load, kStands * weight)};
+    row.duty_factor = duty_factor(row.stances, from, time.back());
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+// Five views from the start of the last period on; the sixth would show what the first shows.
+void add_period(FigureInput& input, const Scenario& scenario, const RunRecord& r, const Summary& s, std::size_t joint) {
+  const LimitCycle& cycle = s.limit_cycle;
+  const double span = std::min({cycle.found ? cycle.period : kPeriodless, kLongest, s.simulated});
+  for (std::size_t i = 0; i < kViews; ++i) {
+    const double t = s.simulated - span * (1 - static_cast<double>(i) / kViews);
+    const auto tick = static_cast<std::size_t>(std::llround(t / scenario.trace.period));
+    if (tick >= input.time.size() || (i > 0 && input.time[tick] <= input.views.back().time)) continue;
+    input.views.push_back(view_at(scenario, r, tick, joint));
+  }
+  input.views_title =
+      fmt::format("side view over {} {:.3g} s", cycle.found && cycle.period <= span ? "one period," : "the last", span);
+  const double* p = r.poses.data() + r.poses.size() - 7;
+  const double ahead = (Quat(p[3], p[4], p[5], p[6]) * Vec3::UnitX()).x();
+  if (std::abs(ahead) < 0.7) return;  // seen from the front rather than from the side
+  input.views_axis = fmt::format("x (m), forward is {}; heights on the same scale", ahead > 0 ? "right" : "left");
+}
+
+std::string legged_figure(const Scenario& scenario, const RunRecord& r, const Summary& summary, const std::vector<Leg>& legs) {
+  FigureInput input;
+  input.title = scenario.name;
+  input.time = times(scenario, r, summary);
+  const double from = periods_from(summary);
+  const auto tick = static_cast<std::size_t>(std::max(0.0, std::ceil(from / scenario.trace.period - 1e-9)));
+  const std::size_t joint =
+      central_spine_joint(info(*scenario.robot), legs, torque_peaks(r, scenario.robot->joints.size(), tick));
+  add_joint(input, scenario, r, joint);
+  input.joint += ", middle of the spine (arrow below)";
+  input.least_angle = kPaperAngle;
+  input.footfalls = footfalls(scenario, r, legs, input.time, from);
+  input.footfall_note = fmt::format("bars: load above {:.3g} % of the weight; at the right the duty factor over {:.3g} s",
+                                    100 * kStands, summary.simulated - from);
+  add_period(input, scenario, r, summary, joint);
+  return figure_svg(input);
+}
+
 }  // namespace
 
+std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& legs, std::span<const double> torque_peaks) {
+  std::vector<bool> in_leg(robot.modules.size(), false);
+  for (const Leg& leg : legs) {
+    for (const std::int64_t m : leg.modules) in_leg[static_cast<std::size_t>(m)] = true;
+  }
+  std::vector<std::size_t> joints(robot.joints.size());
+  std::iota(joints.begin(), joints.end(), 0);
+  const auto keep = [&](const auto& test) {
+    std::vector<std::size_t> kept;
+    std::copy_if(joints.begin(), joints.end(), std::back_inserter(kept), test);
+    if (!kept.empty()) joints = kept;
+  };
+  keep([&](std::size_t j) { return !in_leg[static_cast<std::size_t>(robot.joints[j].module)]; });
+  const auto x = [&](std::size_t j) { return robot.joints[j].origin[0]; };
+  const auto further = [&](std::size_t a, std::size_t b) { return x(a) < x(b); };
+  const auto [rear, front] = std::minmax_element(joints.begin(), joints.end(), further);
+  const double middle = 0.5 * (x(*rear) + x(*front));
+  const auto bends = [&](std::size_t j) { return std::abs(robot.joints[j].axis[1]) > kAboutY; };
+  if (std::any_of(joints.begin(), joints.end(), bends)) {
+    keep(bends);
+    double nearest = std::abs(x(joints[0]) - middle);
+    for (const std::size_t j : joints) nearest = std::min(nearest, std::abs(x(j) - middle));
+    keep([&](std::size_t j) { return std::abs(x(j) - middle) < nearest + kSamePlace; });
+  }
+  return *std::max_element(joints.begin(), joints.end(),
+                           [&](std::size_t a, std::size_t b) { return torque_peaks[a] < torque_peaks[b]; });
+}
+
 std::string run_figure(const Scenario& scenario, const RunRecord& r, const Summary& summary) {
-  constexpr std::size_t kViews = 5;
-  const std::size_t n = scenario.robot->joints.size();
+  const std::vector<Leg> legs = legs_that_walk(scenario);
+  const std::size_t ticks = r.com_x.size();
+  if (!legs.empty() && ticks > 0) return legged_figure(scenario, r, summary, legs);
   const std::size_t joint = summary.most_loaded;
   FigureInput input;
   input.title = scenario.name;
   input.ground = scenario.ground.kind != Ground::Kind::none;
-  const std::size_t ticks = r.com_x.size();
-  if (n > 0) {
-    input.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
-    for (std::size_t k = 0; k < ticks; ++k)
-      input.time.push_back(std::min(static_cast<double>(k) * scenario.trace.period, summary.simulated));
-    input.angle = series(r.angles, n, joint);
-    input.setpoint = series(r.setpoints, n, joint);
-    if (scenario.actuator.entry != nullptr) input.torque = series(r.torques, n, joint);
+  if (!scenario.robot->joints.empty()) {
+    input.time = times(scenario, r, summary);
+    add_joint(input, scenario, r, joint);
   }
   const auto second = static_cast<std::size_t>(std::max<std::int64_t>(1, whole(1.0, scenario.trace.period)));
   for (std::size_t back = kViews; back-- > 0;) {

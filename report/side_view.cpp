@@ -111,7 +111,7 @@ std::vector<Outline> side_view(const Robot& robot, const Kinematics& kinematics)
     seen.push_back(see(shapes, link * body.in_link, role_of(type, body.type)));
   }
   std::stable_sort(seen.begin(), seen.end(),
-                   [](const Seen& a, const Seen& b) { return std::tie(a.mean_y, a.front_y) > std::tie(b.mean_y, b.front_y); });
+                   [](const Seen& a, const Seen& b) { return std::tie(a.front_y, a.mean_y) > std::tie(b.front_y, b.mean_y); });
   std::vector<Outline> outlines;
   outlines.reserve(seen.size());
   for (Seen& each : seen) outlines.push_back(std::move(each.outline));

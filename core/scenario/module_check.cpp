@@ -144,9 +144,10 @@ class ModuleCheck {
       HingeType& hinge = type_.hinges[i];
       const Node& map = places_.hinges[i];
       const auto [first, fresh] = names.emplace(hinge.name, i);
-      if (!fresh)
+      if (!fresh) {
         duplicate(place_of(map, "name"), fmt::format("duplicate hinge name '{}'", hinge.name),
                   place_of(places_.hinges[first->second], "name"));
+      }
       normalise(hinge.axis, map, "axis", problems_);
       if (!(hinge.lo < hinge.hi)) {
         problems_.add(place_of(map, "range"), fmt::format("range is {} to {} rad; expected the smaller angle first",
@@ -161,9 +162,10 @@ class ModuleCheck {
       FaceType& face = type_.faces[i];
       const Node& map = places_.faces[i];
       const auto [first, fresh] = ids.emplace(face.id, i);
-      if (!fresh)
+      if (!fresh) {
         duplicate(place_of(map, "id"), fmt::format("duplicate face id {}", face.id),
                   place_of(places_.faces[first->second], "id"));
+      }
       const bool normal = normalise(face.normal, map, "normal", problems_);
       const bool reference = normalise(face.reference, map, "reference", problems_);
       if (normal && reference && std::abs(face.normal.dot(face.reference)) > kRelative) {

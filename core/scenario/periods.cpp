@@ -100,6 +100,7 @@ std::vector<double> fitting_periods(double period, double step) {
 
 void check_periods(const std::vector<Period>& periods, const Period& step, const Place& otherwise, Problems& problems) {
   std::vector<double> all;
+  all.reserve(periods.size());
   for (const Period& period : periods) all.push_back(period.value);
   for (const Period& period : periods) {
     if (whole_multiple(period.value, step.value) > 0) continue;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -13,6 +14,8 @@
 namespace gaitlab {
 
 namespace {
+
+constexpr std::size_t kReadPiece = std::size_t{1} << 20;  // bytes; keeps the number of system calls small
 
 // 0 or errno; a signal that only interrupts is no failure.
 int sync(int descriptor) {
@@ -78,6 +81,29 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   AtomicFile file(path);
   file.write(bytes);
   file.commit();
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  const auto fail = [&](int error) -> InputError {
+    return {Place{path.string()}, "cannot be read: " + std::generic_category().message(error)};
+  };
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) throw fail(errno);
+  std::string text;
+  ssize_t got = 0;
+  do {
+    const std::size_t size = text.size();
+    text.resize(size + kReadPiece);
+    got = ::read(descriptor, text.data() + size, kReadPiece);
+    const int error = errno;
+    text.resize(size + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    if (got < 0 && error != EINTR) {
+      ::close(descriptor);
+      throw fail(error);
+    }
+  } while (got != 0);
+  ::close(descriptor);
+  return text;
 }
 
 }  // namespace gaitlab

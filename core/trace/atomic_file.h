@@ -1,6 +1,7 @@
-// A file that appears whole or not at all.
+// A file that appears whole or not at all, and is read whole.
 #pragma once
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace gaitlab {
@@ -34,5 +35,8 @@ class AtomicFile {
 
 /// The whole of `bytes` as the file `path`, or RunError and no change.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// All bytes of a file, of any size. InputError: `PATH: error: cannot be read: REASON`.
+std::string read_file(const std::filesystem::path& path);
 
 }  // namespace gaitlab

@@ -1,12 +1,8 @@
 #include "core/trace/csv.h"
 
-#include <fcntl.h>
 #include <fmt/compile.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <iterator>
 #include <optional>
@@ -31,29 +27,6 @@ std::string header_cell(const std::string& name, const std::filesystem::path& pa
   std::string quoted = "\"";
   for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + '"';
-}
-
-std::string read_whole(const std::filesystem::path& path) {
-  const auto fail = [&](int error) -> InputError {
-    return {Place{path.string()}, "cannot be read: " + std::generic_category().message(error)};
-  };
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) throw fail(errno);
-  std::string text;
-  ssize_t got = 0;
-  do {
-    const std::size_t size = text.size();
-    text.resize(size + kPiece);
-    got = ::read(descriptor, text.data() + size, kPiece);
-    const int error = errno;
-    text.resize(size + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-    if (got < 0 && error != EINTR) {
-      ::close(descriptor);
-      throw fail(error);
-    }
-  } while (got != 0);
-  ::close(descriptor);
-  return text;
 }
 
 // Cuts a text into lines and lines into cells, and knows where it is.
@@ -197,7 +170,7 @@ void write_csv(const Trace& trace, const std::filesystem::path& path) {
 }
 
 Trace read_csv(const std::filesystem::path& path) {
-  const std::string text = read_whole(path);
+  const std::string text = read_file(path);
   if (text.empty()) throw InputError({path.string(), 1, 1}, "the file is empty: a header row of column names is missing");
   Reader reader(path.string(), text);
   reader.next_line();

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <string_view>
 
 namespace gaitlab {
 
@@ -36,6 +35,8 @@ std::string hash(const Trace& trace) {
   state = absorb(state, {bytes, trace.values.size() * sizeof(double)});
   return fmt::format("{:016x}", state);
 }
+
+std::string hash(std::string_view bytes) { return fmt::format("{:016x}", absorb(kOffset, bytes)); }
 
 bool glob(const std::string& pattern, const std::string& text) {
   constexpr std::size_t kNone = std::string::npos;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gaitlab {
@@ -29,6 +30,9 @@ struct Trace {
 
 /// FNV-1a (64 bit) over the names and the bytes of all values: the same trace, the same hash. 16 hex digits.
 std::string hash(const Trace& trace);
+
+/// FNV-1a (64 bit) of the bytes alone. 16 hex digits.
+std::string hash(std::string_view bytes);
 
 /// `*` stands for any run of characters, `?` for one.
 bool glob(const std::string& pattern, const std::string& text);

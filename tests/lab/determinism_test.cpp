@@ -37,12 +37,12 @@ TEST(Determinism, OtherFolderOtherTimeSameBytes) {
   const std::string run = "run '" + kScenarios + "caterpillar.yaml' --set duration=0.6 --quiet --out ";
   ASSERT_EQ(gaitlab(run + "a", one / "").code, 0);
   ASSERT_EQ(gaitlab(run + "some/where/b", two / "").code, 0);
-  for (const char* file : {"trace.csv", "scenario.resolved.yaml"}) {
+  for (const char* file : {"trace.h5", "scenario.resolved.yaml"}) {
     EXPECT_EQ(read(one / (std::string("a/") + file)), read(two / (std::string("some/where/b/") + file))) << file;
   }
   // The resolved scenario alone, from a folder that knows no module: the same trace, and itself again.
   ASSERT_EQ(gaitlab("run '" + (one / "a/scenario.resolved.yaml") + "' --quiet --out c", two / "").code, 0);
-  EXPECT_EQ(read(one / "a/trace.csv"), read(two / "c/trace.csv"));
+  EXPECT_EQ(read(one / "a/trace.h5"), read(two / "c/trace.h5"));
   EXPECT_EQ(read(one / "a/scenario.resolved.yaml"), read(two / "c/scenario.resolved.yaml"));
 }
 

@@ -1,5 +1,5 @@
 // Bad input as a user meets it: the whole message, exit code 2, nothing written; and a run that diverges.
-#include "core/trace/csv.h"
+#include "core/trace/h5.h"
 #include "fixture.h"
 
 namespace gaitlab::test {
@@ -116,7 +116,7 @@ TEST_F(Program, DivergingRunKeepsWhatItHas) {
   EXPECT_EQ(result.err,
             "wild.yaml: error: diverged at step 1, t = 2.5e-05 s: joint m1/passive turns at 3.36e+05 rad/s; what was simulated "
             "until then is in out\n");
-  const Trace trace = read_csv(folder / "out/trace.csv");
+  const Trace trace = read_h5(folder / "out/trace.h5").trace;
   EXPECT_GE(trace.rows(), 1U);
 }
 

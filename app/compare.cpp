@@ -1,0 +1,176 @@
+#include "core/trace/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/app.h"
+#include "core/errors.h"
+#include "core/trace/run_files.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+using Json = nlohmann::json;
+
+// A pattern that matches nothing would otherwise look like "no difference".
+void check_patterns(const std::vector<std::string>& patterns, const Trace& a, const Trace& b) {
+  std::vector<std::string> names;
+  for (const Trace* trace : {&a, &b}) {
+    for (const Column& column : trace->columns) names.push_back(column.name);
+  }
+  Problems problems;
+  for (const std::string& pattern : patterns) {
+    if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return glob(pattern, name); })) continue;
+    const std::string near = nearest(pattern, names);
+    problems.add(Place{"--columns"}, fmt::format("'{}' matches no column of either trace{}", pattern,
+                                                 near.empty() ? "" : "; did you mean '" + near + "'?"));
+  }
+  problems.raise();
+}
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+void print_columns(const TraceDifference& difference) {
+  std::size_t width = 6;
+  std::size_t equal = 0;
+  for (const ColumnDifference& d : difference.columns) {
+    width = std::max(width, d.name.size());
+    equal += d.equal ? 1 : 0;
+  }
+  if (equal < difference.columns.size()) {
+    fmt::print("{:<{}}  {:<6} {:>10} {:>10} {:>10} {:>10} {:>11}  {}\n", "column", width, "unit", "RMS", "max", "RMS/range",
+               "max/range", "from t =", "late by");
+  }
+  for (const ColumnDifference& d : difference.columns) {
+    if (d.equal) continue;
+    const std::string from = d.first_divergence ? fmt::format("{:.6g} s", *d.first_divergence) : "never";
+    const std::string late =
+        d.time_shift == 0 ? "-" : fmt::format("{:+.4g} s, then {}", d.time_shift, percent(d.rms_after_shift / d.scale));
+    fmt::print("{:<{}}  {:<6} {:>10.3g} {:>10.3g} {:>10} {:>10} {:>11}  {}\n", d.name, width, d.unit, d.rms, d.maximum,
+               percent(d.relative_rms), percent(d.relative_maximum), from, late);
+  }
+  fmt::print("{} of {} columns are equal to the bit in {} rows\n", equal, difference.columns.size(), difference.rows);
+}
+
+/// A row of the summary table.
+struct Figure {
+  std::string name;     ///< with unit
+  std::string pointer;  ///< JSON pointer
+  bool always = true;   ///< else only where A and B differ
+};
+
+// Null where a summary has not got it.
+Json at(const Json& summary, const std::string& pointer) {
+  const Json::json_pointer where(pointer);
+  return summary.contains(where) ? summary.at(where) : Json();
+}
+
+std::string most_loaded_joint(const Json& summary) {
+  const Json joints = at(summary, "/per_joint");
+  std::string found;
+  double largest = 0;
+  for (const auto& [name, joint] : joints.items()) {
+    const Json peak = at(joint, "/torque/peak");
+    if (!peak.is_number() || !(peak.get<double>() > largest)) continue;
+    largest = peak.get<double>();
+    found = name;
+  }
+  return found;
+}
+
+std::vector<Figure> figures(const Json& a) {
+  std::vector<Figure> all = {{"name", "/name", false},
+                             {"engine", "/engine", false},
+                             {"integrator", "/integrator", false},
+                             {"step, s", "/step", false},
+                             {"duration, s", "/duration", false},
+                             {"simulated, s", "/simulated", false},
+                             {"outcome", "/outcome", false},
+                             {"seed", "/seed", false},
+                             {"build", "/build", false},
+                             {"modules", "/modules", false},
+                             {"mass, kg", "/mass", false},
+                             {"distance, m", "/distance"},
+                             {"displacement x, m", "/displacement/0"},
+                             {"displacement y, m", "/displacement/1"},
+                             {"speed, m/s", "/speed"},
+                             {"path length, m", "/path_length"},
+                             {"heading change, rad", "/heading_change"},
+                             {"transport, electrical", "/cost_of_transport/electrical"},
+                             {"transport, mechanical", "/cost_of_transport/mechanical"},
+                             {"limit cycle found", "/limit_cycle/found", false},
+                             {"limit cycle period, s", "/limit_cycle/period"}};
+  const std::string most_loaded = most_loaded_joint(a);  // one row is one joint, so that of A
+  if (!most_loaded.empty()) {
+    const std::string key = (Json::json_pointer("/per_joint") / most_loaded).to_string();  // escapes the / of a name
+    all.push_back({most_loaded + " torque peak, N m", key + "/torque/peak"});
+    all.push_back({most_loaded + " torque RMS, N m", key + "/torque/rms"});
+  }
+  all.push_back({"stability max", "/stability/max"});
+  all.push_back({"trace hash", "/trace_hash"});
+  return all;
+}
+
+std::string shown(const Json& value) {
+  if (value.is_null()) return "-";
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// B - A relative to A where both are numbers.
+std::string change(const Json& a, const Json& b) {
+  if (a == b) return "equal";
+  if (!a.is_number() || !b.is_number()) return "differs";
+  const double from = a.get<double>();
+  const double by = b.get<double>() - from;
+  return from == 0 ? fmt::format("{:+.3g}", by) : fmt::format("{:+.3g} %", 100 * by / std::abs(from));
+}
+
+void print_summaries(const Json& a, const Json& b) {
+  const std::vector<Figure> rows = figures(a);
+  std::size_t width = 0;
+  for (const Figure& figure : rows) width = std::max(width, figure.name.size());
+  fmt::print("\n{:<{}} {:>18} {:>18}  {}\n", "summary", width, "A", "B", "B - A");
+  for (const Figure& figure : rows) {
+    const Json one = at(a, figure.pointer);
+    const Json other = at(b, figure.pointer);
+    if ((one.is_null() && other.is_null()) || (!figure.always && one == other)) continue;
+    fmt::print("{:<{}} {:>18} {:>18}  {}\n", figure.name, width, shown(one), shown(other), change(one, other));
+  }
+}
+
+/// Null for a trace file, which has no summary beside it that is surely its own.
+Json summary_of(const std::string& run) { return std::filesystem::is_directory(run) ? read_summary(run) : Json(); }
+
+}  // namespace
+
+int compare(const CompareArguments& arguments) {
+  const Trace a = read_trace(arguments.a);
+  const Trace b = read_trace(arguments.b);
+  const Json summary_a = summary_of(arguments.a);
+  const Json summary_b = summary_of(arguments.b);
+  CompareOptions options;
+  if (!arguments.columns.empty()) options.columns = arguments.columns;
+  check_patterns(options.columns, a, b);
+  const TraceDifference difference = gaitlab::compare(a, b, options);
+
+  fmt::print("A: {} ({} rows)\n", trace_file(arguments.a).string(), a.rows());
+  fmt::print("B: {} ({} rows)\n", trace_file(arguments.b).string(), b.rows());
+  for (const std::string& finding : difference.findings) fmt::print("{}\n", finding);
+  fmt::print("\n");
+  print_columns(difference);
+  if (!summary_a.is_null() && !summary_b.is_null()) {
+    print_summaries(summary_a, summary_b);
+  } else {
+    fmt::print("\nsummary numbers: not compared, a trace file has none\n");
+  }
+  return 0;
+}
+
+}  // namespace gaitlab::app

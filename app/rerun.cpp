@@ -1,0 +1,219 @@
+// Runs again from a run folder alone; with --verify it says whether the same comes out, and if not, what has changed since.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/app.h"
+#include "app/progress.h"
+#include "app/stored_scenario.h"
+#include "core/errors.h"
+#include "core/simulation/simulation.h"
+#include "core/trace/compare.h"
+#include "core/trace/csv.h"
+#include "core/trace/h5.h"
+#include "core/trace/run_files.h"
+#include "report/build_id.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kTolerance = 1e-9;  // RMS of a column relative to its range
+constexpr std::size_t kColumnsShown = 10;
+
+/// What the recorded run left.
+struct Past {
+  fs::path file;  ///< of the trace
+  Trace trace;
+  std::string scenario;              ///< inside trace.h5, or ""
+  std::string build;                 ///< "" where nothing recorded it
+  std::optional<std::string> ended;  ///< summary.json: "done", or why it ended early; without one: nothing
+  std::string summary_hash;          ///< of the trace that summary.json is about, or ""
+};
+
+Past read_past(const fs::path& run) {
+  Past past;
+  past.file = trace_file(run);
+  if (past.file.extension() == ".h5") {
+    StoredTrace stored = read_h5(past.file);
+    past.trace = std::move(stored.trace);
+    past.scenario = std::move(stored.origin.scenario);
+    past.build = std::move(stored.origin.build);
+  } else {
+    past.trace = read_csv(past.file);
+  }
+  if (past.trace.rows() == 0 || past.trace.columns.front().name != "t")
+    throw InputError(Place{past.file.string()}, "holds no rows of a run: it has no first column t, or nothing in it");
+  if (!fs::is_directory(run) || !fs::exists(run / "summary.json")) return past;
+  const nlohmann::json summary = read_summary(run);
+  const auto text = [&](const char* key) {
+    const auto at = summary.find(key);
+    return at != summary.end() && at->is_string() ? at->get<std::string>() : std::string();
+  };
+  past.ended = text("outcome");
+  past.summary_hash = text("trace_hash");
+  if (past.build.empty()) past.build = text("build");
+  return past;
+}
+
+double last_time(const Trace& trace) { return trace.at(trace.rows() - 1, 0); }
+
+/// A run that was killed while it wrote, or a trace file alone, has no summary: then its last row tells.
+bool ended_early(const Past& past, const Scenario& scenario) {
+  if (past.ended) return *past.ended != "done";
+  return last_time(past.trace) < scenario.duration - 0.5 * scenario.physics.step;
+}
+
+/// The same run again: whole, or up to the last recorded row of one that ended early.
+struct Again {
+  Trace trace;
+  std::string failure;
+};
+
+Again run_again(const Scenario& scenario, const Past& past, bool early) {
+  Again again;
+  Simulation simulation({&scenario, 1});
+  const Progress progress(false);
+  try {
+    const double until = last_time(past.trace) + 0.5 * scenario.physics.step;
+    while (early && !simulation.done() && simulation.time() < until) simulation.step();
+    if (!early) simulation.run(std::cref(progress));
+  } catch (const SimulationError& error) {
+    again.failure = error.what();
+  }
+  again.trace = simulation.take_record(0).trace;
+  const std::size_t rows = early ? std::min(past.trace.rows(), again.trace.rows()) : again.trace.rows();
+  again.trace.values.resize(rows * again.trace.columns.size());
+  return again;
+}
+
+/// `line N: "NOW", was "THEN"` of the first line in which two texts differ.
+std::string first_difference(const std::string& then, const std::string& now) {
+  std::size_t line = 1;
+  std::size_t start = 0;
+  for (std::size_t i = 0; i < std::min(then.size(), now.size()) && then[i] == now[i]; ++i) {
+    if (then[i] != '\n') continue;
+    ++line;
+    start = i + 1;
+  }
+  const auto line_of = [&](const std::string& text) {
+    return start < text.size() ? "\"" + text.substr(start, text.find('\n', start) - start) + "\"" : std::string("nothing");
+  };
+  return fmt::format("line {}: {}, was {}", line, line_of(now), line_of(then));
+}
+
+/// What is not as it was when the run was recorded, a line each.
+std::vector<std::string> changes(const StoredScenario& stored, const Past& past, const Scenario& scenario, const Again& again) {
+  std::vector<std::string> found;
+  if (past.build.empty()) {
+    found.push_back(fmt::format("build: not recorded; now {}", build_id()));
+  } else if (past.build != build_id()) {
+    found.push_back(fmt::format("build: then {}, now {}", past.build, build_id()));
+  }
+  const std::vector<PluginChange> plugins = changed_plugins(stored);
+  for (const PluginChange& plugin : plugins) {
+    found.push_back(fmt::format("plugin {}: another file: hash then {}, now {}", plugin.path, plugin.then, plugin.now));
+  }
+  if (!past.scenario.empty() && past.scenario != stored.text) {
+    found.push_back(fmt::format("scenario: {} is not the one in {}: {}", stored.shown, past.file.filename().string(),
+                                first_difference(past.scenario, stored.text)));
+  }
+  const std::string now = resolved(scenario);
+  if (plugins.empty() && now != stored.text)  // their hashes stand in it
+    found.push_back(fmt::format("scenario: resolved again it is another: {}", first_difference(stored.text, now)));
+  if (!past.summary_hash.empty() && past.summary_hash != hash(past.trace)) {
+    found.push_back(fmt::format("trace: {} is not the one that summary.json was made from{}", past.file.filename().string(),
+                                past.summary_hash == hash(again.trace) ? "; the run again gives that one" : ""));
+  }
+  return found;
+}
+
+void print_columns(const TraceDifference& difference) {
+  std::vector<ColumnDifference> worst;
+  for (const ColumnDifference& d : difference.columns) {
+    if (!(d.relative_rms <= kTolerance)) worst.push_back(d);
+  }
+  std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.relative_rms > b.relative_rms; });
+  fmt::print("  {} of {} columns are beyond {} of their range:\n", worst.size(), difference.columns.size(), kTolerance);
+  for (std::size_t i = 0; i < std::min(worst.size(), kColumnsShown); ++i) {
+    const std::string from = worst[i].first_divergence ? fmt::format(", from t = {:.6g} s", *worst[i].first_divergence) : "";
+    fmt::print("    {}: RMS {:.3g} of its range{}\n", worst[i].name, worst[i].relative_rms, from);
+  }
+  if (worst.size() > kColumnsShown) fmt::print("    ... and {} more\n", worst.size() - kColumnsShown);
+}
+
+/// Compares and prints. True: bit-equal or within tolerance.
+bool judge(const std::string& run, const Trace& then, const Again& again) {
+  const std::string size = fmt::format("{} rows of {} columns", then.rows(), then.columns.size());
+  if (hash(then) == hash(again.trace)) {
+    fmt::print("{}: bit-equal: {}, trace hash {}\n", run, size, hash(then));
+    return true;
+  }
+  CompareOptions options;
+  options.divergence = kTolerance;
+  const TraceDifference difference = compare(then, again.trace, options);
+  double worst = 0;
+  std::size_t equal = 0;
+  for (const ColumnDifference& d : difference.columns) {
+    worst = std::max(worst, d.relative_rms);
+    equal += d.equal ? 1 : 0;
+  }
+  if (difference.findings.empty() && worst <= kTolerance) {
+    fmt::print(
+        "{}: within {} of range, not bit-equal: {}, the worst RMS is {:.3g} of its column's range, {} columns are equal\n", run,
+        kTolerance, size, worst, equal);
+    return true;
+  }
+  fmt::print("{}: differs (A: the recorded run, B: the run again)\n", run);
+  for (const std::string& finding : difference.findings) fmt::print("  {}\n", finding);
+  if (!again.failure.empty()) fmt::print("  the run again {}\n", again.failure);
+  print_columns(difference);
+  return false;
+}
+
+int verify(const std::string& run) {
+  const StoredScenario stored = stored_scenario(run);
+  const Past past = read_past(run);
+  Catalog catalog = standard_catalog();
+  const Scenario scenario = read_stored(stored, catalog, OtherPlugins::taken);
+  const bool early = ended_early(past, scenario);
+  const Again again = run_again(scenario, past, early);
+  const bool same = judge(run, past.trace, again);
+  if (early) {
+    fmt::print("  it ended early ({}): compared up to its last row, t = {:.6g} s\n", past.ended.value_or("without a summary"),
+               last_time(past.trace));
+  }
+  const std::vector<std::string> changed = changes(stored, past, scenario, again);
+  for (const std::string& line : changed) fmt::print("  {}\n", line);
+  if (!same && changed.empty()) {
+    const bool vague = past.build.find(".dirty") != std::string::npos || past.build.find("unknown") != std::string::npos;
+    fmt::print("  build, plugins and scenario are those of the record{}\n",
+               vague ? ", as far as the build id of a changed source tree tells"
+                     : ": a library that is not in the build id, the machine, or a defect of gaitlab");
+  }
+  return same ? 0 : 4;
+}
+
+/// The format of the recorded trace, or the default where there is none.
+std::string format_of(const fs::path& run) {
+  return fs::is_directory(run) && fs::exists(run / "trace.csv") && !fs::exists(run / "trace.h5") ? "csv" : "h5";
+}
+
+}  // namespace
+
+int rerun(const RerunArguments& arguments) {
+  if (arguments.verify) return verify(arguments.run);
+  RunArguments as;
+  as.out = arguments.out;
+  as.quiet = arguments.quiet;
+  as.format = format_of(arguments.run);
+  Catalog catalog = standard_catalog();
+  return run(read_stored(stored_scenario(arguments.run), catalog, OtherPlugins::refused), as);
+}
+
+}  // namespace gaitlab::app

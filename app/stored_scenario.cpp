@@ -1,0 +1,113 @@
+#include "app/stored_scenario.h"
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "core/errors.h"
+#include "core/scenario/node.h"
+#include "core/scenario/plugin_files.h"
+#include "core/trace/atomic_file.h"
+#include "core/trace/h5.h"
+#include "core/trace/run_files.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A text under a path, for a reader of files; nothing is left on the disk, however the program ends.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string_view text) : descriptor_(::memfd_create("scenario", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) fail();
+    while (!text.empty()) {
+      const ssize_t written = ::write(descriptor_, text.data(), text.size());
+      if (written < 0) fail();
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+  ~MemoryFile() { ::close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  [[nodiscard]] std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
+
+ private:
+  [[noreturn]] static void fail() {
+    throw RunError("no memory for the recorded scenario: " + std::generic_category().message(errno));
+  }
+  int descriptor_;
+};
+
+void rename(Place& place, const std::string& from, const std::string& to) {
+  if (place.file == from) place.file = to;
+}
+
+Scenario read_inside(const StoredScenario& stored, const std::vector<std::string>& sets, Catalog& catalog) {
+  const MemoryFile copy(stored.text);
+  try {
+    Scenario scenario = read_scenario(copy.path(), sets, catalog);
+    scenario.file = stored.shown;
+    for (auto& [key, place] : scenario.places) rename(place, copy.path(), stored.shown);
+    return scenario;
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      rename(problem.place, copy.path(), stored.shown);
+      for (auto& [place, text] : problem.notes) rename(place, copy.path(), stored.shown);
+    }
+    throw InputError(std::move(problems));
+  }
+}
+
+/// `plugins:` of a resolved scenario: path and hash of each; nothing where it has another form, which its reader will say.
+std::vector<PluginFile> recorded_plugins(const StoredScenario& stored) {
+  Problems ignored;
+  const std::optional<Node> root = parse_yaml(stored.text, stored.shown, ignored);
+  const Node* plugins = root ? root->find("plugins") : nullptr;
+  std::vector<PluginFile> files;
+  for (const Node& item : plugins != nullptr ? plugins->items : std::vector<Node>()) {
+    const Node* path = item.find("path");
+    const Node* hash = item.find("hash");
+    if (path != nullptr && hash != nullptr) files.push_back({path->text, hash->text});
+  }
+  return files;
+}
+
+}  // namespace
+
+StoredScenario stored_scenario(const std::string& run) {
+  const fs::path yaml = fs::path(run) / "scenario.resolved.yaml";
+  std::error_code none;
+  if (fs::exists(yaml, none)) return {yaml.string(), yaml.string(), read_file(yaml)};
+  const fs::path trace = trace_file(run);
+  if (trace.extension() == ".h5") return {"", trace.string() + " (its scenario)", read_h5(trace).origin.scenario};
+  throw InputError(Place{trace.string()}, "a CSV trace does not hold its scenario, and there is no " + yaml.string());
+}
+
+std::vector<PluginChange> changed_plugins(const StoredScenario& stored) {
+  std::vector<PluginChange> changed;
+  for (const PluginFile& file : recorded_plugins(stored)) {
+    const std::string now = file_hash(file.path);
+    if (!now.empty() && now != file.hash) changed.push_back({file.path, file.hash, now});
+  }
+  return changed;
+}
+
+Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugins others) {
+  std::vector<std::string> sets;
+  if (others == OtherPlugins::taken && !changed_plugins(stored).empty()) {
+    nlohmann::json paths = nlohmann::json::array();  // JSON is YAML: it quotes whatever a path holds
+    for (const PluginFile& file : recorded_plugins(stored)) paths.push_back(file.path);
+    sets.push_back("plugins=" + paths.dump());
+  }
+  return stored.file.empty() ? read_inside(stored, sets, catalog) : read_scenario(stored.file, sets, catalog);
+}
+
+}  // namespace gaitlab::app

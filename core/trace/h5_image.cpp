@@ -1,0 +1,261 @@
+#include "core/trace/h5_image.h"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <unordered_set>
+#include <utility>
+
+namespace gaitlab {
+
+namespace {
+
+// In memory only; a path that no file can have, because HDF5 looks for one first.
+constexpr const char* kNowhere = "/dev/null/gaitlab";
+constexpr std::size_t kGrowth = std::size_t{1} << 20;  // bytes
+constexpr hsize_t kChunkRows = 4096;                   // of one column: 32 kB, and neighbours in time compress best
+constexpr unsigned kGzip = 4;
+
+// A negative return is a failure, of every function of HDF5.
+template <class Result>
+Result checked(Result result, const char* what) {
+  if (result < 0) throw ImageError(fmt::format("HDF5: {} failed", what));
+  return result;
+}
+
+// One thread at a time (Debian's HDF5 is built without locks), and no report of HDF5's own on stderr.
+class Library {
+ public:
+  Library() : lock_(mutex()) {
+    H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Library() { H5Eset_auto2(H5E_DEFAULT, report_, data_); }
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex only;
+    return only;
+  }
+  std::lock_guard<std::mutex> lock_;
+  H5E_auto2_t report_ = nullptr;
+  void* data_ = nullptr;
+};
+
+// Owns one identifier of HDF5. close() says whether it went well; the destructor cannot.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle(hid_t id, Close close, const char* what) : id_(checked(id, what)), close_(close) {}
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  Handle& operator=(Handle&&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): it stands for the identifier
+  void close(const char* what) { checked(close_(std::exchange(id_, -1)), what); }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+Handle file_access() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
+  checked(H5Pset_fapl_core(access, kGrowth, 0), "file in memory");
+  // Fixed, so that a newer library writes the same format; the oldest, which every reader knows.
+  checked(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), "format bounds");
+  return access;
+}
+
+Handle string_type() {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "string type");
+  checked(H5Tset_size(type, H5T_VARIABLE), "string type");
+  checked(H5Tset_cset(type, H5T_CSET_UTF8), "string type");
+  return type;
+}
+
+Handle scalar() { return {H5Screate(H5S_SCALAR), H5Sclose, "scalar"}; }
+
+// --- writing ----------------------------------------------------------------------------------------------------------
+
+void write_attribute(hid_t owner, const char* name, hid_t stored, hid_t memory, hid_t space, const void* data) {
+  Handle attribute(H5Acreate2(owner, name, stored, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  checked(H5Awrite(attribute, memory, data), name);
+  attribute.close(name);
+}
+
+void write_number(hid_t owner, const char* name, std::int64_t number) {
+  write_attribute(owner, name, H5T_STD_I64LE, H5T_NATIVE_INT64, scalar(), &number);
+}
+
+const char* c_text(const std::string& text) {
+  if (text.find('\0') != std::string::npos) throw ImageError("a text with a NUL cannot be stored");
+  return text.c_str();
+}
+
+void write_text(hid_t owner, const char* name, const std::string& text) {
+  const char* const pointer = c_text(text);
+  const Handle type = string_type();
+  write_attribute(owner, name, type, type, scalar(), &pointer);
+}
+
+void write_texts(hid_t owner, const char* name, const Trace& trace, std::string Column::*part) {
+  std::vector<const char*> texts;
+  for (const Column& column : trace.columns) texts.push_back(c_text(column.*part));
+  const hsize_t count = texts.size();
+  const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, name);
+  const Handle type = string_type();
+  texts.push_back(nullptr);  // so that there is an address without columns, too
+  write_attribute(owner, name, type, type, space, texts.data());
+}
+
+Handle dataset_properties(const std::array<hsize_t, 2>& shape) {
+  Handle made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "dataset properties");
+  checked(H5Pset_obj_track_times(made, 0), "dataset properties");
+  // A header of this kind may hold attributes above 64 kB: more than 4096 columns.
+  checked(H5Pset_attr_creation_order(made, H5P_CRT_ORDER_TRACKED), "dataset properties");
+  if (shape[0] == 0 || shape[1] == 0) return made;
+  const std::array<hsize_t, 2> chunk{std::min(shape[0], kChunkRows), 1};
+  checked(H5Pset_chunk(made, 2, chunk.data()), "chunks");
+  checked(H5Pset_shuffle(made), "shuffle filter");
+  checked(H5Pset_deflate(made, kGzip), "gzip filter");
+  return made;
+}
+
+void write_dataset(hid_t file, const Trace& trace) {
+  const std::array<hsize_t, 2> shape{trace.rows(), trace.columns.size()};
+  const Handle space(H5Screate_simple(2, shape.data(), nullptr), H5Sclose, "shape");
+  const Handle properties = dataset_properties(shape);
+  Handle data(H5Dcreate2(file, "trace", H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, "dataset");
+  if (!trace.values.empty())
+    checked(H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, trace.values.data()), "writing the values");
+  write_texts(data, "columns", trace, &Column::name);
+  write_texts(data, "units", trace, &Column::unit);
+  write_texts(data, "definitions", trace, &Column::definition);
+  data.close("closing the dataset");
+}
+
+std::string image(hid_t file) {
+  checked(H5Fflush(file, H5F_SCOPE_GLOBAL), "flush");
+  std::string bytes(static_cast<std::size_t>(checked(H5Fget_file_image(file, nullptr, 0), "size of the file")), '\0');
+  checked(H5Fget_file_image(file, bytes.data(), bytes.size()), "bytes of the file");
+  return bytes;
+}
+
+// --- reading ----------------------------------------------------------------------------------------------------------
+
+std::array<hsize_t, 2> shape_of(hid_t space, int rank, const char* what) {
+  std::array<hsize_t, 2> shape{1, 1};
+  if (checked(H5Sget_simple_extent_ndims(space), what) != rank) throw ImageError(fmt::format("{} has another shape", what));
+  checked(H5Sget_simple_extent_dims(space, shape.data(), nullptr), what);
+  return shape;
+}
+
+std::int64_t read_number(hid_t owner, const char* name) {
+  const Handle attribute(H5Aopen(owner, name, H5P_DEFAULT), H5Aclose, name);
+  const Handle type(H5Aget_type(attribute), H5Tclose, name);
+  if (H5Tget_class(type) != H5T_INTEGER) throw ImageError(fmt::format("{} is no integer", name));
+  shape_of(Handle(H5Aget_space(attribute), H5Sclose, name), 0, name);
+  std::int64_t number = 0;
+  checked(H5Aread(attribute, H5T_NATIVE_INT64, &number), name);
+  return number;
+}
+
+// The strings of an attribute with `rank` dimensions.
+std::vector<std::string> read_texts(hid_t owner, const char* name, int rank) {
+  const Handle attribute(H5Aopen(owner, name, H5P_DEFAULT), H5Aclose, name);
+  const Handle stored(H5Aget_type(attribute), H5Tclose, name);
+  if (checked(H5Tis_variable_str(stored), name) == 0) throw ImageError(fmt::format("{} is no text", name));
+  const Handle space(H5Aget_space(attribute), H5Sclose, name);
+  const std::size_t count = shape_of(space, rank, name)[0];
+  std::vector<char*> texts(count + 1, nullptr);
+  const Handle type = string_type();
+  checked(H5Aread(attribute, type, texts.data()), name);
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < count; ++i) found.emplace_back(texts[i] == nullptr ? "" : texts[i]);
+  checked(H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data()), name);
+  return found;
+}
+
+std::string read_text(hid_t owner, const char* name) { return read_texts(owner, name, 0).front(); }
+
+std::vector<Column> read_columns(hid_t data, std::size_t count) {
+  const std::vector<std::string> names = read_texts(data, "columns", 1);
+  const std::vector<std::string> units = read_texts(data, "units", 1);
+  const std::vector<std::string> definitions = read_texts(data, "definitions", 1);
+  if (names.size() != count || units.size() != count || definitions.size() != count) {
+    throw ImageError(
+        fmt::format("{} names, {} units, {} definitions of {} columns", names.size(), units.size(), definitions.size(), count));
+  }
+  std::vector<Column> columns;
+  std::unordered_set<std::string> seen;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!seen.insert(names[i]).second) throw ImageError(fmt::format("column \"{}\" is there twice", names[i]));
+    columns.push_back({names[i], units[i], definitions[i]});
+  }
+  return columns;
+}
+
+Trace read_dataset(hid_t file, std::size_t file_size) {
+  const Handle data(H5Dopen2(file, "trace", H5P_DEFAULT), H5Dclose, "dataset /trace");
+  const Handle type(H5Dget_type(data), H5Tclose, "type of /trace");
+  if (H5Tget_class(type) != H5T_FLOAT || H5Tget_size(type) != sizeof(double)) throw ImageError("/trace is not float64");
+  const Handle space(H5Dget_space(data), H5Sclose, "shape of /trace");
+  const auto [rows, columns] = shape_of(space, 2, "/trace");
+  // gzip makes nothing smaller than a 1032nd: more is a lie that would only exhaust the memory.
+  if (columns != 0 && rows > 1040 * file_size / sizeof(double) / columns) throw ImageError("/trace is larger than it can be");
+  Trace trace;
+  trace.columns = read_columns(data, columns);
+  trace.values.resize(rows * columns);
+  if (!trace.values.empty())
+    checked(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, trace.values.data()), "reading the values");
+  return trace;
+}
+
+}  // namespace
+
+std::string to_image(const TraceView& stored) {
+  const auto& [trace, origin] = stored;
+  const Library library;
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file creation");
+  checked(H5Pset_userblock(creation, kUserBlock), "user block");
+  checked(H5Pset_obj_track_times(creation, 0), "file creation");
+  const Handle access = file_access();
+  Handle file(H5Fcreate(kNowhere, H5F_ACC_TRUNC, creation, access), H5Fclose, "file");
+  write_text(file, "format", std::string(kTraceFormat));
+  write_text(file, "scenario", origin.scenario);
+  write_number(file, "seed", origin.seed);
+  write_text(file, "build", origin.build);
+  write_number(file, "rows", static_cast<std::int64_t>(trace.rows()));
+  write_text(file, "checksum", hash(trace));
+  write_dataset(file, trace);
+  std::string bytes = image(file);
+  file.close("closing the file");
+  return bytes;
+}
+
+StoredTrace from_image(const std::string& file_bytes) {
+  const Library library;
+  const Handle access = file_access();
+  // HDF5 copies the image; it takes a pointer that is not const only for callbacks that are not set.
+  checked(H5Pset_file_image(access, const_cast<char*>(file_bytes.data()), file_bytes.size()), "image");
+  const Handle file(H5Fopen(kNowhere, H5F_ACC_RDONLY, access), H5Fclose, "opening the file");
+  if (read_text(file, "format") != kTraceFormat) throw ImageError("the attribute `format` is not that of the first line");
+  StoredTrace stored;
+  stored.origin = {read_text(file, "scenario"), read_number(file, "seed"), read_text(file, "build")};
+  stored.trace = read_dataset(file, file_bytes.size());
+  if (read_number(file, "rows") != static_cast<std::int64_t>(stored.trace.rows()))
+    throw ImageError(fmt::format("{} rows, of which not all were written", stored.trace.rows()));
+  if (read_text(file, "checksum") != hash(stored.trace)) throw ImageError("the trace does not match its checksum");
+  return stored;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,43 @@
+// Gait `keyframes`: joint angles at given times, joined by splines or straight lines.
+#pragma once
+#include "core/plugin/registry.h"
+
+namespace gaitlab {
+
+class Keyframes final : public Cpg {
+ public:
+  struct Frame {
+    double time = 0;
+    PerJoint angles;
+    void fields(Fields& f);
+  };
+  struct Model {
+    std::vector<Frame> frames{{0, {}}, {1, {}}};
+    int interpolation = 0;  ///< spline, linear
+    bool repeat = true;
+    double ramp = 0;
+    void fields(Fields& f);
+  };
+  struct Settings {
+    Model model;
+    void fields(Fields& f);
+  };
+  static const char* const kManual;
+
+  /// Throws std::invalid_argument: fewer than two frames, times that do not rise from 0, or frames to repeat that do not end as
+  /// they begin, naming the joint.
+  Keyframes(const RobotInfo& robot, const Settings& settings);
+  void output(double t, In, Out setpoint) const override;
+
+ private:
+  void check_closed(const RobotInfo& robot);
+  void curve();
+
+  std::size_t joints_;
+  bool repeat_;
+  double ramp_;
+  std::vector<double> time_;               ///< s, of every frame
+  std::vector<double> angle_, curvature_;  ///< rad, and its second derivative, rad/s^2; frame * joints + joint
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,93 @@
+#include "report/footfall.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kHead = 30, kRow = 24, kBar = 12, kFoot = 26;  // px
+constexpr double kGapSeen = 0.6;  // px: a foot that bounces within it looks as if it stood, and the file stays small
+
+constexpr Style kGridLine{.stroke = colour::kPale};
+constexpr Style kAxisLine{.stroke = colour::kInk, .width = 1.2};
+
+std::string place_on_side(std::size_t rank, std::size_t count) {
+  if (rank == 0) return "front";
+  if (rank + 1 == count) return "rear";
+  if (count == 3) return "middle";
+  return fmt::format("{}{}", rank + 1, rank == 1 ? "nd" : rank == 2 ? "rd" : "th");
+}
+
+void draw_bars(Svg& svg, const Footfall& row, const Scale& x, double y) {
+  const auto bar = [&](double from, double to) {
+    if (to > from) svg.rectangle({from, y - kBar / 2}, to - from, kBar, {.fill = colour::kInk});
+  };
+  double from = x.from;
+  double to = x.from;
+  for (const Stance& stance : row.stances) {
+    const double begin = std::clamp(x(stance.from), x.from, x.to);
+    const double end = std::clamp(x(stance.to), x.from, x.to);
+    if (begin - to > kGapSeen) {
+      bar(from, to);
+      from = begin;
+    }
+    to = end;
+  }
+  bar(from, to);
+}
+
+}  // namespace
+
+std::vector<Stance> stances(std::span<const double> time, std::span<const double> load, double threshold) {
+  std::vector<Stance> found;
+  bool standing = false;
+  for (std::size_t k = 0; k + 1 < std::min(time.size(), load.size()); ++k) {
+    const bool loaded = std::isfinite(load[k]) && load[k] > threshold;
+    if (loaded && !standing) found.push_back({time[k], time[k]});
+    if (loaded) found.back().to = time[k + 1];
+    standing = loaded;
+  }
+  return found;
+}
+
+double duty_factor(const std::vector<Stance>& stances, double from, double to) {
+  double sum = 0;
+  for (const Stance& stance : stances) sum += std::max(0.0, std::min(stance.to, to) - std::max(stance.from, from));
+  return to > from ? sum / (to - from) : 0;
+}
+
+std::vector<std::string> leg_names(const std::vector<Leg>& legs) {
+  const auto left = static_cast<std::size_t>(std::count_if(legs.begin(), legs.end(), [](const Leg& leg) { return leg.left; }));
+  std::size_t rank_left = 0;
+  std::size_t rank_right = 0;
+  std::vector<std::string> names;
+  for (const Leg& leg : legs) {
+    const std::size_t rank = leg.left ? rank_left++ : rank_right++;
+    const std::size_t count = leg.left ? left : legs.size() - left;
+    names.push_back(fmt::format("m{} {} {}", leg.modules.front(), place_on_side(rank, count), leg.left ? "left" : "right"));
+  }
+  return names;
+}
+
+double footfall_height(std::size_t rows) { return kHead + kRow * static_cast<double>(rows) + kFoot; }
+
+void draw_footfalls(Svg& svg, const std::vector<Footfall>& rows, const std::string& note, const Ticks& time, const Scale& x,
+                    double top) {
+  const double first = top + kHead;
+  const double bottom = first + kRow * static_cast<double>(rows.size());
+  svg.text({x.from, top + 18}, "footfall", {.bold = true});
+  svg.text({x.to + 8 + text_width("0.00", 13), top + 18}, note, {.anchor = Anchor::end});
+  for (const double t : time.values()) svg.line({x(t), first}, {x(t), bottom}, kGridLine);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double y = first + kRow * (static_cast<double>(i) + 0.5);
+    svg.text({x.from - 8, y + 4.5}, rows[i].name, {.size = 12, .anchor = Anchor::end});
+    draw_bars(svg, rows[i], x, y);
+    svg.text({x.to + 8, y + 4.5}, fmt::format("{:.2f}", rows[i].duty_factor));
+  }
+  svg.rectangle({x.from, first}, x.to - x.from, bottom - first, kAxisLine);
+}
+
+}  // namespace gaitlab
