@@ -3,7 +3,8 @@
 
 namespace gaitlab {
 
-/// torque = -ks (q - q_lim) - cs qd outside [lo, hi], cut off where it would pull back into the stop.  (chosen: docs/equations.md, 2) q rad, qd rad/s, torque N m on the joint.
+/// torque = -ks (q - q_lim) - cs qd outside [lo, hi], cut off where it would pull back into the stop.  (chosen:
+/// docs/equations.md, 2) q rad, qd rad/s, torque N m on the joint.
 struct HingeStop {
   static constexpr double kStiffness = 50;  ///< ks, N m/rad
   static constexpr double kDamping = 0.5;   ///< cs, N m s/rad
