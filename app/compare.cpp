@@ -36,6 +36,28 @@ void check_patterns(const std::vector<std::string>& patterns, const Trace& a, co
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
+/// What one looks for first: where it began, and where it is worst.
+void print_worst(const std::vector<ColumnDifference>& columns) {
+  const ColumnDifference* first = nullptr;
+  const ColumnDifference* worst = nullptr;
+  for (const ColumnDifference& d : columns) {
+    if (d.first_divergence && (first == nullptr || *d.first_divergence < *first->first_divergence)) first = &d;
+    if (!d.equal && (worst == nullptr || d.relative_rms > worst->relative_rms)) worst = &d;
+  }
+  if (first != nullptr) fmt::print("first to part: {} at t = {:.6g} s\n", first->name, *first->first_divergence);
+  if (worst != nullptr) fmt::print("farthest apart: {}, RMS {} of its range\n", worst->name, percent(worst->relative_rms));
+}
+
+/// Joints and contacts are compared by number: say so where the numbers mean different things.
+void print_robots(const Json& a, const Json& b) {
+  for (const char* names : {"joints", "contacts"}) {
+    if (a.contains(names) && b.contains(names) && a[names] != b[names]) {
+      fmt::print("the robots' {} differ ({} and {}): columns are compared by number all the same\n", names, a[names].size(),
+                 b[names].size());
+    }
+  }
+}
+
 void print_columns(const TraceDifference& difference) {
   std::size_t width = 6;
   std::size_t equal = 0;
@@ -56,6 +78,7 @@ void print_columns(const TraceDifference& difference) {
                percent(d.relative_rms), percent(d.relative_maximum), from, late);
   }
   fmt::print("{} of {} columns are equal to the bit in {} rows\n", equal, difference.columns.size(), difference.rows);
+  print_worst(difference.columns);
 }
 
 /// A row of the summary table.
@@ -129,7 +152,9 @@ std::string change(const Json& a, const Json& b) {
   if (!a.is_number() || !b.is_number()) return "differs";
   const double from = a.get<double>();
   const double by = b.get<double>() - from;
-  return from == 0 ? fmt::format("{:+.3g}", by) : fmt::format("{:+.3g} %", 100 * by / std::abs(from));
+  // A change of a number near zero is no percentage.
+  return std::abs(from) < 0.01 * std::abs(by) || from == 0 ? fmt::format("{:+.3g}", by)
+                                                           : fmt::format("{:+.3g} %", 100 * by / std::abs(from));
 }
 
 void print_summaries(const Json& a, const Json& b) {
@@ -163,6 +188,7 @@ int compare(const CompareArguments& arguments) {
   fmt::print("A: {} ({} rows)\n", trace_file(arguments.a).string(), a.rows());
   fmt::print("B: {} ({} rows)\n", trace_file(arguments.b).string(), b.rows());
   for (const std::string& finding : difference.findings) fmt::print("{}\n", finding);
+  print_robots(summary_a, summary_b);
   fmt::print("\n");
   print_columns(difference);
   if (!summary_a.is_null() && !summary_b.is_null()) {

@@ -7,14 +7,20 @@
 
 namespace gaitlab {
 
+namespace {
+constexpr double kFade = 0.2;  // of the swing
+}  // namespace
+
 const char* const Tripod::kManual =
     R"(Alternating groups of legs: one stands and pushes the body on, the other swings forward; legs are found from the assembly.
 
     stance:  a = A (1 - 2 u)          u: 0 to 1 over the stance, duty_factor of the period
     swing:   a = -A cos(pi s)         s: 0 to 1 over the swing; |a| is never below the stance's, so it crosses quickly
     hip = a (towards +x), ankle = -hip + tilt        the foot is flat but for its tilt, 0 in the swing
-    tilt in stance: so that all feet that stand reach the same depth,
-        l cos(a) + z cos(tilt) + x sin(tilt) = max over the stance of l cos(a) + z cos(d') + x sin(d'),  d' = d sin^2(pi s)
+    tilt in stance: so that all feet that stand reach the same depth below their hips,
+        l cos(a) + z cos(tilt) + x sin(tilt) = D,   D = (largest l cos(a) of the legs that stand) + z cos(d') + x sin(d')
+        d' = d sin^2(pi s), s: progress of the legs that swing (0 while none does)
+    tilt in swing: 0, after what is left of the stance has faded over the first fifth and before the next grows over the last
 
 l: hip to ankle; z, x: depth of the sole below the ankle and its half length; all from the robot. In order alternate with
 duty_factor 0.5 all legs that stand have the same a, and tilt = d sin^2(pi u): the body is low when the feet are farthest and
@@ -23,7 +29,7 @@ cannot be lifted; the stance feet stand on their edges instead and lift the body
 
 A leg is a chain of modules docked sideways to the spine that ends in feet. Groups, counted from the front on each side:
 alternate - every other leg, the sides opposite (6 legs: tripods, 4 legs: diagonal pairs); wave - one after another from the
-rear to the front, the sides half a period apart (4 legs: with duty_factor 0.75 three always stand). Spine: 0.
+rear to the front, the sides half a period apart (4 legs: with duty_factor 0.75 three are asked to stand at any time). Spine: 0.
 Source: Chariot, Filippi, Verlinden 2012, section IV-B and figure 11; angles and timing chosen.
 
     cpg: {type: tripod, frequency: 0.5, amplitude: 0.4})";
@@ -77,27 +83,47 @@ double Tripod::tilt_to_reach(const Leg& leg, double height) {
   return std::max(0.0, math::asin(std::min(1.0, height / longest)) - flat);
 }
 
+/// D of the manual without the part of the foot that is the leg's own: the depth that flat, unlifted feet would reach, and the
+/// lift.
+Tripod::Depth Tripod::depth(double cycles, double grown) const {
+  Depth d;
+  for (const Step& step : steps_) {
+    const Motion m = motion(step, cycles, grown * s_.amplitude);
+    const double bump = math::sin(std::numbers::pi * m.progress);
+    if (!m.stands) d.lift = std::max(d.lift, grown * s_.model.tilt * bump * bump);
+    if (m.stands) d.reach = std::max(d.reach, step.leg.length * math::cos(m.forward));
+  }
+  return d;
+}
+
+double Tripod::tilt(const Leg& leg, const Depth& d, double forward) {
+  const double below_hip = d.reach + leg.sole_depth * math::cos(d.lift) + leg.sole_reach * math::sin(d.lift);
+  return tilt_to_reach(leg, below_hip - leg.length * math::cos(forward));
+}
+
 void Tripod::output(double t, In, Out setpoint) const {
   std::fill(setpoint.begin(), setpoint.end(), 0.0);
   const double grown = t < s_.model.ramp ? t / s_.model.ramp : 1;
   const double cycles = (s_.model.reverse ? -t : t) * s_.frequency;
   const double amplitude = grown * s_.amplitude;
-  double lift = 0;   // d': the tilt in mid-stance, by the progress of the legs that swing
-  double reach = 0;  // the longest leg that stands, without its foot
+  const Depth now = depth(cycles, grown);
+  const double swing = 1 - s_.model.duty_factor;  // share of the period
   for (const Step& step : steps_) {
     const Motion m = motion(step, cycles, amplitude);
-    const double bump = math::sin(std::numbers::pi * m.progress);
-    if (!m.stands) lift = std::max(lift, grown * s_.model.tilt * bump * bump);
-    if (m.stands) reach = std::max(reach, step.leg.length * math::cos(m.forward));
-  }
-  for (const Step& step : steps_) {
-    const Motion m = motion(step, cycles, amplitude);
-    const Leg& leg = step.leg;
-    const double depth = reach + leg.sole_depth * math::cos(lift) + leg.sole_reach * math::sin(lift);
-    const double tilt = m.stands ? tilt_to_reach(leg, depth - leg.length * math::cos(m.forward)) : 0;
+    double tilted = 0;
+    if (m.stands) {
+      tilted = tilt(step.leg, now, m.forward);
+    } else if (m.progress < kFade) {
+      // As it was at the end of the stance, fading: an ankle cannot jump.
+      const Depth then = depth(cycles - m.progress * swing, grown);
+      tilted = (1 - m.progress / kFade) * tilt(step.leg, then, amplitude);
+    } else if (m.progress > 1 - kFade) {
+      const Depth then = depth(cycles + (1 - m.progress) * swing, grown);
+      tilted = (1 - (1 - m.progress) / kFade) * tilt(step.leg, then, amplitude);
+    }
     // Towards +x is a left-hand turn about +y for a leg that hangs down.
-    setpoint[static_cast<std::size_t>(leg.hip)] = -leg.hip_sign * m.forward;
-    setpoint[static_cast<std::size_t>(leg.ankle)] = leg.ankle_sign * (m.forward - tilt);
+    setpoint[static_cast<std::size_t>(step.leg.hip)] = -step.leg.hip_sign * m.forward;
+    setpoint[static_cast<std::size_t>(step.leg.ankle)] = step.leg.ankle_sign * (m.forward - tilted);
   }
 }
 

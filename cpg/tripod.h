@@ -37,6 +37,12 @@ class Tripod final : public Cpg {
     double forward = 0;   ///< angle of the leg towards +x, rad
   };
   [[nodiscard]] Motion motion(const Step& step, double cycles, double amplitude) const;
+  struct Depth {
+    double reach = 0;  ///< largest hip to ankle depth of the legs that stand, m
+    double lift = 0;   ///< d', rad
+  };
+  [[nodiscard]] Depth depth(double cycles, double grown) const;
+  [[nodiscard]] static double tilt(const Leg& leg, const Depth& depth, double forward);
   [[nodiscard]] static double tilt_to_reach(const Leg& leg, double height);
 
   std::size_t joints_;

@@ -18,22 +18,10 @@ std::vector<double> series(const std::vector<double>& values, std::size_t column
   return out;
 }
 
-RobotState state_at(const Robot& robot, const RunRecord& r, std::size_t tick) {
-  const double* p = r.poses.data() + 7 * tick;
-  const std::size_t n = robot.joints.size();
-  RobotState s;
-  s.position = Vec3(p[0], p[1], p[2]);
-  s.orientation = Quat(p[3], p[4], p[5], p[6]);
-  s.q.assign(r.angles.begin() + static_cast<std::ptrdiff_t>(tick * n),
-             r.angles.begin() + static_cast<std::ptrdiff_t>((tick + 1) * n));
-  s.qd.assign(n, 0.0);
-  return s;
-}
-
 View view_at(const Scenario& scenario, const RunRecord& r, std::size_t tick, std::size_t joint) {
   const Robot& robot = *scenario.robot;
   Kinematics k(robot);
-  k.update(robot, state_at(robot, r, tick));
+  k.update(robot, r.state(robot, tick));
   View view{static_cast<double>(tick) * scenario.trace.period, side_view(robot, k)};
   for (const ContactElement& element : contact_elements(robot, static_cast<ContactSet>(scenario.contact.on))) {
     const Ground::Touch touch = scenario.ground.query(k.point(element.link, element.centre), element.radius);
@@ -90,14 +78,6 @@ double periods_from(const Summary& s) {
   return s.simulated - std::floor(shown / period + 1e-3) * period;
 }
 
-std::vector<double> torque_peaks(const RunRecord& r, std::size_t joints, std::size_t from_tick) {
-  std::vector<double> peaks(joints, 0.0);
-  for (std::size_t at = from_tick * joints; at < r.torques.size(); ++at) {
-    peaks[at % joints] = std::max(peaks[at % joints], std::abs(r.torques[at]));
-  }
-  return peaks;
-}
-
 std::vector<Footfall> footfalls(const Scenario& scenario, const RunRecord& r, const std::vector<Leg>& legs,
                                 const std::vector<double>& time, double from) {
   const std::size_t modules = scenario.robot->modules.size();
@@ -139,9 +119,7 @@ std::string legged_figure(const Scenario& scenario, const RunRecord& r, const Su
   input.title = scenario.name;
   input.time = times(scenario, r, summary);
   const double from = periods_from(summary);
-  const auto tick = static_cast<std::size_t>(std::max(0.0, std::ceil(from / scenario.trace.period - 1e-9)));
-  const std::size_t joint =
-      central_spine_joint(info(*scenario.robot), legs, torque_peaks(r, scenario.robot->joints.size(), tick));
+  const std::size_t joint = central_spine_joint(info(*scenario.robot), legs);
   add_joint(input, scenario, r, joint);
   input.joint += ", middle of the spine (arrow below)";
   input.least_angle = kPaperAngle;
@@ -154,7 +132,7 @@ std::string legged_figure(const Scenario& scenario, const RunRecord& r, const Su
 
 }  // namespace
 
-std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& legs, std::span<const double> torque_peaks) {
+std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& legs) {
   std::vector<bool> in_leg(robot.modules.size(), false);
   for (const Leg& leg : legs) {
     for (const std::int64_t m : leg.modules) in_leg[static_cast<std::size_t>(m)] = true;
@@ -168,18 +146,15 @@ std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& 
   };
   keep([&](std::size_t j) { return !in_leg[static_cast<std::size_t>(robot.joints[j].module)]; });
   const auto x = [&](std::size_t j) { return robot.joints[j].origin[0]; };
-  const auto further = [&](std::size_t a, std::size_t b) { return x(a) < x(b); };
-  const auto [rear, front] = std::minmax_element(joints.begin(), joints.end(), further);
+  const auto [rear, front] =
+      std::minmax_element(joints.begin(), joints.end(), [&](std::size_t a, std::size_t b) { return x(a) < x(b); });
   const double middle = 0.5 * (x(*rear) + x(*front));
-  const auto bends = [&](std::size_t j) { return std::abs(robot.joints[j].axis[1]) > kAboutY; };
-  if (std::any_of(joints.begin(), joints.end(), bends)) {
-    keep(bends);
-    double nearest = std::abs(x(joints[0]) - middle);
-    for (const std::size_t j : joints) nearest = std::min(nearest, std::abs(x(j) - middle));
-    keep([&](std::size_t j) { return std::abs(x(j) - middle) < nearest + kSamePlace; });
-  }
-  return *std::max_element(joints.begin(), joints.end(),
-                           [&](std::size_t a, std::size_t b) { return torque_peaks[a] < torque_peaks[b]; });
+  keep([&](std::size_t j) { return std::abs(robot.joints[j].axis[1]) > kAboutY; });
+  const auto off = [&](std::size_t j) { return std::abs(x(j) - middle); };
+  const double least =
+      off(*std::min_element(joints.begin(), joints.end(), [&](std::size_t a, std::size_t b) { return off(a) < off(b); }));
+  keep([&](std::size_t j) { return off(j) < least + kSamePlace; });
+  return *std::max_element(joints.begin(), joints.end(), [&](std::size_t a, std::size_t b) { return x(a) < x(b); });
 }
 
 std::string run_figure(const Scenario& scenario, const RunRecord& r, const Summary& summary) {

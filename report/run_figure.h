@@ -18,10 +18,9 @@ namespace gaitlab {
 std::string run_figure(const Scenario& scenario, const RunRecord& record, const Summary& summary);
 
 /// The joint the paper's figure 13 points to. The spine is every module that is in no leg. Of its joints that turn about y
-/// (within 25 degrees, at zero angles: they bend the spine up and down), those nearest, along x, to the middle between the
-/// foremost and the rearmost joint of the spine (to a millimetre); of these the one with the largest of `torque_peaks` (N m,
-/// one a joint). Not simply the most loaded of the spine: in our hexapod that is the foremost one, where the front legs are
-/// docked. Without such a joint the most loaded of the spine, without a spine's joint of all. The robot has a joint.
-std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& legs, std::span<const double> torque_peaks);
+/// (within 25 degrees, at zero angles: they bend the spine up and down; all where there is none), the one nearest, along x, to
+/// the middle between the foremost and the rearmost joint of the spine; of two as near (to a millimetre) the one further to the
+/// front. Not the most loaded of the spine: in our hexapod that is the foremost one, where the front legs are docked.
+std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& legs);
 
 }  // namespace gaitlab

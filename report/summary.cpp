@@ -92,6 +92,9 @@ Summary summarise(const Scenario& scenario, const RunRecord& r, double wall_time
 std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord& r) {
   const Robot& robot = *scenario.robot;
   nlohmann::ordered_json names = nlohmann::ordered_json::array();
+  nlohmann::ordered_json contacts = nlohmann::ordered_json::array();
+  for (const ContactElement& c : contact_elements(robot, static_cast<ContactSet>(scenario.contact.on)))
+    contacts.push_back(c.name);
   nlohmann::ordered_json per_joint = nlohmann::ordered_json::object();
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const JointFigures& f = r.joints[j];
@@ -122,6 +125,7 @@ std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord&
       {"dof", robot.dof(scenario.base)},
       {"mass", robot.mass},
       {"joints", names},
+      {"contacts", contacts},
       {"displacement", {s.displacement_x, s.displacement_y}},
       {"distance", s.distance},
       {"speed", s.speed},
@@ -181,6 +185,29 @@ std::string to_text(const Summary& s, const Scenario& scenario, const RunRecord&
                                 : fmt::format("h lambda at most {:.2f} at t = {:.2f} s ({}); above 1 in {} of the ticks",
                                               s.stability_max, r.worst_time, s.stability_source, percent(s.stability_share)));
   return text;
+}
+
+std::vector<std::string> posture_warnings(const Scenario& scenario, const RunRecord& r) {
+  std::vector<std::string> warnings;
+  if (scenario.ground.kind == Ground::Kind::none || r.poses.empty()) return warnings;
+  const Robot& robot = *scenario.robot;
+  Kinematics k(robot);
+  k.update(robot, r.state(robot, 0));
+  constexpr double kSunk = 1e-3;  // m
+  const double lowest = lowest_point(robot, k, {});
+  if (lowest < -kSunk) {
+    warnings.push_back(fmt::format(
+        "the robot starts {:.3g} m deep in the ground: only the elements of contact.on: {} touch it; is it upside down?",
+        -lowest, scenario.contact.on == static_cast<int>(ContactSet::feet) ? "feet" : "none"));
+  }
+  const double start = sums(robot, k, Vec3::Zero()).com.z();
+  for (std::size_t tick = 0; start > 0 && scenario.base == Base::floating && tick < r.com_z.size(); ++tick) {
+    if (r.com_z[tick] > 0.5 * start) continue;
+    warnings.push_back(fmt::format("it fell: at t = {:.2f} s the centre of mass is at {:.3f} m, from {:.3f} m at the start",
+                                   static_cast<double>(tick) * scenario.trace.period, r.com_z[tick], start));
+    break;
+  }
+  return warnings;
 }
 
 std::string stability_warning(const Summary& s, const Scenario& scenario, const RunRecord& r) {

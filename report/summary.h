@@ -33,6 +33,10 @@ std::string to_json(const Summary& summary, const Scenario& scenario, const RunR
 /// What `gaitlab run` prints.
 std::string to_text(const Summary& summary, const Scenario& scenario, const RunRecord& record);
 
+/// Warnings about how the robot stood, one sentence each: part of it started below the ground because only contact elements
+/// touch it; it fell (the centre of mass came below half its height at the start).
+std::vector<std::string> posture_warnings(const Scenario& scenario, const RunRecord& record);
+
 /// The warning about a step that was too long for more than 1 % of the control ticks, or "".
 std::string stability_warning(const Summary& summary, const Scenario& scenario, const RunRecord& record);
 

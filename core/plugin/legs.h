@@ -53,6 +53,16 @@ inline void measure(const RobotInfo& robot, Leg& leg) {
   }
 }
 
+/// A side dock further out on a chain that is a leg already: its knee, not another leg.
+inline bool hangs_on_a_leg(const RobotInfo& robot, const std::vector<Leg>& legs, std::size_t module) {
+  for (auto at = static_cast<std::int64_t>(module); at >= 0; at = robot.modules[static_cast<std::size_t>(at)].parent) {
+    for (const Leg& leg : legs) {
+      if (std::find(leg.modules.begin(), leg.modules.end(), at) != leg.modules.end()) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace detail
 
 /// All legs, from the front to the rear, left before right. A leg needs a hip and an ankle that turn about y and feet that hang
@@ -61,7 +71,7 @@ inline std::vector<Leg> find_legs(const RobotInfo& robot) {
   std::vector<Leg> legs;
   for (std::size_t m = 0; m < robot.modules.size(); ++m) {
     const ModuleInfo& module = robot.modules[m];
-    if (module.parent < 0 || std::abs(module.normal[1]) < 0.7) continue;
+    if (module.parent < 0 || std::abs(module.normal[1]) < 0.7 || detail::hangs_on_a_leg(robot, legs, m)) continue;
     Leg leg;
     auto at = static_cast<std::int64_t>(m);
     leg.modules.push_back(at);

@@ -168,7 +168,7 @@ void Simulation::set_start() {
     const auto rows = static_cast<std::size_t>(steps_ / trace_every_ + 1);
     lane.record.trace.columns = lane.probes->columns();
     lane.record.trace.values.reserve(rows * lane.record.trace.columns.size());
-    for (auto* series : {&lane.record.com_x, &lane.record.com_y}) series->reserve(rows);
+    for (auto* series : {&lane.record.com_x, &lane.record.com_y, &lane.record.com_z}) series->reserve(rows);
     lane.record.poses.reserve(rows * 7);
     for (auto* series : {&lane.record.angles, &lane.record.setpoints, &lane.record.torques})
       series->reserve(rows * robot_.joints.size());
@@ -249,6 +249,7 @@ void Simulation::record() {
     lane.probes->fill(s, Out(r.trace.values).last(r.trace.columns.size()));
     r.com_x.push_back(s.sums.com.x());
     r.com_y.push_back(s.sums.com.y());
+    r.com_z.push_back(s.sums.com.z());
     const Quat& turn = s.state.orientation;
     for (const double x :
          {s.state.position.x(), s.state.position.y(), s.state.position.z(), turn.w(), turn.x(), turn.y(), turn.z()}) {

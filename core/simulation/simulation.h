@@ -31,10 +31,12 @@ struct RunRecord {
   /// Every trace tick: centre of mass; base frame (x y z qw qx qy qz, tick * 7); angles, set points and motor torques (tick *
   /// joints
   /// + joint).
-  std::vector<double> com_x, com_y, poses;
+  std::vector<double> com_x, com_y, com_z, poses;
   std::vector<double> angles, setpoints, torques;
   /// Every trace tick: normal force on all contact elements of a module, N (tick * modules + module).
   std::vector<double> loads;
+  /// Angles and pose at a trace tick; speeds 0.
+  [[nodiscard]] RobotState state(const Robot& robot, std::size_t tick) const;
   Stability worst;  ///< the largest rate seen at a control tick
   double worst_time = 0;
   std::int64_t ticks = 0, ticks_above_1 = 0;

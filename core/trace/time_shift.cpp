@@ -13,7 +13,7 @@ using Index = std::ptrdiff_t;
 
 constexpr double kShare = 0.05;      // of the duration
 constexpr double kReach = 0.5;       // s
-constexpr double kWorthwhile = 0.9;  // of the RMS must remain at most, or it is another shape and not late
+constexpr double kWorthwhile = 0.5;  // of the RMS must remain at most, or it is another shape and not late
 constexpr double kAsGood = 0.01;     // of the mean square to be explained: shifts closer than this are equally good
 constexpr std::size_t kProducts = 1000000;
 constexpr Index kMargin = 2;  // samples that the cubic needs beyond the whole shift
@@ -37,6 +37,7 @@ class Search {
         remaining = there;
       }
     }
+    if (std::abs(lag) >= reach_) return {};  // still falling at the edge of the window: no shift, a trend
     if (remaining > kWorthwhile * kWorthwhile * unshifted) return {};
     return {shift, std::sqrt(remaining)};
   }
