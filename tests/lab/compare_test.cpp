@@ -54,6 +54,7 @@ TEST_F(CompareCommand, TableAndSummary) {
                 "joint.0.angle              0.289        0.5     14.4 %       25 %       0.5 s  -\n"
                 "base.x                     0.144       0.25     7.22 %     12.5 %         1 s  -\n"
                 "1 of 3 columns are equal to the bit in 3 rows\n"
+                "first to part: joint.0.angle at t = 0.5 s\nfarthest apart: joint.0.angle, RMS 14.4 % of its range\n"
                 "\n"
                 "summary                                      A                  B  B - A\n"
                 "step, s                                2.5e-05           1.25e-05  -50 %\n"
@@ -81,6 +82,7 @@ TEST_F(CompareCommand, ColumnsAndTraceFiles) {
                 "column  unit          RMS        max  RMS/range  max/range    from t =  late by\n"
                 "base.x              0.707          1     70.7 %      100 %       0.5 s  -\n"
                 "0 of 1 columns are equal to the bit in 2 rows\n"
+                "first to part: base.x at t = 0.5 s\nfarthest apart: base.x, RMS 70.7 % of its range\n"
                 "\n"
                 "summary numbers: not compared, a trace file has none\n");
   expect_report("b.csv b.csv",
