@@ -61,6 +61,23 @@ struct RerunArguments {
 };
 int rerun(const RerunArguments& arguments);
 
+struct ApproveArguments {
+  std::string file;
+  std::optional<std::string> reason;
+  bool calibrate = false;  ///< make new bands; without a golden they are made anyway
+  int jobs = 1;            ///< threads
+};
+int approve(const ApproveArguments& arguments);
+
+struct TestArguments {
+  std::vector<std::string> scenarios;     ///< files and folders; none: `scenarios`
+  std::optional<std::string> golden;      ///< folder: of another scenario than the one that is run
+  std::optional<std::string> engine;      ///< instead of the scenario's, with its own step and integrator
+  std::optional<std::string> junit, out;  ///< file; folder for figures
+  int jobs = 1;                           ///< threads
+};
+int test_goldens(const TestArguments& arguments);
+
 /// `version, build id, Bullet version and precision`
 std::string version();
 

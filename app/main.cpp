@@ -108,6 +108,24 @@ int program(int argc, char** argv) {
   export_command->add_option("FILE", export_arguments.file, "file to write; must not exist")->required();
   export_command->callback([&] { chosen = [&] { return export_run(export_arguments); }; });
 
+  ApproveArguments approve_arguments;
+  CLI::App* approve_command = app.add_subcommand("approve", "bless a scenario's torques as they are now: its golden");
+  approve_command->add_option("SCENARIO", approve_arguments.file, "scenario file (YAML)")->required();
+  approve_command->add_option("--reason", approve_arguments.reason, "why these numbers are right; kept in the golden");
+  approve_command->add_flag("--calibrate", approve_arguments.calibrate, "make new bands: six more runs");
+  approve_command->add_option("-j,--jobs", approve_arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+  approve_command->callback([&] { chosen = [&] { return approve(approve_arguments); }; });
+
+  TestArguments test_arguments;
+  CLI::App* test_command = app.add_subcommand("test", "run scenarios and compare with their goldens; 4: a torque drifted");
+  test_command->add_option("SCENARIO", test_arguments.scenarios, "scenario files, or folders of them (default: scenarios)");
+  test_command->add_option("-j,--jobs", test_arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+  test_command->add_option("--junit", test_arguments.junit, "also write the result as JUnit XML to this file");
+  test_command->add_option("--engine", test_arguments.engine, "run with this engine, at its own step");
+  test_command->add_option("--golden", test_arguments.golden, "golden folder to compare one scenario with, not its own");
+  test_command->add_option("--out", test_arguments.out, "folder for figures of what failed (default runs/test-NAME)");
+  test_command->callback([&] { chosen = [&] { return test_goldens(test_arguments); }; });
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -36,6 +36,11 @@ struct Past {
   std::string summary_hash;          ///< of the trace that summary.json is about, or ""
 };
 
+bool is_there(const fs::path& file) {
+  std::error_code none;  // what cannot be looked at is not there
+  return fs::exists(file, none);
+}
+
 Past read_past(const fs::path& run) {
   Past past;
   past.file = trace_file(run);
@@ -49,13 +54,13 @@ Past read_past(const fs::path& run) {
   }
   if (past.trace.rows() == 0 || past.trace.columns.front().name != "t")
     throw InputError(Place{past.file.string()}, "holds no rows of a run: it has no first column t, or nothing in it");
-  if (!fs::is_directory(run) || !fs::exists(run / "summary.json")) return past;
+  if (!is_there(run / "summary.json")) return past;
   const nlohmann::json summary = read_summary(run);
   const auto text = [&](const char* key) {
     const auto at = summary.find(key);
     return at != summary.end() && at->is_string() ? at->get<std::string>() : std::string();
   };
-  past.ended = text("outcome");
+  if (!text("outcome").empty()) past.ended = text("outcome");
   past.summary_hash = text("trace_hash");
   if (past.build.empty()) past.build = text("build");
   return past;
@@ -200,9 +205,7 @@ int verify(const std::string& run) {
 }
 
 /// The format of the recorded trace, or the default where there is none.
-std::string format_of(const fs::path& run) {
-  return fs::is_directory(run) && fs::exists(run / "trace.csv") && !fs::exists(run / "trace.h5") ? "csv" : "h5";
-}
+std::string format_of(const fs::path& run) { return is_there(run / "trace.csv") && !is_there(run / "trace.h5") ? "csv" : "h5"; }
 
 }  // namespace
 

@@ -7,6 +7,6 @@ endif()
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
 #include "report/build_id.h"
 namespace gaitlab {
-std::string build_id() { return "@VERSION@+@commit@ (@COMPILER@)"; }
+std::string build_id() { return "@VERSION@+@commit@ (@COMPILER@; @LIBRARIES@)"; }
 }  // namespace gaitlab
 ]])

@@ -8,7 +8,8 @@
 namespace gaitlab {
 
 namespace {
-constexpr double kFade = 0.2;  // of the swing
+constexpr double kFade = 0.2;       // of the swing
+constexpr double kSteepest = 0.65;  // rad: towards pi / 4 the sole stands on its corner and depth hardly grows with the tilt
 }  // namespace
 
 const char* const Tripod::kManual =
@@ -19,7 +20,7 @@ const char* const Tripod::kManual =
     hip = a (towards +x), ankle = -hip + tilt        the foot is flat but for its tilt, 0 in the swing
     tilt in stance: so that all feet that stand reach the same depth below their hips,
         l cos(a) + z cos(tilt) + x sin(tilt) = D,   D = (largest l cos(a) of the legs that stand) + z cos(d') + x sin(d')
-        d' = d sin^2(pi s), s: progress of the legs that swing (0 while none does)
+        d' = d sin^2(pi s), s: progress of the legs that swing (0 while none does); tilt at most 0.65
     tilt in swing: 0, after what is left of the stance has faded over the first fifth and before the next grows over the last
 
 l: hip to ankle; z, x: depth of the sole below the ankle and its half length; all from the robot. In order alternate with
@@ -42,7 +43,7 @@ void Tripod::Settings::fields(Fields& f) {
 
 void Tripod::Model::fields(Fields& f) {
   static constexpr const char* kOrders[] = {"alternate", "wave"};
-  f.number("tilt", tilt, {"rad", 0, 0.7, "d: tilt of the standing feet in mid-stance, which lifts the body."});
+  f.number("tilt", tilt, {"rad", 0, kSteepest, "d: tilt of the standing feet in mid-stance, which lifts the body."});
   f.number("duty_factor", duty_factor, {"", 0.5, 0.95, "Share of the period that a foot stands."});
   f.choice("order", order, kOrders, "Which legs swing together.");
   f.number("ramp", ramp, {"s", 0, 100, "Time over which amplitude and tilt grow from 0."});
@@ -80,7 +81,7 @@ Tripod::Motion Tripod::motion(const Step& step, double cycles, double amplitude)
 double Tripod::tilt_to_reach(const Leg& leg, double height) {
   const double longest = std::sqrt(leg.sole_depth * leg.sole_depth + leg.sole_reach * leg.sole_reach);
   const double flat = math::atan2(leg.sole_depth, leg.sole_reach);
-  return std::max(0.0, math::asin(std::min(1.0, height / longest)) - flat);
+  return std::clamp(math::asin(std::min(1.0, height / longest)) - flat, 0.0, kSteepest);
 }
 
 /// D of the manual without the part of the foot that is the leg's own: the depth that flat, unlifted feet would reach, and the

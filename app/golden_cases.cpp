@@ -1,0 +1,154 @@
+#include "app/golden_cases.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "core/errors.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> scenarios_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".yaml" && !entry.is_directory()) files.push_back(entry.path());
+  }
+  if (error) throw InputError(Place{folder.string()}, "cannot be read: " + error.message());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golden, bool named) {
+  GoldenCase c{file.string()};
+  const fs::path folder = golden ? fs::path(*golden) : golden_folder(file);
+  if (!golden && !fs::exists(folder)) {
+    if (!named) {
+      c.verdict = Verdict::skipped;
+      return c;
+    }
+    c.fail(Verdict::bad_input,
+           fmt::format("{0}: error: has no golden ({1} does not exist); make it: gaitlab approve {0} --reason "
+                       "TEXT",
+                       c.file, folder.string()));
+    return c;
+  }
+  try {
+    c.golden = read_golden(folder);
+  } catch (const InputError& error) {
+    c.fail(Verdict::bad_input, error.what());
+  }
+  return c;
+}
+
+// Another engine's step and integrator are its own.
+Scenario with_engine(const std::string& file, const Scenario& scenario, const std::string& name, Catalog& catalog) {
+  if (scenario.physics.engine->name == name) return scenario;
+  const Engine* engine = catalog.engine(name);
+  if (engine == nullptr) {
+    const std::string near = nearest(name, catalog.engines());
+    throw InputError(Place{"--engine"},
+                     fmt::format("engine '{}' is unknown; {}", name,
+                                 near.empty() ? fmt::format("there are: {}", fmt::join(catalog.engines(), ", "))
+                                              : "did you mean '" + near + "'?"));
+  }
+  return read_scenario(file,
+                       {"physics.engine=" + name, fmt::format("physics.step={}", engine->step),
+                        "physics.integrator=" + engine->integrators.front()},
+                       catalog);
+}
+
+void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog& catalog) {
+  try {
+    Scenario scenario = read_scenario(c.file, {}, catalog);
+    if (engine) scenario = with_engine(c.file, scenario, *engine, catalog);
+    c.other_engine = scenario.physics.engine->name != c.golden->origin.engine;
+    c.scenario = std::move(scenario);
+  } catch (const InputError& error) {
+    if (error.problems().front().place.file == "--engine") throw;  // no fault of the scenario
+    c.fail(Verdict::bad_input, error.what());
+  }
+}
+
+void judge(GoldenCase& c, Outcome& outcome) {
+  try {
+    if (outcome.error) std::rethrow_exception(outcome.error);
+  } catch (const InputError& error) {
+    c.fail(Verdict::bad_input, error.what());
+    return;
+  } catch (const RunError& error) {
+    c.fail(Verdict::run_failed, fmt::format("{}: error: {}", c.file, error.what()));
+    return;
+  }
+  c.run = std::move(outcome.run);
+  c.difference = compare(*c.golden, c.run);
+  if (!c.difference.passed()) c.verdict = Verdict::regression;
+}
+
+}  // namespace
+
+void GoldenCase::fail(Verdict as, std::string text) {
+  verdict = as;
+  problem = std::move(text);
+}
+
+std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& catalog) {
+  std::vector<std::string> given = arguments.scenarios;
+  if (given.empty()) given.emplace_back("scenarios");
+  if (arguments.golden && (given.size() != 1 || fs::is_directory(given.front())))
+    throw InputError(Place{"--golden"}, "is the golden of one scenario; name exactly one scenario with it");
+  std::vector<GoldenCase> cases;
+  std::set<std::string> seen;
+  const auto add = [&](const fs::path& file, bool named) {
+    if (seen.insert(fs::weakly_canonical(file).string()).second) cases.push_back(case_of(file, arguments.golden, named));
+  };
+  for (const std::string& path : given) {  // those named by their file first: they must have a golden
+    if (fs::is_directory(path)) continue;
+    if (!fs::exists(path)) throw InputError(Place{path}, "there is no such scenario or folder");
+    add(path, true);
+  }
+  for (const std::string& path : given) {
+    if (!fs::is_directory(path)) continue;
+    for (const fs::path& file : scenarios_in(path)) add(file, false);
+  }
+  for (GoldenCase& c : cases) {
+    if (c.golden) read_case(c, arguments.engine, catalog);
+  }
+  return cases;
+}
+
+void run_cases(std::vector<GoldenCase>& cases, int jobs) {
+  std::vector<Scenario> scenarios;
+  for (const GoldenCase& c : cases) {
+    if (c.scenario) scenarios.push_back(*c.scenario);
+  }
+  std::vector<Outcome> outcomes = golden_runs(scenarios, jobs);
+  auto outcome = outcomes.begin();
+  for (GoldenCase& c : cases) {
+    if (c.scenario) judge(c, *outcome++);
+  }
+}
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::passed:
+      return "passed";
+    case Verdict::skipped:
+      return "skipped: no golden";
+    case Verdict::bad_input:
+      return "NOT TESTED";
+    case Verdict::run_failed:
+      return "RUN FAILED";
+    case Verdict::regression:
+      break;
+  }
+  return "FAILED";
+}
+
+}  // namespace gaitlab::app

@@ -1,0 +1,40 @@
+// What `gaitlab test` is asked to test: scenarios, their goldens, and how each came out.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/app.h"
+#include "app/golden_runs.h"
+#include "core/trace/golden_compare.h"
+
+namespace gaitlab::app {
+
+/// From best to worst; the program's exit code follows from the worst.
+enum class Verdict { passed, skipped, bad_input, run_failed, regression };
+
+struct GoldenCase {
+  std::string file;                       ///< of the scenario, as given or found
+  std::optional<Golden> golden = {};      ///< read
+  std::optional<Scenario> scenario = {};  ///< read
+  bool other_engine = false;              ///< than the golden's
+  GoldenRun run = {};
+  GoldenDifference difference = {};
+  Verdict verdict = Verdict::passed;
+  std::string problem = {};  ///< what prevented the comparison: a whole text for stderr
+
+  void fail(Verdict as, std::string text);
+};
+
+/// One case a scenario, in the order of the arguments, a folder's by name; each scenario once. In a folder a scenario without a
+/// golden is skipped. Goldens and scenarios are read; what cannot be read is a verdict of that case. InputError: neither
+/// scenario nor folder, or --golden with anything but one scenario.
+std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& catalog);
+
+/// Runs and compares those that can be.
+void run_cases(std::vector<GoldenCase>& cases, int jobs);
+
+/// `passed`, `FAILED`, `skipped: no golden` ...
+std::string to_string(Verdict verdict);
+
+}  // namespace gaitlab::app

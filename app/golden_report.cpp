@@ -1,0 +1,82 @@
+#include "app/golden_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace gaitlab::app {
+
+namespace {
+
+constexpr std::size_t kMostShown = 10;
+
+// Those to show, by falling ratio where they are the worst, else in the golden's order.
+template <class Check>
+std::vector<const Check*> chosen(const std::vector<Check>& checks, Shown shown) {
+  std::vector<const Check*> some;
+  for (const Check& check : checks) {
+    if (shown == Shown::worst ? check.ratio() != 0 : !check.passed()) some.push_back(&check);
+  }
+  if (shown == Shown::failing) return some;
+  std::stable_sort(some.begin(), some.end(), [](const Check* a, const Check* b) { return a->ratio() > b->ratio(); });
+  some.resize(std::min(some.size(), kMostShown));
+  return some;
+}
+
+template <class Check>
+std::size_t width(const std::vector<const Check*>& checks, std::size_t least) {
+  for (const Check* check : checks) least = std::max(least, check->name.size());
+  return least;
+}
+
+std::string table(const std::vector<const ColumnCheck*>& columns) {
+  if (columns.empty()) return "";
+  const std::size_t name = width(columns, 6);
+  std::string text = fmt::format("  {:<{}} {:>11} {:>11} {:>9} {:>11} {:>13}  {}\n", "column", name, "RMS/range", "band",
+                                 "RMS/band", "max/range", "outside from", "late by");
+  for (const ColumnCheck* c : columns) {
+    const std::string from = c->outside ? fmt::format("{:.6g} s", *c->outside) : "never";
+    const std::string late =
+        c->time_shift == 0 ? "-" : fmt::format("{:+.4g} s, then {}", c->time_shift, percent(c->rms_after_shift));
+    text += fmt::format("  {:<{}} {:>11} {:>11} {:>9.3g} {:>11} {:>13}  {}\n", c->name, name, percent(c->rms), percent(c->band),
+                        c->ratio(), percent(c->maximum), from, late);
+  }
+  return text;
+}
+
+std::string table(const std::vector<const NumberCheck*>& numbers) {
+  if (numbers.empty()) return "";
+  const std::size_t name = width(numbers, 6);
+  std::string text = fmt::format("  {:<{}} {:>13} {:>13} {:>11} {:>11} {:>11}  {}\n", "number", name, "golden", "now", "change",
+                                 "band", "change/band", "unit");
+  for (const NumberCheck* n : numbers) {
+    text += fmt::format("  {:<{}} {:>13.7g} {:>13.7g} {:>11} {:>11} {:>11.3g}  {}\n", n->name, name, n->golden, n->now,
+                        percent(n->change), percent(n->band), n->ratio(), n->unit);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+std::string parts(const Band& band) {
+  return fmt::format("max(ensemble {}, halving {}, floor {})", percent(band.ensemble), percent(band.halving),
+                     percent(band.floor));
+}
+
+std::string plural(std::size_t count, const std::string& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string differences(const GoldenDifference& difference, Shown shown) {
+  std::string text;
+  for (const std::string& finding : difference.findings) text += "  " + finding + "\n";
+  text += table(chosen(difference.columns, shown));
+  text += table(chosen(difference.numbers, shown));
+  return text;
+}
+
+}  // namespace gaitlab::app

@@ -1,0 +1,23 @@
+// A golden difference as text for people.
+#pragma once
+#include <string>
+
+#include "core/trace/golden_compare.h"
+
+namespace gaitlab::app {
+
+enum class Shown { failing, worst };  ///< all that fail; the ten that strayed farthest, in bands
+
+/// Findings, then a table of columns, then one of numbers, each line indented by two; "" where nothing of it is to be shown.
+std::string differences(const GoldenDifference& difference, Shown shown);
+
+/// `0.0123 %`
+std::string percent(double share);
+
+/// `max(ensemble 0.2 %, halving 0.03 %, floor 0.001 %)`
+std::string parts(const Band& band);
+
+/// `1 column`, `3 columns`
+std::string plural(std::size_t count, const std::string& what);
+
+}  // namespace gaitlab::app

@@ -1,0 +1,128 @@
+#include "app/golden_runs.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <thread>
+
+#include "core/simulation/simulation.h"
+#include "report/build_id.h"
+#include "report/summary.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+constexpr double kRowEvery = 0.02;      // s; a gait has 0.5 Hz, and the contacts' spikes are not what drifts
+constexpr double kNowhere = 1e-3;       // m: the work of a robot that stays is divided by noise
+constexpr double kPerturbation = 1e-7;  // rad: above the rounding of another compiler, far below what a torque shows
+
+bool driven(const Scenario& scenario) { return scenario.actuator.entry != nullptr && !scenario.robot->joints.empty(); }
+
+std::vector<std::string> columns(const Scenario& scenario) {
+  std::vector<std::string> names;
+  if (driven(scenario)) names = {"joint.*.torque", "joint.*.current"};
+  if (!scenario.robot->joints.empty()) names.emplace_back("joint.*.angle");
+  for (const char* part : {"x", "y", "z", "qw", "qx", "qy", "qz"}) names.push_back(std::string("base.") + part);
+  return names;
+}
+
+// Every stride-th row; the last one where it is no trace tick is left out.
+Trace thinned(const Trace& trace, double period) {
+  const auto stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(kRowEvery / period * (1 + 1e-9)));
+  Trace thin{trace.columns, {}};
+  for (std::size_t k = 0; k < trace.rows(); k += static_cast<std::size_t>(stride)) {
+    if (std::abs(trace.at(k, 0) - static_cast<double>(k) * period) > 1e-6 * period) break;
+    thin.values.insert(thin.values.end(), trace.row(k).begin(), trace.row(k).end());
+  }
+  return thin;
+}
+
+std::vector<Number> numbers(const Scenario& scenario, const RunRecord& record) {
+  const Summary s = summarise(scenario, record, 0);
+  std::vector<Number> all{{"distance", "m", s.distance},
+                          {"displacement.x", "m", s.displacement_x},
+                          {"speed", "m/s", s.speed},
+                          {"path_length", "m", s.path_length}};
+  if (!driven(scenario)) return all;
+  if (s.distance > kNowhere) {
+    all.push_back({"cost_of_transport.electrical", "J/(N m)", s.cost_electrical});
+    all.push_back({"cost_of_transport.mechanical", "J/(N m)", s.cost_mechanical});
+  }
+  for (std::size_t j = 0; j < record.joints.size(); ++j) {
+    const std::string& name = scenario.robot->joints[j].name;
+    all.push_back({name + ".torque.peak", "N m", record.joints[j].torque_peak});
+    all.push_back({name + ".torque.rms", "N m", record.joints[j].torque_rms});
+    all.push_back({name + ".current.rms", "A", record.joints[j].current_rms});
+  }
+  return all;
+}
+
+// Steele, Lea, Flood 2014, the output function of SplittableRandom: every counter is a stream of its own.
+std::uint64_t splitmix64(std::uint64_t counter) {
+  std::uint64_t z = counter * 0x9E3779B97F4A7C15ULL;
+  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
+  return z ^ (z >> 31U);
+}
+
+// In [-1, 1).
+double symmetric(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-52 - 1; }
+
+}  // namespace
+
+GoldenRun golden_run(const Scenario& scenario) {
+  Scenario ours = scenario;
+  ours.trace.columns = columns(scenario);
+  Simulation simulation({&ours, 1});
+  simulation.run();
+  const RunRecord record = simulation.take_record(0);
+  return {thinned(record.trace, scenario.trace.period), numbers(scenario, record)};
+}
+
+std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs) {
+  std::vector<Outcome> outcomes(scenarios.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < scenarios.size(); i = next++) {
+      try {
+        outcomes[i].run = golden_run(scenarios[i]);
+      } catch (...) {
+        outcomes[i].error = std::current_exception();
+      }
+    }
+  };
+  const std::size_t threads = std::min(scenarios.size(), static_cast<std::size_t>(std::max(1, jobs)));
+  {
+    std::vector<std::jthread> others;  // joined at the end of the block
+    for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work);
+    work();
+  }
+  return outcomes;
+}
+
+GoldenOrigin golden_origin(const Scenario& scenario) {
+  const Engine& engine = *scenario.physics.engine;
+  const std::string build = build_id();
+  // `VERSION (COMPILER; LIBRARIES)`
+  const std::size_t from = std::min(build.find('('), build.size() - 1) + 1;
+  return {scenario.name,           engine.name, engine.integrators[static_cast<std::size_t>(scenario.physics.integrator)],
+          scenario.physics.step,   build,       build.substr(from, build.find_first_of(";)", from) - from),
+          hash(resolved(scenario))};
+}
+
+Scenario perturbed(const Scenario& scenario, int member) {
+  Scenario moved = scenario;
+  const std::size_t joints = scenario.robot->joints.size();
+  PerJoint& angles = moved.initial.angles;
+  angles.each.resize(joints);
+  for (std::size_t j = 0; j < joints; ++j) {
+    const std::uint64_t counter = static_cast<std::uint64_t>(member) * joints + j + 1;
+    const std::uint64_t seed = splitmix64(static_cast<std::uint64_t>(scenario.seed) + 1);
+    angles.each[j] = scenario.initial.angles[j] + kPerturbation * symmetric(splitmix64(seed + counter));
+  }
+  return moved;
+}
+
+}  // namespace gaitlab::app

@@ -1,0 +1,34 @@
+// Runs whose torques a golden keeps, side by side in threads.
+#pragma once
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "core/scenario/scenario.h"
+#include "core/trace/golden_bands.h"
+
+namespace gaitlab::app {
+
+/// Torque, current and angle of every joint (without a motor: the angle) and the base pose, whatever `trace.columns` says, a
+/// row every 20 ms (the largest whole multiple of the trace period up to that, at least one of it); and the figures that a
+/// golden holds. InputError: the step is too long; RunError: it diverged.
+GoldenRun golden_run(const Scenario& scenario);
+
+/// What one of several runs came to.
+struct Outcome {
+  GoldenRun run;
+  std::exception_ptr error;  ///< of golden_run
+};
+
+/// One each, in the order of `scenarios`; up to `jobs` at once. Every run is an object of its own: the same bits for any
+/// `jobs`.
+std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs);
+
+/// Which run a golden is, for Golden::origin.
+GoldenOrigin golden_origin(const Scenario& scenario);
+
+/// `scenario` with its initial joint angles moved by up to 1e-7 rad each: number `member` of the ensemble. From scenario.seed
+/// alone, by splitmix64 of a counter.
+Scenario perturbed(const Scenario& scenario, int member);
+
+}  // namespace gaitlab::app

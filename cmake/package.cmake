@@ -1,0 +1,15 @@
+# What an installation offers beside the program: the headers of a plugin and a CMake package (docs/ci.md).
+include(CMakePackageConfigHelpers)
+
+install(DIRECTORY core/plugin DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gaitlab/core
+  FILES_MATCHING PATTERN "*.h"
+  PATTERN catalog.h EXCLUDE) # the program's own side
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/gaitlab)
+configure_package_config_file(cmake/gaitlabConfig.cmake.in ${CMAKE_BINARY_DIR}/generated/gaitlabConfig.cmake
+  INSTALL_DESTINATION ${package}
+  PATH_VARS CMAKE_INSTALL_BINDIR CMAKE_INSTALL_INCLUDEDIR)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/generated/gaitlabConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion) # before 1.0 a minor version may break
+install(FILES ${CMAKE_BINARY_DIR}/generated/gaitlabConfig.cmake ${CMAKE_BINARY_DIR}/generated/gaitlabConfigVersion.cmake
+  DESTINATION ${package})

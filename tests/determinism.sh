@@ -1,0 +1,138 @@
+#!/usr/bin/env bash
+# The gate of docs/determinism.md: the same bytes (trace and resolved scenario) whatever surrounds the program.
+# usage: determinism.sh PROGRAM [SCENARIO]; exit code 0: all cases equal or skipped (said loudly), 1: one differs.
+set -euo pipefail
+
+program=$(readlink -f -- "$1")
+scenario=$(readlink -f -- "${2:-$(dirname -- "${BASH_SOURCE[0]}")/../scenarios/caterpillar.yaml}")
+arguments=(run "$scenario" --set duration=0.6)
+work=$(mktemp -d)
+trap 'rm -rf -- "$work"' EXIT
+failed=0 skipped=0
+
+skip() {
+  skipped=$((skipped + 1))
+  printf 'SKIPPED  %s: NOT TESTED: %s\n' "$1" "$2" >&2
+}
+differs() {
+  failed=$((failed + 1))
+  printf 'DIFFERS  %s\n' "$1"
+}
+
+# same CASE FOLDER: compares that run with the reference.
+same() {
+  local file
+  for file in trace.h5 scenario.resolved.yaml; do
+    cmp -- "$work/reference/$file" "$2/$file" || { differs "$1: $file"; return 0; }
+  done
+  printf 'same     %s\n' "$1"
+}
+
+# once CASE COMMAND...: runs `COMMAND... program run ... --out FOLDER` and compares.
+once() {
+  local name=$1 out
+  shift
+  out=$(mktemp -d "$work/run-XXXX")
+  if "$@" "$program" "${arguments[@]}" --quiet --out "$out" >"$work/log" 2>&1; then
+    same "$name" "$out"
+  else
+    cat -- "$work/log"
+    differs "$name: the run failed"
+  fi
+}
+
+other_folder() {
+  mkdir -p "$work/some where/else"
+  (cd -- "$work/some where/else" && "$program" "${arguments[@]}" --quiet --out "deep/er" >/dev/null)
+  same "another working folder" "$work/some where/else/deep/er"
+}
+
+# Every locale there is, and a German one (decimal comma), made here where localedef has its source.
+locales() {
+  local name made=$work/locales
+  for name in C $(locale -a | grep -vx C); do once "LC_ALL=$name" env LC_ALL="$name"; done
+  mkdir -p "$made"
+  if command -v localedef >/dev/null && localedef -i de_DE -f UTF-8 "$made/de_DE.UTF-8" >/dev/null 2>&1 &&
+    [[ $(LOCPATH=$made LC_ALL=de_DE.UTF-8 locale decimal_point) == , ]]; then
+    # Leaks off: with LOCPATH a library behind HDF5 (libp11-kit's newlocale) loses 44 bytes before main.
+    once "LC_ALL=de_DE.UTF-8, a decimal comma" \
+      env LOCPATH="$made" LC_ALL=de_DE.UTF-8 ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+  else
+    skip "a locale with a decimal comma" "localedef cannot make de_DE.UTF-8 (Debian: package locales)"
+  fi
+}
+
+# With a bar and a summary on the terminal, which --quiet would leave out.
+terminal() {
+  local out=$work/terminal command
+  if ! command -v script >/dev/null || ! script -qec 'test -t 1 && test -t 2' /dev/null </dev/null >/dev/null 2>&1; then
+    skip "on a terminal" "script(1) is missing or gives none (Debian: package bsdutils)"
+    return 0
+  fi
+  printf -v command '%q ' "$program" "${arguments[@]}" --out "$out"
+  script -qec "$command" /dev/null </dev/null >"$work/screen"
+  grep -q '\[#' "$work/screen" || differs "on a terminal: it showed no bar, so it saw no terminal"
+  same "on a terminal" "$out"
+}
+
+address_space() {
+  if ! command -v setarch >/dev/null || ! setarch -R true 2>/dev/null; then
+    skip "address space not randomised" "setarch -R is missing or not allowed here"
+    return 0
+  fi
+  once "address space not randomised" setarch -R
+  local setting
+  setting=$(cat /proc/sys/kernel/randomize_va_space 2>/dev/null || true)
+  [[ $setting == 2 ]] || skip "address space randomised" "kernel.randomize_va_space is '$setting', not 2"
+}
+
+rerun() {
+  local text
+  "$program" rerun "$work/reference" --quiet --out "$work/again" >/dev/null
+  same "rerun from the run folder" "$work/again"
+  if ! text=$("$program" rerun "$work/reference" --verify) || [[ $text != *bit-equal* ]]; then
+    printf '%s\n' "$text"
+    differs "rerun --verify: not bit-equal"
+  else
+    printf 'same     rerun --verify\n'
+  fi
+}
+
+# Goldens made, and what `gaitlab test` says and writes (also of a gait that fails), with one thread and with two.
+jobs() {
+  local j name goldens
+  if ! "$program" --help | grep -qE '^ +test '; then
+    skip "gaitlab approve and test -j 1 and -j 2" "this program has no command test"
+    return 0
+  fi
+  for j in 1 2; do
+    goldens=$work/jobs-$j/goldens
+    mkdir -p "$goldens"
+    for name in a b; do
+      sed "s/^name: .*/name: $name/; s/^duration: .*/duration: 0.2/" "$work/reference/scenario.resolved.yaml" >"$goldens/$name.yaml"
+      "$program" approve "$goldens/$name.yaml" -j "$j" --reason "determinism.sh" >"$work/log" 2>&1 ||
+        { cat -- "$work/log"; differs "approve failed"; return 0; }
+    done
+    sed -i 's/amplitude: 0.6$/amplitude: 0.5/' "$goldens/b.yaml"
+    (cd -- "$work/jobs-$j" && "$program" test goldens -j "$j" --junit junit.xml >out 2>err) && differs "test -j $j: b should fail"
+  done
+  [[ -d $work/jobs-1/runs ]] || differs "test: no figure of what failed"
+  if diff -r "$work/jobs-1" "$work/jobs-2"; then
+    printf 'same     gaitlab approve and test -j 1 and -j 2 (goldens, table, figure, XML)\n'
+  else
+    differs "gaitlab approve or test -j 1 and -j 2"
+  fi
+}
+
+"$program" "${arguments[@]}" --quiet --out "$work/reference" >/dev/null
+once "run twice"
+once "an almost empty environment" env -i
+once "another umask and open files" bash -c 'umask 077; exec 7</dev/null 8</dev/null; exec "$@"' bash
+other_folder
+locales
+terminal
+address_space
+rerun
+jobs
+printf '%d differ, %d skipped\n' "$failed" "$skipped"
+((failed == 0))

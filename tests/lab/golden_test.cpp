@@ -1,0 +1,279 @@
+// What users see of approve and test: whole messages, exit codes, and goldens that notice what has changed.
+#include "core/trace/golden.h"
+
+#include "core/trace/atomic_file.h"
+#include "fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kCaterpillar =
+    "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"
+    "cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.6, phase_lag: 1.2}\nduration: 0.3\n";
+
+/// A folder with the scenario good.yaml (two modules that creep for 0.3 s) and its golden, approved once.
+class GoldenCommand : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    approved = std::make_unique<Folder>();
+    fs::create_directory_symlink(kScenarios + "modules", *approved / "modules");
+    approved->write("good.yaml", kCaterpillar);
+    const Result result = gaitlab("approve good.yaml --reason 'first golden'", *approved / "");
+    ASSERT_EQ(result.code, 0) << result.err;
+    told = result.out;
+  }
+  static void TearDownTestSuite() { approved.reset(); }
+
+  void SetUp() override {
+    fs::create_directory_symlink(kScenarios + "modules", folder / "modules");
+    folder.write("good.yaml", kCaterpillar);
+    fs::copy(*approved / "good.golden", folder / "good.golden");
+  }
+
+  Result call(const std::string& arguments) { return gaitlab(arguments, folder / ""); }
+  void expect_refused(const std::string& arguments, const std::string& message) {
+    const Result result = call(arguments);
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.err, message + "\n");
+    EXPECT_EQ(result.out, "");
+  }
+  /// The golden's two files.
+  [[nodiscard]] std::string bytes(const std::string& golden) const {
+    return read(folder / (golden + "/golden.json")) + read(folder / (golden + "/trace.golden"));
+  }
+  static void expect_contains(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << "not in:\n" << text;
+  }
+
+  static inline std::unique_ptr<Folder> approved;
+  static inline std::string told;
+  Folder folder;
+};
+
+TEST_F(GoldenCommand, ApprovedIsGreen) {
+  EXPECT_TRUE(told.starts_with("good.golden: approval 1: 19 columns of 16 rows, 18 numbers, ")) << told;
+  expect_contains(told, " kB; bands made\n  widest band: joint.");
+  const Golden golden = read_golden(folder / "good.golden");
+  EXPECT_EQ(golden.origin.engine, "bullet");
+  EXPECT_EQ(golden.origin.integrator, "semi_implicit");
+  EXPECT_EQ(golden.origin.step, 2.5e-5);
+  EXPECT_EQ(golden.origin.scenario, hash(resolved(read_scenario(folder / "good.yaml", {}, catalog()))));
+  EXPECT_NE(golden.origin.build.find("(" + golden.origin.compiler), std::string::npos);
+  EXPECT_EQ(golden.history.front().reason, "first golden");
+  EXPECT_EQ(golden.run.trace.columns[1].name, "joint.0.angle");
+  EXPECT_LT(golden.run.trace.find("joint.3.torque"), golden.run.trace.columns.size());
+  EXPECT_LT(golden.run.trace.find("base.qw"), golden.run.trace.columns.size());
+  for (const Band& band : golden.bands) EXPECT_LE(band.width(), 0.002);
+  EXPECT_EQ(fs::exists(folder / "good.golden/trace.golden.next"), false);
+
+  const Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.out,
+            "scenario   worst column   RMS/band  worst number change/band  verdict\n"
+            "good.yaml  joint.0.angle         0  distance               0  passed\n"
+            "\n"
+            "1 passed, 0 failed\n");
+  EXPECT_EQ(result.err, "");
+  EXPECT_FALSE(fs::exists(folder / "runs"));
+}
+
+TEST_F(GoldenCommand, AnotherMotorIsARegression) {
+  folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
+  const Result result = call("test good.yaml --junit result.xml");
+  EXPECT_EQ(result.code, 4);
+  EXPECT_EQ(result.err, "good.yaml: note: its resolved text is no longer that of the golden\n");
+  expect_contains(result.out, " of 19 columns and ");
+  expect_contains(result.out, " of 18 numbers outside their bands\n  column ");
+  expect_contains(result.out, "\n  joint.3.torque ");
+  expect_contains(result.out, "\n  m1/passive.torque.peak ");
+  expect_contains(result.out, "\n  figure: runs/test-good/overlay.svg\n");
+  expect_contains(result.out, "\n0 passed, 1 failed\n");
+  const std::string figure = read(folder / "runs/test-good/overlay.svg");
+  expect_contains(figure, "good: ");
+  expect_contains(figure, "outside from ");
+  const std::string junit = read(folder / "result.xml");
+  expect_contains(junit,
+                  "<testsuite name=\"gaitlab test\" tests=\"1\" failures=\"1\" errors=\"0\" skipped=\"0\">\n"
+                  "<testcase classname=\"golden\" name=\"good.yaml\"><failure message=\"");
+  expect_contains(junit, "\n  joint.3.torque ");
+  EXPECT_TRUE(junit.ends_with("</failure></testcase>\n</testsuite>\n</testsuites>\n")) << junit;
+}
+
+TEST_F(GoldenCommand, HalfTheStepIsNone) {
+  folder.write("good.yaml", kCaterpillar + "physics: {step: 1.25e-5}\n");
+  const Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 0) << result.out;  // a third of every band at most, by calibration
+}
+
+TEST_F(GoldenCommand, AnotherScenarioWithAGivenGolden) {
+  folder.write("stiff.yaml", kCaterpillar + "controller: {Kp: 102}\nname: stiff&<feet>\n");
+  EXPECT_EQ(call("test stiff.yaml --golden good.golden").code, 2);  // that is no name
+  folder.write("stiff.yaml", kCaterpillar + "controller: {Kp: 102}\nname: stiff\n");
+  Result result = call("test stiff.yaml --golden good.golden --out figures");
+  EXPECT_EQ(result.code, 4);
+  expect_contains(result.out, "\n  figure: figures/stiff.svg\n");
+  expect_refused("test stiff.yaml --golden good.golden --out figures", "--out figures: error: exists and is not empty");
+  expect_refused("test . --golden good.golden",
+                 "--golden: error: is the golden of one scenario; name exactly one scenario with it");
+  result = call("test stiff.yaml --golden no.golden");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "no.golden: error: there is no such golden; gaitlab approve makes it\n");
+}
+
+TEST_F(GoldenCommand, OtherTextSameRunIsANote) {
+  folder.write("good.yaml", kCaterpillar + "name: renamed\n");
+  const Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err, "good.yaml: note: its resolved text is no longer that of the golden\n");
+}
+
+TEST_F(GoldenCommand, OtherFormIsARegression) {
+  folder.write("good.yaml", kCaterpillar + "trace: {period: 0.015}\n");
+  Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 4);
+  expect_contains(result.out, "\n  a row every 0.015 s, in the golden every 0.02 s\n");
+  std::string longer = kCaterpillar;
+  longer.replace(longer.find("0.3"), 3, "0.2");
+  folder.write("good.yaml", longer);
+  result = call("test good.yaml");
+  EXPECT_EQ(result.code, 4);
+  expect_contains(result.out, "\n  11 rows, in the golden 16\n");
+}
+
+TEST_F(GoldenCommand, NoGolden) {
+  folder.write("new.yaml", kCaterpillar);
+  Result result = call("test new.yaml");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err,
+            "new.yaml: error: has no golden (new.golden does not exist); make it: gaitlab approve new.yaml --reason TEXT\n");
+  result = call("test good.yaml new.yaml");
+  EXPECT_EQ(result.code, 2);
+  expect_contains(result.out, "1 passed, 0 failed, 1 not tested\n");
+  result = call("test . --junit result.xml");
+  EXPECT_EQ(result.code, 0);
+  expect_contains(result.out, "./new.yaml   -                     -  -                      -  skipped: no golden\n");
+  expect_contains(result.out, "\n1 passed, 0 failed, 1 skipped\n");
+  expect_contains(read(folder / "result.xml"),
+                  "<testcase classname=\"golden\" name=\"./new.yaml\"><skipped message=\"no golden\"></skipped></testcase>\n");
+  fs::remove_all(folder / "good.golden");
+  result = call("test .");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "gaitlab: error: nothing was tested: no scenario has a golden; make one with gaitlab approve\n");
+  expect_refused("test", "scenarios: error: there is no such scenario or folder");
+}
+
+TEST_F(GoldenCommand, UnreadableGoldenOrScenarioIsNotTested) {
+  folder.write("other.yaml", kCaterpillar + "name: good\n");  // the default is the file's
+  fs::copy(folder / "good.golden", folder / "other.golden");
+  folder.write("good.golden/trace.golden", read(folder / "good.golden/trace.golden").substr(0, 500));
+  Result result = call("test .");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_TRUE(result.err.starts_with("./good.golden/trace.golden: error: is truncated: 500 of ")) << result.err;
+  expect_contains(result.out, "  NOT TESTED\n");
+  expect_contains(result.out, "\n1 passed, 0 failed, 1 not tested\n");
+  folder.write("other.yaml", kCaterpillar + "durtion: 1\n");
+  result = call("test other.yaml");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "other.yaml:6:1: error: unknown key 'durtion'; did you mean 'duration'?\n");
+}
+
+TEST_F(GoldenCommand, ARunThatDiverges) {
+  const std::string wild =
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.1\nactuator: {type: torque}\n"
+      "controller: {type: hold, period: 0.05, command: {default: 0, m1/passive: 1e6}}\n";
+  folder.write("good.yaml", wild);
+  Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_TRUE(result.err.starts_with("good.yaml: error: diverged at step 1, t = 2.5e-05 s: joint m1/passive turns at"));
+  folder.write("wild.yaml", wild);
+  result = call("approve wild.yaml --reason 'it flies'");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_TRUE(result.err.starts_with("gaitlab: error: wild.yaml: diverged at step 1, ")) << result.err;
+  EXPECT_FALSE(fs::exists(folder / "wild.golden"));
+}
+
+TEST_F(GoldenCommand, Engines) {
+  EXPECT_EQ(call("test good.yaml --engine bullet").code, 0);
+  expect_refused("test good.yaml --engine bulet", "--engine: error: engine 'bulet' is unknown; did you mean 'bullet'?");
+}
+
+TEST_F(GoldenCommand, ApproveWantsAReason) {
+  const std::string before = bytes("good.golden");
+  expect_refused(
+      "approve good.yaml",
+      "--reason: error: is missing; say in a sentence why these numbers are right: it is kept in the golden's history");
+  expect_refused(
+      "approve good.yaml --reason ' '",
+      "--reason: error: is empty; say in a sentence why these numbers are right: it is kept in the golden's history");
+  EXPECT_EQ(bytes("good.golden"), before);
+}
+
+TEST_F(GoldenCommand, ApproveShowsWhatChangedAndKeepsTheBands) {
+  const Golden before = read_golden(folder / "good.golden");
+  Result result = call("approve good.yaml --reason 'nothing new'");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_TRUE(result.out.starts_with("since approval 1 (first golden):\n  nothing has changed\ngood.golden: approval 2: "));
+  folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
+  result = call("approve good.yaml --reason 'the motor that we bought'");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_TRUE(result.out.starts_with("since approval 2 (nothing new):\n  column ")) << result.out;
+  expect_contains(result.out, "; bands kept\n");
+  const Golden after = read_golden(folder / "good.golden");
+  ASSERT_EQ(after.history.size(), 3U);
+  EXPECT_EQ(after.history[2].reason, "the motor that we bought");
+  EXPECT_EQ(after.history[2].number, 3);
+  for (std::size_t i = 0; i < before.bands.size(); ++i) EXPECT_EQ(after.bands[i].width(), before.bands[i].width());
+  EXPECT_EQ(call("test good.yaml").code, 0);
+
+  folder.write("good.yaml", kCaterpillar + "trace: {period: 0.015}\n");
+  result = call("approve good.yaml --reason 'fewer rows'");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err,
+            "good.golden: error: its bands are those of another form of run (see above); make new ones with --calibrate. "
+            "Nothing was written\n");
+  EXPECT_EQ(read_golden(folder / "good.golden").history.size(), 3U);
+  EXPECT_EQ(call("approve good.yaml --reason 'fewer rows' --calibrate").code, 0);
+}
+
+TEST_F(GoldenCommand, ApproveReplacesAGoldenThatCannotBeRead) {
+  folder.write("good.golden/golden.json", "{}");
+  const Result result = call("approve good.yaml --reason 'made anew'");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(
+      result.err,
+      "good.golden/golden.json: error: is no golden of gaitlab\ngood.golden: note: it is replaced, and its history is lost\n");
+  EXPECT_EQ(read_golden(folder / "good.golden").history.size(), 1U);
+}
+
+TEST_F(GoldenCommand, ApproveRefusesBandsThatWouldNoticeNothing) {
+  folder.write("chaos.yaml", kCaterpillar + "controller: {Kp: 400}\n");  // past the sampled loop's limit: it hammers
+  const Result result = call("approve chaos.yaml --reason 'why not'");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_TRUE(result.err.starts_with("chaos.yaml: error: the band of joint.")) << result.err;
+  expect_contains(result.err, " % of its range, more than 0.2 %: max(ensemble ");
+  expect_contains(result.err, "Nothing was written\n");
+  EXPECT_FALSE(fs::exists(folder / "chaos.golden"));
+}
+
+TEST_F(GoldenCommand, AnyNumberOfThreadsWritesTheSameBytes) {
+  const std::string before = bytes("good.golden");
+  for (const char* jobs : {"1", "2", "7"}) {
+    fs::remove_all(folder / "good.golden");
+    ASSERT_EQ(call(std::string("approve good.yaml --reason 'first golden' -j ") + jobs).code, 0);
+    EXPECT_EQ(bytes("good.golden"), before) << jobs;
+  }
+  fs::copy(folder / "good.golden", folder / "other.golden");
+  folder.write("other.yaml", kCaterpillar + "controller: {Kp: 102}\n");
+  const Result one = call("test . --out a");
+  const Result two = call("test . --out b -j 2");
+  EXPECT_EQ(one.code, 4);
+  EXPECT_EQ(two.code, 4);
+  EXPECT_EQ(one.out.substr(0, one.out.find("figure")), two.out.substr(0, two.out.find("figure")));
+  EXPECT_EQ(read(folder / "a/other.svg"), read(folder / "b/other.svg"));
+  EXPECT_NE(read(folder / "a/other.svg"), "");
+}
+
+}  // namespace
+}  // namespace gaitlab::test
