@@ -154,7 +154,9 @@ int approve(const ApproveArguments& arguments) {
 
   Golden golden;
   golden.origin = golden_origin(scenario);
-  golden.run = {runs.base().trace, unpack(pack(runs.base().trace), folder).precision};
+  RoundedTrace rounded = unpack(pack(runs.base().trace), folder);
+  golden.rounding = mean_squares(runs.base().trace, rounded.trace);
+  golden.run = {runs.base().trace, std::move(rounded.precision)};
   golden.numbers = runs.base().numbers;
   if (before) {
     const GoldenDifference change = compare(*before, runs.base());

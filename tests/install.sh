@@ -49,19 +49,18 @@ enable_language(CXX) # for the plugin alone
 add_library(wave MODULE plugin/wave.cpp)
 target_link_libraries(wave PRIVATE gaitlab::plugin)
 add_test(NAME walk.runs COMMAND gaitlab::gaitlab run ${CMAKE_CURRENT_SOURCE_DIR}/scenarios/walk.yaml --quiet)
-CMAKE
-  has_goldens || return 0
-  cat >>"$user/CMakeLists.txt" <<'CMAKE'
 gaitlab_add_golden_test(walk scenarios/walk.yaml)
 gaitlab_add_golden_test(walk.elsewhere scenarios/walk.yaml GOLDEN goldens/walk)
 CMAKE
 }
 
-has_goldens() { "$program" --help | grep -qE '^ +test '; }
+# Plugins must come from the compiler of the program, which need not be this machine's default.
+compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
 
 # ctest_says CODE [ctest options]: configures, builds and tests the project.
 ctest_says() {
-  quietly cmake -S "$user" -B "$work/user-build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release
+  quietly cmake -S "$user" -B "$work/user-build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_CXX_COMPILER="$compiler"
   quietly cmake --build "$work/user-build"
   expect "$1" ctest --test-dir "$work/user-build" --output-on-failure --no-tests=error "${@:2}"
 }
@@ -82,12 +81,6 @@ use_plugin() {
 
 # A gait that was changed must fail, and so must a golden that is not there.
 cmake_way() {
-  if ! has_goldens; then
-    ctest_says 0
-    printf 'ok       find_package(gaitlab), ctest runs a scenario\n'
-    printf 'SKIPPED  golden tests: NOT TESTED: this program has no command test yet\n' >&2
-    return 0
-  fi
   ctest_says 8 # no golden yet; 8 is ctest's "tests failed"
   expect 0 "$program" approve "$user/$scenario" --reason "install.sh: the first"
   mkdir "$user/goldens"
@@ -110,7 +103,6 @@ shell_recipe() {
   sed -i 's/amplitude: 0.6$/amplitude: 0.63/' reference/scenario.resolved.yaml
   expect 4 "$program" rerun reference --verify
   printf 'ok       shell: rerun --verify passes, and fails (4) for a changed gait\n'
-  has_goldens || return 0
   expect 0 "$program" test scenarios/walk.yaml --junit golden.xml
   [[ -s golden.xml ]] || fail "no golden.xml"
   sed -i 's/amplitude: 0.6,/amplitude: 0.63,/' "$scenario"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What the goldens notice: a table effect/band of small changes to the shipped scenarios, each of which must fail with at least
 # twice a band, and of changes that mean nothing, which must stay below half of every band.
-# usage: tests/mutants.sh PROGRAM [OTHER_PROGRAM...]     OTHER_PROGRAM: gaitlab from another compiler or other flags; innocent
+# usage: tests/mutants.sh PROGRAM [OTHER_PROGRAM...]   (OTHER_PROGRAM: from another compiler or with other flags; innocent)
 # Minutes. JOBS=N: simulations at once (default: all cores). ROBOTS="caterpillar hexapod": which scenarios.
 set -euo pipefail
 
@@ -95,7 +95,9 @@ for robot in "${robots[@]}"; do
   doubled_steps "$robot"
   new "$robot" innocent "nothing"
   new "$robot" innocent "half the step" && key physics step 1.25e-5
-  for other in "${others[@]}"; do new "$robot" innocent "$(basename "$("$other" --version | head -n 1)")" "$other"; done
+  for other in "${others[@]}"; do
+    new "$robot" innocent "built by $("$other" --version | sed -E 's/.*[(]([^;)]*).*/\1/')" "$other"
+  done
 done
 
 # --- runs

@@ -49,6 +49,7 @@ std::string columns_text(const Golden& golden) {
   for (std::size_t i = 1; i < golden.bands.size(); ++i) {
     Json json = to_json(golden.bands[i]);
     json["precision"] = golden.run.precision[i];
+    json["rounding"] = golden.rounding[i];
     json["unit"] = golden.run.trace.columns[i].unit;
     entries.emplace_back(golden.run.trace.columns[i].name, std::move(json));
   }
@@ -156,10 +157,12 @@ RoundedTrace matching_trace(const fs::path& folder, const std::string& wanted) {
 void take_bands(const Json& columns, Golden& golden) {
   const std::vector<Column>& in_trace = golden.run.trace.columns;
   golden.bands.assign(1, {});
+  golden.rounding.assign(1, 0.0);
   for (const auto& [name, entry] : columns.items()) {
     const std::size_t i = golden.bands.size();
     if (i >= in_trace.size() || in_trace[i].name != name) throw std::runtime_error("its columns are not those of the trace");
     golden.bands.push_back(band_of(entry));
+    golden.rounding.push_back(entry.at("rounding"));
   }
   if (golden.bands.size() != in_trace.size()) throw std::runtime_error("its columns are not those of the trace");
 }

@@ -40,7 +40,8 @@ struct Golden {
   GoldenOrigin origin;
   std::vector<Approval> history;  ///< the last is the one that holds
   RoundedTrace run;
-  std::vector<Band> bands;  ///< one a column of the trace; that of `t` is empty
+  std::vector<double> rounding;  ///< one a column, in its unit squared: mean square of what rounding the trace took
+  std::vector<Band> bands;       ///< one a column of the trace; that of `t` is empty
   std::vector<Number> numbers;
   std::vector<Band> number_bands;  ///< one a number
 };

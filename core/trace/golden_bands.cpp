@@ -54,13 +54,19 @@ std::vector<double> scales(const std::vector<Number>& numbers) {
   return scales(extents);
 }
 
-double rms_difference(const Trace& a, const Trace& b, std::size_t column) {
+double mean_square(const Trace& a, const Trace& b, std::size_t column) {
   double sum = 0;
   for (std::size_t k = 0; k < a.rows(); ++k) {
     const double d = b.at(k, column) - a.at(k, column);
     sum += d * d;
   }
-  return a.rows() == 0 ? 0 : std::sqrt(sum / static_cast<double>(a.rows()));
+  return a.rows() == 0 ? 0 : sum / static_cast<double>(a.rows());
+}
+
+std::vector<double> mean_squares(const Trace& a, const Trace& b) {
+  std::vector<double> squares(a.columns.size());
+  for (std::size_t i = 0; i < squares.size(); ++i) squares[i] = mean_square(a, b, i);
+  return squares;
 }
 
 Bands calibrate(const GoldenRun& base, std::span<const double> precision, std::span<const GoldenRun> ensemble,
@@ -71,8 +77,8 @@ Bands calibrate(const GoldenRun& base, std::span<const double> precision, std::s
   for (std::size_t i = 1; i < base.trace.columns.size(); ++i) {
     Band band;
     for (const GoldenRun& run : ensemble)
-      band.ensemble = std::max(band.ensemble, kEnsembleFactor * rms_difference(base.trace, run.trace, i) / scale[i]);
-    band.halving = kHalvingFactor * rms_difference(base.trace, halved.trace, i) / scale[i];
+      band.ensemble = std::max(band.ensemble, kEnsembleFactor * std::sqrt(mean_square(base.trace, run.trace, i)) / scale[i]);
+    band.halving = kHalvingFactor * std::sqrt(mean_square(base.trace, halved.trace, i)) / scale[i];
     const double rounding = precision[i] / std::sqrt(12.0);  // RMS of an error spread evenly over one step of the grid
     band.floor = std::max(kLeastOfRange, kRoundingFactor * rounding / scale[i]);
     bands.columns.push_back(band);

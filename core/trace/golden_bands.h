@@ -21,8 +21,11 @@ std::vector<double> scales(const Trace& trace);
 /// The same for numbers, with the magnitude for the range.
 std::vector<double> scales(const std::vector<Number>& numbers);
 
-/// RMS of the difference of a column, in its unit. Both have the same rows.
-double rms_difference(const Trace& a, const Trace& b, std::size_t column);
+/// Mean square of the difference of a column, in its unit squared. Both have the same rows.
+double mean_square(const Trace& a, const Trace& b, std::size_t column);
+
+/// The same of every column: Golden::rounding, from a run as it was and as its golden's file gives it back.
+std::vector<double> mean_squares(const Trace& a, const Trace& b);
 
 struct Bands {
   std::vector<Band> columns, numbers;  ///< as in Golden

@@ -79,37 +79,27 @@ class Comparison {
     return true;
   }
 
-  // This run's values on the golden's grid: what is left is zero for the same run, not the golden's rounding.
-  [[nodiscard]] std::vector<double> rounded(std::size_t column, double low, double precision) const {
-    std::vector<double> values;
-    for (std::size_t k = 0; k < rows_; ++k) {
-      const double value = b_.at(k, column);
-      values.push_back(precision > 0 ? low + std::round((value - low) / precision) * precision : value);
-    }
-    return values;
-  }
-
   void compare_column(std::size_t i, std::size_t j, double scale) {
     if (rows_ == 0) return;
-    std::vector<double> golden;
-    for (std::size_t k = 0; k < a_.rows(); ++k) golden.push_back(a_.at(k, i));
-    const double low = *std::min_element(golden.begin(), golden.end());
-    golden.resize(rows_);
-    const std::vector<double> now = rounded(j, low, golden_.run.precision[i]);
     ColumnCheck check{a_.columns[i].name, a_.columns[i].unit};
     check.band = golden_.bands[i].width();
     check.scale = scale;
+    std::vector<double> golden;
+    std::vector<double> now;
     double sum = 0;
     for (std::size_t k = 0; k < rows_; ++k) {
-      const double d = std::abs(now[k] - golden[k]) / scale;
+      golden.push_back(a_.at(k, i));
+      now.push_back(b_.at(k, j));
+      const double d = now[k] - golden[k];
       sum += d * d;
-      check.maximum = std::max(check.maximum, d);
-      if (!check.outside && d > kOutside * check.band) check.outside = a_.at(k, 0);
+      check.maximum = std::max(check.maximum, (std::abs(d) - 0.5 * golden_.run.precision[i]) / scale);
+      if (!check.outside && std::abs(d) > kOutside * check.band * scale) check.outside = a_.at(k, 0);
     }
-    check.rms = std::sqrt(sum / static_cast<double>(rows_));
+    const auto share = [&](double square) { return std::sqrt(std::max(0.0, square - golden_.rounding[i])) / scale; };
+    check.rms = share(sum / static_cast<double>(rows_));
     const TimeShift shift = rows_ > 1 && check.rms > 0 ? best_shift(golden, now, spacing(a_)) : TimeShift{};
     check.time_shift = shift.time;
-    check.rms_after_shift = shift.time == 0 ? check.rms : shift.rms / scale;
+    check.rms_after_shift = shift.time == 0 ? check.rms : share(shift.rms * shift.rms);
     found_.columns.push_back(std::move(check));
   }
 

@@ -8,7 +8,8 @@
 
 namespace gaitlab {
 
-/// One column, rounded to the golden's precision like the golden itself. Shares are of its scale (golden_bands.h).
+/// One column. Shares are of its scale (golden_bands.h); what the golden's own rounding explains is taken off, so that the same
+/// run differs by 0 and one that differs by less than the precision is measured right.
 struct ColumnCheck {
   std::string name, unit;
   double rms = 0, maximum = 0;         ///< share

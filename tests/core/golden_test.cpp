@@ -41,6 +41,7 @@ Golden golden_of(const Trace& trace) {
   golden.origin = {"walk", "bullet", "semi_implicit", 2.5e-5, "0.1.0+abc (GNU 12.2.0)", "GNU 12.2.0", "00000000000000aa"};
   golden.history = {{1, "first \"golden\"", "0.1.0+abc"}, {2, "stiffer feet", "0.1.0+abd"}};
   golden.run = {trace, unpack(pack(trace), "x").precision};
+  golden.rounding.assign(trace.columns.size(), 0.0);
   golden.bands.assign(trace.columns.size(), Band{1e-5, 3e-4, 1e-6});
   golden.bands[0] = {};
   golden.numbers = {{"distance", "m", 0.5}, {"m0/active.torque.peak", "N m", 1.3}};
@@ -222,14 +223,35 @@ TEST(GoldenCompare, TheSameRunPassesWithNothingLeft) {
   const Golden golden = golden_of(walk());
   Golden read = golden;
   read.run = unpack(pack(golden.run.trace), "x");  // as it comes from the file
+  read.rounding = mean_squares(golden.run.trace, read.run.trace);
+  EXPECT_LE(std::sqrt(read.rounding[1]), 0.5 * read.run.precision[1]);
+  EXPECT_GT(read.rounding[1], 0);
   const GoldenDifference d = compare(read, run_of(golden));
   EXPECT_TRUE(d.passed());
   EXPECT_EQ(d.findings, Sentences{});
   for (const ColumnCheck& column : d.columns) {
-    EXPECT_EQ(column.maximum, 0) << column.name;
+    EXPECT_EQ(column.rms, 0) << column.name;
+    EXPECT_LT(column.maximum, 1e-15) << column.name;  // half a step of the grid, less itself
     EXPECT_FALSE(column.outside);
   }
   EXPECT_EQ(d.numbers[0].change, 0);
+}
+
+// A fifth of the grid's step, which rounding alone would make a third of it.
+TEST(GoldenCompare, MeasuresBelowThePrecision) {
+  std::mt19937_64 random(4);
+  Trace noise = walk(1001);
+  for (std::size_t k = 0; k < 1001; ++k) noise.values[k * 5 + 3] = static_cast<double>(random() >> 11U) * 0x1p-53;
+  const Golden golden = golden_of(noise);
+  Golden read = golden;
+  read.run = unpack(pack(noise), "x");
+  read.rounding = mean_squares(noise, read.run.trace);
+  GoldenRun run = run_of(golden);
+  const double by = 0.2 * read.run.precision[3];
+  for (std::size_t k = 0; k < 1001; ++k) run.trace.values[k * 5 + 3] += random() % 2 == 0 ? by : -by;
+  // Rounding errors e do not cancel over 1001 rows: 2 by e / sqrt(1001) of by^2, e = precision / sqrt(12): 9 %; thrice the
+  // half.
+  EXPECT_NEAR(compare(read, run).columns[2].rms * scales(read.run.trace)[3], by, 0.14 * by);
 }
 
 TEST(GoldenCompare, WhatStraysFailsAlone) {
