@@ -1,6 +1,13 @@
 #include "actuators/dc_motor.h"
 
+#include <algorithm>
+#include <array>
+
 namespace gaitlab {
+
+namespace {
+constexpr std::array kEfficiencyModels{"paper", "directional"};
+}
 
 const char* const DcMotorActuator::kManual = R"(A DC motor behind a gear; inductance neglected.
 
@@ -9,6 +16,13 @@ const char* const DcMotorActuator::kManual = R"(A DC motor behind a gear; induct
 
 u: command, V; w: joint speed, rad/s; T: torque on the joint, N m. Saturation is counted: 1 voltage, 2 current.
 voltage = R i + Ks n w, the terminal voltage; electrical power = voltage * i.
+
+As printed, eq. 2 (efficiency_model: paper) takes eta from the torque both ways, so that a joint that drives its motor gets
+energy from nowhere; the summary shows how much. efficiency_model: directional takes it from whoever drives:
+
+    T = eta^s Kt i n          s = w sign(i) / turn_speed, within [-1, 1]
+
+eta while the motor drives, 1 / eta while it is driven; turn_speed spreads the step of torque where the joint turns about.
 Source: Chariot, Filippi, Verlinden 2012, eq. 1 and 2. Defaults (chosen): a 6 V, 2 W coreless motor driven at 7.4 V.
 Takes commands in V.
 
@@ -19,16 +33,24 @@ void DcMotorActuator::Settings::fields(Fields& f) {
   f.per_joint("Kt", Kt, {"N m/A", 0, 1e3, "Torque constant of the motor."});
   f.per_joint("Ks", Ks, {"V s/rad", 0, 1e3, "Speed constant of the motor (back-EMF)."});
   f.per_joint("gear", gear, {"", 1e-3, 1e6, "Reduction: motor turns per joint turn (n)."});
-  f.per_joint("efficiency", efficiency, {"", 0, 1, "Of the gear (eta); acts on the torque both ways, as in eq. 2."});
+  f.per_joint("efficiency", efficiency, {"", 0, 1, "Of the gear (eta)."});
+  f.choice("efficiency_model", efficiency_model, kEfficiencyModels,
+           "paper: eta acts on the torque both ways, as in eq. 2; directional: eta driving, 1/eta back-driven.");
+  f.number("turn_speed", turn_speed, {"rad/s", 1e-6, 1e3, "Joint speed over which `directional` goes from 1 to eta or 1/eta."});
   f.per_joint("u_max", u_max, {"V", 0, 1e6, "Driver supply: the command is cut to +- this."});
   f.per_joint("i_max", i_max, {"A", 0, 1e6, "Absolute rating: the current is cut to +- this."});
   f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1, "Of the rotor (J); acts on the joint as n^2 J."});
+  const auto useless = [](double eta) { return !(eta > 0); };
+  if (efficiency_model == 1 &&
+      (useless(efficiency.common) || std::any_of(efficiency.each.begin(), efficiency.each.end(), useless)))
+    f.problem("efficiency", "must be above 0 with efficiency_model: directional, which divides by it");
 }
 
 DcMotorActuator::DcMotorActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     for (const Settings* s : lanes) {
-      motors_.push_back({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], s->efficiency[j], s->u_max[j], s->i_max[j]});
+      motors_.push_back({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], s->efficiency[j], s->u_max[j], s->i_max[j],
+                         s->efficiency_model == 1 ? s->turn_speed : 0.0});
       limit_.push_back(s->u_max[j]);
       inertia_.push_back(s->gear[j] * s->gear[j] * s->rotor_inertia[j]);
     }

@@ -1,6 +1,7 @@
 #include "physics_bullet/engine.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "core/errors.h"
@@ -32,7 +33,7 @@ class BulletPlant final : public Plant, private InverseMass {
     acceleration_.joints.resize(n);
     torque_.resize(n);
     slope_.resize(n);
-    applied_.resize(2 * n);
+    applied_.resize(n);
     at_rest_.resize(n);
     monitor_.contacts.reserve(s.contacts.size());
   }
@@ -43,20 +44,25 @@ class BulletPlant final : public Plant, private InverseMass {
   void advance(In command, double h) override {
     layout_.read(numbers_, 0, state_);
     std::fill(applied_.begin(), applied_.end(), 0.0);
+    work_ = {};
     integrator_.step(state_, h, [&](const RobotState& state, double weight, Acceleration& out) {
       evaluate(state, command);
       for (std::size_t j = 0; j < torque_.size(); ++j) {
         applied_[j] += weight * torque_[j];
         const double stop = stop_at(state, j).torque;
-        applied_[torque_.size() + j] += weight * stop;
+        work_[2] -= weight * h * stop * state.qd[j];
         body_.add_torque(j, torque_[j] + stop);
       }
+      work_[0] += weight * h * power_[0];
+      work_[1] += weight * h * power_[1];
       body_.accelerate(state, out);
     });
     layout_.write(state_, 0, numbers_);
   }
 
-  [[nodiscard]] In applied() const override { return applied_; }
+  [[nodiscard]] Applied applied() const override {
+    return {applied_, In(work_).subspan(0, 1), In(work_).subspan(1, 1), In(work_).subspan(2, 1)};
+  }
 
   void contacts(std::size_t, std::span<ContactSample> out) const override {
     layout_.read(numbers_, 0, state_);
@@ -99,6 +105,7 @@ class BulletPlant final : public Plant, private InverseMass {
   struct Contact {
     std::size_t element, link;
     Ground::Touch touch;
+    double vn;    ///< normal velocity, positive when separating, m/s
     Vec3 vt;      ///< tangential velocity, m/s
     double slip;  ///< |vt|
     PenaltyContact::Force force;
@@ -116,7 +123,7 @@ class BulletPlant final : public Plant, private InverseMass {
       const double vn = touch.normal.dot(v);
       const Vec3 vt = v - vn * touch.normal;
       const double slip = vt.norm();
-      visit(Contact{element, link, touch, vt, slip, settings_.law(touch.penetration, vn, slip, touch.friction)});
+      visit(Contact{element, link, touch, vn, vt, slip, settings_.law(touch.penetration, vn, slip, touch.friction)});
     });
   }
 
@@ -125,7 +132,10 @@ class BulletPlant final : public Plant, private InverseMass {
     kinematics_.update(robot_, state);
     body_.set(state, kinematics_);
     body_.add_weight(settings_.gravity);
+    power_ = {};
     for_each_contact([&](const Contact& c) {
+      power_[0] -= c.force.fn * c.vn;
+      power_[1] += c.force.friction_slope * c.slip * c.slip;
       body_.add_force(c.link, c.touch.point - kinematics_.point(c.link, robot_.links[c.link].com), c.world());
     });
     if (settings_.actuator != nullptr) settings_.actuator->effort(command, state.qd, torque_, slope_);
@@ -165,6 +175,8 @@ class BulletPlant final : public Plant, private InverseMass {
   ExplicitIntegrator integrator_;
   Acceleration acceleration_;
   std::vector<double> torque_, slope_, applied_, at_rest_;
+  std::array<double, 2> power_ = {};  ///< given to the ground along its normal and along it, W
+  std::array<double, 3> work_ = {};   ///< of the last step: contact, friction, stops
   RateMonitor monitor_;
 };
 

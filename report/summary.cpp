@@ -64,9 +64,33 @@ LimitCycle cycle(const Scenario& scenario, const RunRecord& r, const Summary& s)
   return find_limit_cycle(both, 2 * n, scenario.trace.period);
 }
 
-constexpr double kNowhere = 1e-3;  // m: the work of a robot that stays is divided by noise
-
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+/// J: what the gears gave instead of losing it.
+double created(const RunRecord& r) {
+  double sum = 0;
+  for (const JointFigures& joint : r.joints) sum += joint.created;
+  return sum;
+}
+
+std::string ledger_text(const RunRecord& r) {
+  const Ledger& l = r.ledger;
+  std::string text = fmt::format("{:.4g} J drawn = {:.4g} copper", l.electrical, l.copper);
+  const auto add = [&](double value, const char* what) {
+    if (value != 0) text += fmt::format(" {} {:.3g} {}", value < 0 ? '-' : '+', std::abs(value), what);
+  };
+  add(l.gear, "gear");
+  add(l.stored, "stored");
+  add(l.contact, "contact");
+  add(l.friction, "friction");
+  add(l.stops, "stops");
+  add(l.residual(), "residual");
+  if (l.electrical > 0) text += fmt::format(" ({:.2g} %)", 100 * l.residual() / l.electrical);
+  return text;
+}
+
+constexpr double kVisible = 1e-3;  // share of what is drawn
+constexpr double kNowhere = 1e-3;  // m: the work of a robot that stays is divided by noise
 
 }  // namespace
 
@@ -106,7 +130,8 @@ std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord&
         {"tracking_error", {{"rms", f.error_rms}, {"peak", f.error_peak}}},
         {"saturated", {{"voltage", f.saturated_voltage}, {"current", f.saturated_current}}},
         {"range", {{"share", f.range_share}, {"worst", f.range_worst}, {"setpoint_share", f.setpoint_outside}}},
-        {"energy", {{"electrical", f.electrical}, {"copper", f.copper}, {"gear", f.gear}, {"shaft", f.shaft}}}};
+        {"energy",
+         {{"electrical", f.electrical}, {"copper", f.copper}, {"gear", f.gear}, {"created", f.created}, {"shaft", f.shaft}}}};
   }
   nlohmann::ordered_json json = {
       {"name", scenario.name},
@@ -133,6 +158,16 @@ std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord&
       {"heading_change", s.heading_change},
       {"cost_of_transport", {{"electrical", s.cost_electrical}, {"mechanical", s.cost_mechanical}}},
       {"per_joint", per_joint},
+      {"energy",
+       {{"electrical", r.ledger.electrical},
+        {"copper", r.ledger.copper},
+        {"gear", r.ledger.gear},
+        {"created", created(r)},
+        {"stored", r.ledger.stored},
+        {"contact", r.ledger.contact},
+        {"friction", r.ledger.friction},
+        {"stops", r.ledger.stops},
+        {"residual", r.ledger.residual()}}},
       {"limit_cycle",
        {{"found", s.limit_cycle.found},
         {"from", s.limit_cycle.from},
@@ -171,6 +206,15 @@ std::string to_text(const Summary& s, const Scenario& scenario, const RunRecord&
                  fmt::format("joint {} ({}): torque peak {:.3f} N m, RMS {:.3f} N m; saturated {} voltage, {} current",
                              s.most_loaded, robot.joints[s.most_loaded].name, f.torque_peak, f.torque_rms,
                              percent(f.saturated_voltage), percent(f.saturated_current)));
+  }
+  if (scenario.actuator.entry != nullptr && !r.joints.empty()) {
+    text += line("energy", ledger_text(r));
+    if (created(r) > kVisible * r.ledger.electrical) {
+      text += line(
+          "", fmt::format("the gears created {:.3g} J (eq. 2 on back-driven joints; actuator.efficiency_model: directional "
+                          "does not)",
+                          created(r)));
+    }
   }
   for (std::size_t j = 0; j < r.joints.size(); ++j) {
     const JointFigures& f = r.joints[j];

@@ -32,7 +32,8 @@ void Meter::add(In angle, In speed, In setpoint, In torque, const Actuator::Repo
     s.setpoint_outside += setpoint[i] > hi_[i] || setpoint[i] < lo_[i] ? h : 0;
     s.electrical += h * report.power_in[i];
     s.copper += h * report.copper[i];
-    s.gear += h * (report.power_in[i] - report.copper[i] - shaft);
+    s.gear += h * report.gear[i];
+    s.created += h * std::max(-report.gear[i], 0.0);
     s.shaft += h * shaft;
     s.shaft_positive += h * std::max(shaft, 0.0);
   }

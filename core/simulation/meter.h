@@ -18,6 +18,7 @@ struct JointFigures {
   double setpoint_outside = 0;                             ///< share of time the set point is outside [lo, hi]
   double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost, lost, given to the joint
   double shaft_positive = 0;                               ///< J: shaft power where it is positive
+  double created = 0;                                      ///< J: what the gear gave instead of losing (eq. 2, back-driven)
 };
 
 /// Elementwise over joint * lanes + lane. add() allocates nothing.

@@ -40,6 +40,13 @@ struct ContactSample {
   double fn = 0, penetration = 0;
 };
 
+/// What the last step applied, for the ledger and not for the trace. Works: J that the robot gave, a lane; every stage's power
+/// with the integrator's weight.
+struct Applied {
+  In torque;                    ///< mean motor torque, N m (joint * lanes + lane)
+  In contact, friction, stops;  ///< work on the ground along its normal, along it, and on the hinge stops
+};
+
 /// What an engine is made from; everything outlives the plant.
 struct PlantSettings {
   std::shared_ptr<const Robot> robot;
@@ -62,8 +69,7 @@ class Plant {
   virtual void bind(Out state) = 0;
   /// One step of h seconds under held commands (joint * lanes + lane), asking the actuator at every stage the integrator needs.
   virtual void advance(In command, double h) = 0;
-  /// Mean motor torque and mean stop torque over the last step, N m: for the ledger, not for the trace.
-  [[nodiscard]] virtual In applied() const = 0;
+  [[nodiscard]] virtual Applied applied() const = 0;
   /// Forces of every contact element at the present state.
   virtual void contacts(std::size_t lane, std::span<ContactSample> out) const = 0;
   /// At the present state under these commands. standing: the weight rests in equal parts on the robot's support (support.h),

@@ -119,6 +119,19 @@ void Probes::add_bodies(const Robot& robot, const Sample& first) {
 void Probes::add_energy() {
   add("energy.kinetic", "J", "kinetic energy of all links", [](const Sample& s) { return s.sums.kinetic; });
   add("energy.potential", "J", "weight times height of the centre of mass", [](const Sample& s) { return s.sums.potential; });
+  const auto ledger = [&](const char* entry, const char* definition, double Ledger::*value) {
+    add(std::string("energy.") + entry, "J", std::string(definition) + ", from t = 0",
+        [value](const Sample& s) { return s.ledger.*value; });
+  };
+  ledger("electrical", "drawn by the motors", &Ledger::electrical);
+  ledger("copper", "lost in the motors' windings", &Ledger::copper);
+  ledger("gear", "lost in the gears; negative: created by eq. 2", &Ledger::gear);
+  ledger("stored", "kinetic and potential, less those at the start", &Ledger::stored);
+  ledger("contact", "given to the ground along its normal", &Ledger::contact);
+  ledger("friction", "given to the ground along it", &Ledger::friction);
+  ledger("stops", "given to the hinge stops", &Ledger::stops);
+  add("energy.residual", "J", "electrical less all the others: the integration's error, from t = 0",
+      [](const Sample& s) { return s.ledger.residual(); });
   add_vector("momentum", "N s", "linear momentum, world axes", [](const Sample& s) { return s.sums.momentum; });
   add_vector("angular_momentum", "N m s", "angular momentum about the world origin",
              [](const Sample& s) { return s.sums.angular_momentum; });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scenario/scenario.h"
+#include "core/simulation/ledger.h"
 #include "core/simulation/plant.h"
 #include "core/trace/trace.h"
 
@@ -24,6 +25,7 @@ struct Sample {
   std::vector<double> setpoint, command, voltage, current, saturation, torque, stop_torque, power_in, copper, gear;
   std::vector<ContactSample> contacts;
   std::vector<double> cpg;
+  Ledger ledger;
 };
 
 class Probes {

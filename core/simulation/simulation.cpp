@@ -65,7 +65,8 @@ struct Simulation::Lane {
   const Scenario& scenario;
   std::unique_ptr<Cpg> cpg;
   std::unique_ptr<Controller> controller;
-  Out cpg_state, controller_state;                                               // parts of the one state array
+  Out cpg_state, controller_state, ledger;                                       // parts of the one state array
+  double energy_at_start = 0;                                                    // J
   std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // one lane, contiguous, for the plugins
   std::vector<double> k1, k2, k3, k4, stage;
   Sample sample;
@@ -109,12 +110,12 @@ Simulation::Simulation(std::span<const Scenario> lanes)
 
 Simulation::~Simulation() = default;
 
-/// step counter | plant | set points | commands | per lane: CPG states, controller states.
+/// step counter | plant | set points | commands | per lane: CPG states, controller states, ledger's sums.
 void Simulation::cut_state() {
   const std::size_t joints = robot_.joints.size() * lanes_.size();
   std::size_t size = 1 + layout_.size() + 2 * joints;
   for (const auto& lane : lanes_) {
-    size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states());
+    size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states()) + Ledger::kSums;
   }
   state_.assign(size, 0.0);
   std::size_t at = 1;
@@ -129,6 +130,7 @@ void Simulation::cut_state() {
   for (const auto& lane : lanes_) {
     lane->cpg_state = cut(lane->sample.cpg.size());
     lane->controller_state = cut(lane->controller == nullptr ? 0 : lane->controller->states());
+    lane->ledger = cut(Ledger::kSums);
   }
   plant_->bind(plant_state_);
 }
@@ -156,6 +158,7 @@ void Simulation::set_start() {
       sample.place(robot_);
     }
     layout_.write(start, l, plant_state_);
+    lane.energy_at_start = energy(sample, l);
     // No command yet: set point = angle, command 0.
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) setpoint_[j * lanes + l] = start.q[j];
     if (lane.cpg != nullptr) lane.cpg->start(lane.cpg_state);
@@ -215,6 +218,16 @@ void Simulation::report() {
                     {voltage_, current_, saturation_, power_in_, copper_, gear_});
 }
 
+/// Kinetic and potential, rotors included, J.
+double Simulation::energy(const Sample& sample, std::size_t l) const {
+  double rotors = 0;
+  const In inertia = actuator_ == nullptr ? In() : actuator_->reflected_inertia();
+  for (std::size_t j = 0; j < robot_.joints.size() && !inertia.empty(); ++j) {
+    rotors += inertia[j * lanes_.size() + l] * sample.state.qd[j] * sample.state.qd[j] / 2;
+  }
+  return sample.sums.kinetic + sample.sums.potential + rotors;
+}
+
 Sample& Simulation::take_sample(Lane& lane, std::size_t l) {
   const std::size_t lanes = lanes_.size();
   Sample& s = lane.sample;
@@ -233,6 +246,7 @@ Sample& Simulation::take_sample(Lane& lane, std::size_t l) {
     s.stop_torque[j] = HingeStop::at(s.state.q[j], s.state.qd[j], robot_.joints[j].lo, robot_.joints[j].hi).torque;
   }
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
+  s.ledger = Ledger::of(lane.ledger, energy(s, l) - lane.energy_at_start);
   return s;
 }
 
@@ -245,6 +259,7 @@ void Simulation::record() {
     Lane& lane = *lanes_[l];
     const Sample& s = take_sample(lane, l);
     RunRecord& r = lane.record;
+    r.ledger = s.ledger;
     r.trace.values.resize(r.trace.values.size() + r.trace.columns.size());
     lane.probes->fill(s, Out(r.trace.values).last(r.trace.columns.size()));
     r.com_x.push_back(s.sums.com.x());
@@ -328,9 +343,26 @@ void Simulation::advance() {
   std::ranges::copy(part(layout_.angles()), angle_.begin());
   std::ranges::copy(part(layout_.speeds()), speed_.begin());
   plant_->advance(command_, h_);
-  meter_.add(angle_, speed_, setpoint_, plant_->applied().first(command_.size()),
-             {voltage_, current_, saturation_, power_in_, copper_, gear_}, h_);
+  meter_.add(angle_, speed_, setpoint_, plant_->applied().torque, {voltage_, current_, saturation_, power_in_, copper_, gear_},
+             h_);
+  keep_ledger();
   state_[0] += 1;
+}
+
+void Simulation::keep_ledger() {
+  const std::size_t lanes = lanes_.size();
+  const Applied applied = plant_->applied();
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const Out sums = lanes_[l]->ledger;
+    for (std::size_t i = l; i < command_.size(); i += lanes) {
+      sums[0] += h_ * power_in_[i];
+      sums[1] += h_ * copper_[i];
+      sums[2] += h_ * gear_[i];
+    }
+    sums[3] += applied.contact[l];
+    sums[4] += applied.friction[l];
+    sums[5] += applied.stops[l];
+  }
 }
 
 void Simulation::check() const {

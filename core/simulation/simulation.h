@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/scenario/scenario.h"
+#include "core/simulation/ledger.h"
 #include "core/simulation/meter.h"
 #include "core/simulation/plant.h"
 #include "core/simulation/probes.h"
@@ -37,6 +38,7 @@ struct RunRecord {
   std::vector<double> loads;
   /// Angles and pose at a trace tick; speeds 0.
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t tick) const;
+  Ledger ledger;    ///< at the last row
   Stability worst;  ///< the largest rate seen at a control tick
   double worst_time = 0;
   std::int64_t ticks = 0, ticks_above_1 = 0;
@@ -58,7 +60,8 @@ class Simulation {
   /// Steps to the end; `progress(share)` about 200 times; stops early (returns false) once `stop` is set.
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
 
-  /// Everything that changes: step counter, plant, held set points and commands, plugins' states. A copy is a snapshot.
+  /// Everything that changes: step counter, plant, held set points and commands, plugins' states, the ledger's sums. A copy is
+  /// a snapshot.
   Out state() { return state_; }
   [[nodiscard]] std::int64_t step_number() const { return static_cast<std::int64_t>(state_[0]); }
   [[nodiscard]] double time() const { return static_cast<double>(step_number()) * h_; }
@@ -82,6 +85,8 @@ class Simulation {
   void check_standing();
   void watch_stability();
   void report();
+  void keep_ledger();
+  [[nodiscard]] double energy(const Sample& sample, std::size_t lane) const;
   Sample& take_sample(Lane& lane, std::size_t index);
   [[noreturn]] void diverged() const;
 

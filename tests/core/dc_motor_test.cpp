@@ -1,0 +1,71 @@
+// The gear's efficiency, as eq. 2 prints it and as energy allows it.
+#include "core/laws/dc_motor.h"
+
+#include <gtest/gtest.h>
+
+namespace gaitlab {
+namespace {
+
+constexpr double kEta = 0.7;
+constexpr double kTurn = 0.5;
+
+DcMotor motor(double turn) { return {4.3, 0.00395, 0.00395, 594, kEta, 7.4, 1.2, turn}; }
+
+/// Of the gear alone: the shaft of the motor gives Kt i n w, the joint gets T w.
+double gear_loss(const DcMotor& m, double command, double speed) {
+  const DcMotor::Effort e = m(command, speed);
+  return (m.Kt * e.current * m.gear - e.torque) * speed;
+}
+
+/// Commands and speeds of all signs, through both saturations.
+template <class Visit>
+void everywhere(Visit visit) {
+  for (double command = -9; command <= 9; command += 0.75) {
+    for (double speed = -6; speed <= 6; speed += 0.0625) visit(command, speed);
+  }
+}
+
+TEST(DcMotor, AsPrintedTheGearCreatesEnergyWhenDriven) {
+  const DcMotor paper = motor(0);
+  // 0 V at 1 rad/s: the joint drives the motor against its back-EMF. eq. 2 takes eta off the torque that brakes it.
+  const DcMotor::Effort e = paper(0, 1);
+  EXPECT_LT(e.current, 0);
+  EXPECT_DOUBLE_EQ(e.torque, kEta * paper.Kt * e.current * paper.gear);
+  EXPECT_LT(gear_loss(paper, 0, 1), -0.1);  // W
+}
+
+TEST(DcMotor, DirectionalGearNeverCreatesEnergy) {
+  const DcMotor directional = motor(kTurn);
+  everywhere([&](double command, double speed) {
+    EXPECT_GE(gear_loss(directional, command, speed), -1e-15) << command << " V, " << speed << " rad/s";  // rounding of 0
+  });
+}
+
+TEST(DcMotor, DirectionalTakesEtaFromWhoeverDrives) {
+  const DcMotor directional = motor(kTurn);
+  everywhere([&](double command, double speed) {
+    const DcMotor::Effort e = directional(command, speed);
+    if (std::abs(speed) < kTurn || e.current == 0) return;
+    const double through = directional.Kt * e.current * directional.gear;
+    // 1 ulp each of exp and log.
+    EXPECT_NEAR(e.torque / through, e.current * speed > 0 ? kEta : 1 / kEta, 1e-14) << command << " V, " << speed << " rad/s";
+  });
+}
+
+TEST(DcMotor, SlopeIsTheDerivative) {
+  for (const double turn : {0.0, kTurn}) {
+    const DcMotor m = motor(turn);
+    everywhere([&](double command, double speed) {
+      constexpr double kStep = 1e-6;
+      const double middle = speed + 0.03;  // off the grid, where no corner of the law lies within the step
+      const DcMotor::Effort before = m(command, middle - kStep);
+      const DcMotor::Effort after = m(command, middle + kStep);
+      // Central difference: rounding of 1e-16 * 2 N m over 2e-6 rad/s, and its own second-order error, below 1e-8.
+      EXPECT_NEAR(m(command, middle).slope, (before.torque - after.torque) / (2 * kStep), 1e-7)
+          << command << " V, " << middle << " rad/s, turn " << turn;
+    });
+  }
+}
+
+}  // namespace
+}  // namespace gaitlab

@@ -1,0 +1,81 @@
+// The energy ledger: what every step applied must explain where the energy went, but for the integration's own error.
+#include "fixture.h"
+#include "tests/validation.h"
+
+namespace gaitlab::test {
+namespace {
+
+const std::string kShort = "duration=1.5";  // past the ramps: motors drive and are driven, feet stand and slip
+const std::string kColumns = "trace.columns=[energy.*]";
+
+Ledger ledger(const Scenario& s) { return run(s).ledger; }
+
+class LedgerOf : public testing::TestWithParam<const char*> {};
+
+TEST_P(LedgerOf, ExplainsTheElectricalEnergy) {
+  const Ledger at_default = ledger(shipped(GetParam(), {kShort, kColumns}));
+  const Ledger halved = ledger(shipped(GetParam(), {kShort, kColumns, "physics.step=1.25e-5"}));
+  EXPECT_GT(at_default.electrical, 0.5);
+  const std::string robot = std::string(GetParam()).substr(0, std::string(GetParam()).find('.'));
+  validate_below(
+      {"ledger." + robot, "energy no entry explains, of what is drawn, at the default step", "balance of energy", ""},
+      std::abs(at_default.residual()) / at_default.electrical, 0.005, "a twentieth of the smallest loss shown");
+  validate({"ledger." + robot + "_order", "that energy at half the step, relative", "first order", ""},
+           halved.residual() / at_default.residual(), 0.5, 0.15, "the second order, of the size of the motor's h lambda");
+  for (const double loss : {at_default.copper, at_default.contact, at_default.friction}) EXPECT_GT(loss, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Robots, LedgerOf, testing::Values("caterpillar.yaml", "hexapod.yaml"));
+
+TEST(Ledger, DirectionalGearsCreateNothing) {
+  const RunRecord printed = run(shipped("hexapod.yaml", {kShort}));
+  const RunRecord directional = run(shipped("hexapod.yaml", {kShort, "actuator.efficiency_model=directional"}));
+  double created = 0;
+  for (const JointFigures& joint : printed.joints) created += joint.created;
+  EXPECT_GT(created, 0.05 * printed.ledger.electrical);  // measured: 0.2 of it; the reason for the model
+  for (const JointFigures& joint : directional.joints) {
+    EXPECT_LT(joint.created, 1e-12 * directional.ledger.electrical);  // rounding of power_in - copper - shaft
+    EXPECT_GE(joint.copper, 0);
+  }
+  EXPECT_LT(std::abs(directional.ledger.residual()), 0.005 * directional.ledger.electrical);
+}
+
+// No motor: what was kinetic and potential energy goes into stops, ground and friction.
+TEST(Ledger, ExplainsAThrownRobot) {
+  const auto thrown = [](double step) {
+    return ledger(scenario(fmt::format(R"(
+gaitlab: 1
+robot: {{modules: mtran, build: robots/caterpillar-8.dat}}
+initial: {{base_velocity: [0.6, 0.3, 0], angles: 1.4, speeds: 3}}
+physics: {{step: {}}}
+contact: {{on: all}}
+actuator: {{type: none}}
+duration: 0.3
+trace: {{period: 0.01, columns: [energy.*]}}
+)",
+                                       step)));
+  };
+  const Ledger coarse = thrown(2e-5);
+  const Ledger fine = thrown(1e-5);
+  EXPECT_EQ(coarse.electrical, 0);
+  EXPECT_LT(coarse.stored, -0.5);
+  for (const double work : {coarse.contact, coarse.friction, coarse.stops}) EXPECT_GT(work, 0.01);
+  EXPECT_LT(std::abs(coarse.residual()), 0.01 * -coarse.stored);
+  EXPECT_LT(std::abs(fine.residual()), 0.7 * std::abs(coarse.residual()));
+}
+
+TEST(Ledger, RowsAndSummaryHoldTheSameSums) {
+  const RunRecord record = run(shipped("caterpillar.yaml", {"duration=0.3", kColumns}));
+  const Table table(record.trace);
+  const std::size_t last = record.trace.rows() - 1;
+  EXPECT_EQ(table.at(0, "energy.electrical"), 0);
+  EXPECT_EQ(table.at(0, "energy.stored"), 0);
+  EXPECT_EQ(table.at(last, "energy.friction"), record.ledger.friction);
+  EXPECT_EQ(table.at(last, "energy.residual"), record.ledger.residual());
+  double electrical = 0;
+  for (const JointFigures& joint : record.joints) electrical += joint.electrical;
+  // The same numbers, added up in another order.
+  EXPECT_NEAR(table.at(last, "energy.electrical"), electrical, 1e-12 * electrical);
+}
+
+}  // namespace
+}  // namespace gaitlab::test
