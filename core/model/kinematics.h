@@ -16,6 +16,12 @@ struct RobotState {
   std::vector<double> q, qd;             ///< joints, rad, rad/s
 };
 
+/// d/dt of a RobotState's velocities, world axes, SI.
+struct Acceleration {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  ///< of the base frame's origin; of the base frame
+  std::vector<double> joints;
+};
+
 /// World pose and velocity of every link frame. Sized once; update allocates nothing.
 struct Kinematics {
   explicit Kinematics(const Robot& robot);

@@ -7,12 +7,6 @@
 
 namespace gaitlab {
 
-/// d/dt of a RobotState's velocities, world axes, SI.
-struct Acceleration {
-  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  ///< of the base frame's origin; of the base frame
-  std::vector<double> joints;
-};
-
 /// semi_implicit: v+ = v + h a(q, v), q+ = q (+) h v+ (order 1, symplectic for conservative forces); rk4: the classical
 /// Runge-Kutta method (order 4), the orientation as a quaternion q' = (0, omega) q / 2 normalised after the step. Both
 /// explicit: for stiff damping of rate lambda they need h lambda <= 2 and 2.8; the lab keeps h lambda <= 1. `accelerate(state,
