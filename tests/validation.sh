@@ -1,51 +1,55 @@
-#!/ usr / bin / env bash
-#Writes docs / validation.md : runs every test that validates a row and sets measured beside required.
-#usage : tests / validation.sh PROGRAM_BUILD_DIR[PAGE](needs jq; the same build writes the same page)
-set - euo pipefail
+#!/usr/bin/env bash
+# Writes docs/validation.md: runs every test that validates a row and sets measured beside required.
+# usage: tests/validation.sh PROGRAM_BUILD_DIR [PAGE]     (needs jq; the same build writes the same page)
+set -euo pipefail
 
-          root = $(cd-- "$(dirname -- " $(readlink - f-- "${BASH_SOURCE[0]}") ")/.." && pwd) build =
-    $(readlink - f-- "${1:?usage: tests/validation.sh PROGRAM_BUILD_DIR [PAGE]}") page =
-${2 : -$root / docs / validation.md} work = $(mktemp - d) trap 'rm -rf -- "$work"' EXIT
+root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd)
+build=$(readlink -f -- "${1:?usage: tests/validation.sh PROGRAM_BUILD_DIR [PAGE]}")
+page=${2:-$root/docs/validation.md}
+work=$(mktemp -d)
+trap 'rm -rf -- "$work"' EXIT
 
-    export GAITLAB_VALIDATION = $work / rows.json unset GAITLAB_TOL_SCALE : > "$GAITLAB_VALIDATION"
-#The tests that hold rows are found by running all suites of the files that include validation.h.
-                                                                            filter() {
-#FOLDER local suites suites = $(grep - l '"tests/validation.h"' "$root/tests/$1" /*.cpp | grep -v '/validation_test.cpp$' |
-                             xargs -r grep -hoE '^(TEST|TEST_F|TEST_P|RC_GTEST_PROP)\([A-Za-z0-9_]+' | sed 's/.*(//' | sort -u
-                           || true) local suite text= for suite in $suites; do text+=${text:+:}$suite.*:*/
-                                             $suite.*
-                                  ; done printf '%s' "$text"
+export GAITLAB_VALIDATION=$work/rows.json
+unset GAITLAB_TOL_SCALE
+: >"$GAITLAB_VALIDATION"
+
+# The gtest filter of all suites in the files of tests/FOLDER that include validation.h (but for the tests of rows themselves).
+filter() {
+  local suite text=
+  for suite in $(grep -l '"tests/validation.h"' "$root/tests/$1"/*.cpp | grep -v '/validation_test[.]cpp$' |
+    xargs -r grep -hoE '^(TEST|TEST_F|TEST_P|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\([A-Za-z0-9_]+' | sed 's/.*(//' | sort -u); do
+    text+=${text:+:}$suite.*:*/$suite.*
+  done
+  printf '%s' "$text"
 }
 
-for
-  tests in core lab;
-do
-  chosen = $(filter "$tests")[[-n $chosen && -x $build / bin / ${tests} _tests]] ||
-           continue "$build/bin/${tests}_tests" --gtest_filter = "$chosen" --gtest_brief = 1 > "$work/$tests.log" 2 > &1 || {
-    cat-- "$work/$tests.log" > &2;
-    exit 1;
-  }
+for tests in core lab; do
+  chosen=$(filter "$tests" || true)
+  [[ -n $chosen && -x $build/bin/${tests}_tests ]] || continue
+  if ! "$build/bin/${tests}_tests" --gtest_filter="$chosen" --gtest_brief=1 >"$work/$tests.log" 2>&1; then
+    cat -- "$work/$tests.log" >&2
+    exit 1
+  fi
 done
 
 {
-  cat-- "$root/tests/validation_head.md"
-#Of one id the row that is least far inside; a table a subject, in the order of the list.
-          jq -
-          rs ' [[ "closed", "Closed forms and textbook systems" ], [ "published", "Published numbers" ],
-                [ "order", "Order of the integrators" ], [ "property", "Properties of random robots" ],
-                [ "format", "Other programs" ], [ "ledger", "Energy" ]] as $subjects |
-      (group_by(.id) | map(max_by(.share) + {count : length})) as $rows |
-      ($rows | map(.id | split(".")[0]) | unique) - ($subjects | map(.[0])) as $unknown |
-      if $unknown != [] then error("unknown subjects: \($unknown)") else.end | def cell : gsub("\\|"; "\\|") | gsub("\n"; " ");
-  def unit : if.unit == "" then "" else " " +.unit end;
-  $subjects[] as [$subject, $title]
+  cat -- "$root/tests/validation_head.md"
+  # Of one id the row that is least far inside; a table a subject, in the order of the list.
+  jq -rs '
+    [["closed", "Closed forms and textbook systems"], ["published", "Published numbers"], ["order", "Order of the integrators"],
+     ["property", "Properties of random robots"], ["format", "Other programs"], ["ledger", "Energy"]] as $subjects
+    | (group_by(.id) | map(max_by(.share) + {count: length})) as $rows
+    | (($rows | map(.id | split(".")[0]) | unique) - ($subjects | map(.[0]))) as $unknown
+    | if $unknown != [] then error("unknown subjects: \($unknown)") else . end
+    | def cell: gsub("\\|"; "\\|") | gsub("\n"; " ");
+      def unit: if .unit == "" then "" else " " + .unit end;
+    $subjects[] as [$subject, $title]
     | ($rows | map(select(.id | startswith($subject + ".")))) as $mine
     | select($mine != [])
     | "\n## \($title)\n\n| row | claim | source | measured | required | residual | inside by | why this tolerance | test |\n|---|---|---|---|---|---|---|---|---|",
       ($mine[] | "| \(.id | ltrimstr($subject + ".")) | \(.what | cell) | \(.source | cell) | \(.measured)\(unit) | \(.required)\(unit) | \(.residual) | \(.inside_by) | \(.reason | cell)\(if .count > 1 then " (worst of \(.count))" else "" end) | `\(.command | sub("--gtest_filter="; ""))` |")
   ' "$GAITLAB_VALIDATION"
-}
->"$work/page.md"
+} >"$work/page.md"
 mkdir -p -- "$(dirname -- "$page")"
 mv -- "$work/page.md" "$page"
 printf '%s: %s rows\n' "$page" "$(jq -s 'group_by(.id) | length' "$GAITLAB_VALIDATION")"

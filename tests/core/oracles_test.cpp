@@ -1,0 +1,157 @@
+// The oracles themselves, each against a second thing: a derivative, an invariant, a tabulated value.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/oracles/blocks.h"
+#include "tests/oracles/double_pendulum.h"
+#include "tests/oracles/drives.h"
+#include "tests/oracles/pendulum.h"
+#include "tests/oracles/tops.h"
+
+namespace gaitlab::oracle {
+namespace {
+
+constexpr double kRounding = 1e-13;  // a few hundred operations on numbers of size 1 to 10
+
+/// Fourth-order central difference: error h^4 f^(5) / 30 and rounding 1e-16 / h, 1e-11 together for h = 1e-3 and f of size 1.
+template <class F>
+double derivative(const F& f, double t) {
+  const double h = 1e-3;
+  return (f(t - 2 * h) - 8 * f(t - h) + 8 * f(t + h) - f(t + 2 * h)) / (12 * h);
+}
+
+TEST(Oracle, EllipticFunctions) {
+  EXPECT_NEAR(elliptic_k(0.5), 1.6857503548125961, 1e-15);  // Abramowitz and Stegun, table 17.1, m = 0.25
+  for (const double k : {0.01, 0.5, 0.9, 0.9999}) {
+    EXPECT_NEAR(elliptic_k(k), std::comp_ellint_1(k), 1e-13 * elliptic_k(k));
+    for (const double u : {0.1, 0.7, 1.3}) {
+      const Jacobi j = jacobi(u, k);
+      EXPECT_NEAR(std::ellint_1(k, std::atan2(j.sn, j.cn)), u, kRounding) << k;
+      EXPECT_NEAR(j.dn * j.dn + k * k * j.sn * j.sn, 1, kRounding);
+      EXPECT_NEAR(derivative([&](double x) { return jacobi(x, k).sn; }, u), j.cn * j.dn, 1e-10) << k;
+    }
+    EXPECT_NEAR(jacobi(5 * elliptic_k(k), k).sn, 1, kRounding) << "a period later";
+  }
+}
+
+TEST(Oracle, ExtrapolationReachesRounding) {
+  const auto swing = [](const std::array<double, 2>& x) { return std::array<double, 2>{x[1], -x[0]}; };
+  const auto end = integrate(swing, std::array<double, 2>{1, 0}, 10, 20);
+  EXPECT_NEAR(end[0], std::cos(10), kRounding);
+  EXPECT_NEAR(end[1], -std::sin(10), kRounding);
+}
+
+TEST(Oracle, PendulumObeysItsEquation) {
+  const Pendulum pendulum(3, 2.5);
+  EXPECT_NEAR(pendulum.angle(0), 2.5, kRounding);
+  EXPECT_NEAR(pendulum.angle(pendulum.period()), 2.5, 1e-12);
+  EXPECT_NEAR(Pendulum(3, 1e-4).period(), 2 * std::numbers::pi / 3, 2e-9);  // small: longer by amplitude^2 / 16
+  for (const double t : {0.2, 0.9, 1.7}) {
+    EXPECT_NEAR(derivative([&](double x) { return pendulum.angle(x); }, t), pendulum.speed(t), 1e-8);
+    EXPECT_NEAR(derivative([&](double x) { return pendulum.speed(x); }, t), -9 * std::sin(pendulum.angle(t)), 1e-8);
+  }
+}
+
+TEST(Oracle, DoublePendulumKeepsItsEnergyAndSwingsInItsModes) {
+  const DoublePendulum two;
+  const DoublePendulum::State start{1, 2, 0.5, -1};
+  EXPECT_NEAR(two.energy(two.at(5, start)), two.energy(start), 1e-12);
+  // Small swings: det([4/3, 1/2; 1/2, 1/3] w^2 - g/l [3/2, 0; 0, 1/2]) = 0, so w^2 = (3 +- 6/sqrt(7)) g/l.
+  for (const double sign : {-1.0, 1.0}) {
+    const double square = (3 + sign * 6 / std::sqrt(7.0)) * two.g;
+    const double ratio = (1.5 * two.g - 4.0 / 3 * square) / (square / 2);  // theta2 / theta1 of the mode
+    const DoublePendulum::State mode{1e-6, 1e-6 * ratio, 0, 0};
+    const DoublePendulum::State end = two.at(std::numbers::pi / std::sqrt(square), mode);
+    EXPECT_NEAR(end[0] / mode[0], -1, 1e-9);  // not linear: of the size of the angle's square
+    EXPECT_NEAR(end[1] / mode[1], -1, 1e-9);
+  }
+}
+
+TEST(Oracle, FreeTopObeysEulersEquations) {
+  const FreeTop top({1, 2, 3}, 1.9, 1.3);
+  for (const double t : {0.0, 0.4, 3.1}) {
+    const auto expected = top.acceleration(top(t));
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(derivative([&](double x) { return top(x)[i]; }, t), expected[i], 1e-8) << i;
+  }
+  EXPECT_THROW(FreeTop({1, 2, 3}, 3, 0.1), std::invalid_argument);
+}
+
+TEST(Oracle, HeavyTopHangsTogether) {
+  const HeavyTop top{0.3, 0.1, 2};
+  EXPECT_NEAR(top.lean(0.7, 1.5, top.spin_for(1.5, 0.7)), 0, kRounding);
+  // Where it turns back its energy is what it was: (A W^2 sin^2 - 2 mgl (cos theta0 - cos theta)) / 2 = 0, with the
+  // precession from the angular momentum about the vertical.
+  const double w3 = 30;
+  const double end = top.turns_back(0.7, w3);
+  const double W = top.C * w3 * (std::cos(0.7) - std::cos(end)) / (top.A * std::sin(end) * std::sin(end));
+  EXPECT_GT(end, 0.7);
+  EXPECT_NEAR(top.A * W * W * std::sin(end) * std::sin(end) / 2, top.mgl * (std::cos(0.7) - std::cos(end)), 1e-12);
+}
+
+TEST(Oracle, Blocks) {
+  const SlidingBlock block{0.8, 9.81, 0.01};
+  // The way is the integral of the speed: Simpson on 20 000 intervals, the kink at v_lim between two of them.
+  double way = 0;
+  const double h = 1e-5;
+  for (int i = 0; i < 20000; ++i) {
+    const double t = i * h;
+    way += h / 6 * (block.speed(0.9, t) + 4 * block.speed(0.9, t + h / 2) + block.speed(0.9, t + h));
+  }
+  EXPECT_NEAR(way, block.stops_after(0.9), 1e-9);
+  EXPECT_NEAR(block.creeps(std::atan(0.8)), 0.01, 1e-15);  // the steepest slope: v_lim itself
+  const StandingBlock standing{2, 4, 1e4, 50};
+  const auto height = [&](double t) { return standing.height(1, t); };
+  const auto speed = [&](double t) { return derivative(height, t); };
+  // Differences of a swing at 140 rad/s with h = 1e-3: (h w)^4 w / 30 twice.
+  EXPECT_NEAR(derivative(speed, 0.03) / (standing.n * standing.kn / standing.m),
+              -height(0.03) - standing.cd / standing.kn * speed(0.03), 2e-4);
+  EXPECT_NEAR(standing_sink(2, 10, 4, 1e4), 5e-4, 1e-18);
+  // The bounce by integrating p'' = -K/m p (1 + a p'), stopped where p is 0 again by Newton's method.
+  const auto impact = [](const std::array<double, 2>& x) { return std::array<double, 2>{x[1], -100 * x[0] * (1 + 5 * x[1])}; };
+  double t = 0.3;
+  std::array<double, 2> x{};
+  for (int i = 0; i < 20; ++i) {
+    x = integrate(impact, std::array<double, 2>{0, 0.1}, t, 40);
+    t -= x[0] / x[1];
+  }
+  EXPECT_NEAR(-x[1], bounces_with(0.1, 100, 500), 1e-12);
+  EXPECT_NEAR(bounces_with(0.1, 100, 1e-3), 0.1, 1e-6);  // no damping: nothing lost
+}
+
+TEST(Oracle, MotorSpinUpObeysItsEquation) {
+  const MotorSpinUp motor{4.3, 0.00395, 0.00395, 594, 0.7, 1.2, 7.4, 0.05};
+  for (const double t : {0.01, 0.05, 0.1}) {
+    const double current = std::fmin(motor.i_max, (motor.u - motor.Ks * motor.n * motor.speed(t)) / motor.R);
+    EXPECT_NEAR(motor.J * derivative([&](double x) { return motor.speed(x); }, t), motor.eta * motor.Kt * current * motor.n,
+                1e-7);
+  }
+  EXPECT_LT(motor.limited_until(), 0.05);
+  EXPECT_GT(motor.limited_until(), 0.01);
+}
+
+TEST(Oracle, PidByHand) {
+  // Kp = 2, Ki = 4, Kd = 1, N = 8, Ts = 1/8: Ki Ts = 1/2, Kd + N Ts = 2. Worked on paper:
+  //   e     P     I                 D                          u
+  //   1     2     0                 0                          2
+  //   1/2   1     1/2               -8/2 / 2 = -2             -1/2
+  //   1/2   1     1/2 + 1/4 = 3/4   -2 / 2 = -1                3/4
+  //   -1   -2     3/4 + 1/4 = 1     (-1 - 12) / 2 = -13/2     -15/2
+  TextbookPid pid(2, 4, 1, 8, 0.125);
+  EXPECT_EQ(pid(1), 2);
+  EXPECT_EQ(pid(0.5), -0.5);
+  EXPECT_EQ(pid(0.5), 0.75);
+  EXPECT_EQ(pid(-1), -7.5);
+}
+
+TEST(Oracle, PhasePairObeysItsEquation) {
+  const PhasePair pair{2, 1.2};
+  EXPECT_NEAR(pair.lag(0), 0, 1e-15);
+  EXPECT_NEAR(pair.lag(30), pair.locked(), 1e-15);
+  for (const double t : {0.1, 0.5, 2.0})
+    EXPECT_NEAR(derivative([&](double x) { return pair.lag(x); }, t), 1.2 - 2 * std::sin(pair.lag(t)), 1e-9);
+  EXPECT_NEAR(std::log((pair.locked() - pair.lag(10)) / (pair.locked() - pair.lag(10.5))) / 0.5, pair.decay(), 1e-5);
+}
+
+}  // namespace
+}  // namespace gaitlab::oracle

@@ -1,0 +1,56 @@
+// What moves the joints: a motor that spins up an inertia, the PID of the paper as its equations stand, phases that lock.
+#pragma once
+#include <cmath>
+
+namespace gaitlab::oracle {
+
+/// Eq. 1 and 2 with constant voltage on a constant inertia J, from rest: at first the current limit binds and the speed grows
+/// in proportion to time; from the speed at which (u - Ks n w) / R = i_max on, it goes exponentially to u / (Ks n).
+struct MotorSpinUp {
+  double R, Kt, Ks, n, eta, i_max, u, J;
+
+  [[nodiscard]] double limited_until_speed() const { return std::fmax(0, (u - R * i_max) / (Ks * n)); }
+  [[nodiscard]] double limited_until() const { return limited_until_speed() * J / (eta * Kt * i_max * n); }
+  [[nodiscard]] double slope() const { return eta * Kt * Ks * n * n / R; }
+  [[nodiscard]] double speed(double t) const {
+    if (t <= limited_until()) return eta * Kt * i_max * n / J * t;
+    const double last = u / (Ks * n);
+    return last + (limited_until_speed() - last) * std::exp(-(t - limited_until()) * slope() / J);
+  }
+};
+
+/// Eq. 3-6, one joint.
+class TextbookPid {
+ public:
+  TextbookPid(double kp, double ki, double kd, double n, double ts) : kp_(kp), ki_(ki), kd_(kd), n_(n), ts_(ts) {}
+
+  double operator()(double e) {
+    if (ticks_++ > 0) {
+      i_ = i_ + ki_ * ts_ * e_;
+      d_ = (kd_ * d_ + kd_ * n_ * (e - e_)) / (kd_ + n_ * ts_);
+    }
+    e_ = e;
+    return kp_ * e + i_ + d_;
+  }
+
+ private:
+  double kp_, ki_, kd_, n_, ts_, i_ = 0, d_ = 0, e_ = 0;
+  int ticks_ = 0;
+};
+
+/// An oscillator that follows another one of frequency higher by `detuning` (rad/s, below the weight w): the lag x behind the
+/// coupling's own obeys x' = detuning - w sin(x). (Adler, Proceedings of the IRE 34, 1946.)
+struct PhasePair {
+  double w, detuning;
+
+  [[nodiscard]] double locked() const { return std::asin(detuning / w); }
+  [[nodiscard]] double decay() const { return std::sqrt(w * w - detuning * detuning); }
+  /// x(t) from x(0) = 0: with y = tan(x / 2), (y - y1) / (y - 1 / y1) falls as exp(-decay t), y1 = tan(locked / 2).
+  [[nodiscard]] double lag(double t) const {
+    const double y = std::tan(locked() / 2);
+    const double e = std::exp(-decay() * t);
+    return 2 * std::atan(y * (1 - e) / (1 - y * y * e));
+  }
+};
+
+}  // namespace gaitlab::oracle

@@ -1,0 +1,63 @@
+// Tops: the asymmetric one without torque and the symmetric heavy one.
+#pragma once
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/oracles/elliptic.h"
+
+namespace gaitlab::oracle {
+
+/// Euler's equations without torque (Landau and Lifshitz, Mechanics, section 37), principal moments I1 < I2 < I3, body axes, at
+/// t = 0: w2 = 0, w1 and w3 > 0, and the spin mostly about axis 3: L^2 > 2 E I2.
+class FreeTop {
+ public:
+  using Vector = std::array<double, 3>;
+
+  FreeTop(const Vector& moments, double w1, double w3) : i_(moments), start_{w1, 0, w3} {
+    const auto& [a, b, c] = i_;
+    const double twice_energy = a * w1 * w1 + c * w3 * w3;
+    const double square = a * a * w1 * w1 + c * c * w3 * w3;
+    if (!(a < b && b < c && w1 > 0 && w3 > 0 && square > twice_energy * b)) throw std::invalid_argument("FreeTop");
+    w2_ = std::sqrt((twice_energy * c - square) / (b * (c - b)));
+    rate_ = std::sqrt((c - b) * (square - twice_energy * a) / (a * b * c));
+    k_ = std::sqrt((b - a) * (twice_energy * c - square) / ((c - b) * (square - twice_energy * a)));
+  }
+
+  /// Angular velocity in body axes.
+  [[nodiscard]] Vector operator()(double t) const {
+    const Jacobi j = jacobi(rate_ * t, k_);
+    return {start_[0] * j.cn, w2_ * j.sn, start_[2] * j.dn};
+  }
+
+  [[nodiscard]] Vector acceleration(const Vector& w) const {
+    return {(i_[1] - i_[2]) / i_[0] * w[1] * w[2], (i_[2] - i_[0]) / i_[1] * w[2] * w[0],
+            (i_[0] - i_[1]) / i_[2] * w[0] * w[1]};
+  }
+
+ private:
+  Vector i_, start_;
+  double w2_ = 0, rate_ = 0, k_ = 0;
+};
+
+/// The symmetric top with one point fixed (Goldstein, Classical Mechanics, 5.7): A about a cross axis through that point, C
+/// about the axis, weight mg at distance l, theta from the upward vertical.
+struct HeavyTop {
+  double A = 0, C = 0, mgl = 0;
+
+  /// Spin (component of the angular velocity along the axis) with which it precesses steadily at rate W, inclined by theta.
+  [[nodiscard]] double spin_for(double W, double theta) const { return (A * W * W * std::cos(theta) + mgl) / (C * W); }
+
+  /// How far it nutates, let go at theta with spin w3 and its axis at rest: the angle where it turns back.
+  [[nodiscard]] double turns_back(double theta, double w3) const {
+    const double p = C * C * w3 * w3 / (4 * A * mgl);
+    return std::acos(p - std::sqrt(p * p - 2 * p * std::cos(theta) + 1));
+  }
+
+  /// theta'' for given theta, precession rate and spin.
+  [[nodiscard]] double lean(double theta, double W, double w3) const {
+    return std::sin(theta) * (W * W * std::cos(theta) - C / A * w3 * W + mgl / A);
+  }
+};
+
+}  // namespace gaitlab::oracle
