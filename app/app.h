@@ -39,7 +39,13 @@ int run(const Scenario& scenario, const RunArguments& arguments);
 int check(const ScenarioArguments& arguments);
 int list(const std::string& kind);
 int explain(const std::string& kind, const std::string& name);
-int converge(const ScenarioArguments& arguments, int halvings);
+
+struct ConvergeArguments : ScenarioArguments {
+  int halvings = 2;
+  std::vector<std::string> columns;  ///< patterns; none: the torques, or without motors the angles
+  int jobs = 1;                      ///< threads
+};
+int converge(const ConvergeArguments& arguments);
 
 struct CompareArguments {
   std::string a, b;                  ///< run folders or trace files

@@ -1,74 +1,104 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/app.h"
+#include "app/parallel.h"
 #include "core/simulation/simulation.h"
+#include "core/trace/convergence.h"
 
 namespace gaitlab::app {
 
 namespace {
 
-/// What is compared between two steps, joint by joint: RMS difference of the torque over all rows, relative to the finest run's
-/// peak.
-struct Change {
-  std::vector<double> torque;
-  double displacement = 0;  ///< of the centre of mass at the end, relative to the finest run's distance
+constexpr double kGood = 0.01;  // what "good" means below: 1 %
+
+struct Runs {
+  std::vector<double> steps;
+  std::vector<Trace> traces;
+  std::vector<std::vector<double>> travel;  // x, y of the centre of mass, end less start
+  double allowed = 0;                       // longest step that the rule allows; 0: any
 };
 
-Change change(const RunRecord& coarse, const RunRecord& fine, std::size_t joints) {
-  Change c;
-  const std::size_t rows = fine.com_x.size();
-  for (std::size_t j = 0; j < joints; ++j) {
-    double sum = 0;
-    double peak = 0;
-    for (std::size_t k = 0; k < rows; ++k) {
-      const double f = fine.torques[k * joints + j];
-      const double d = coarse.torques[k * joints + j] - f;
-      sum += d * d;
-      peak = std::max(peak, std::abs(f));
-    }
-    c.torque.push_back(peak > 0 ? std::sqrt(sum / static_cast<double>(rows)) / peak : 0);
+Runs all_runs(const Scenario& scenario, int halvings, int jobs) {
+  const auto count = static_cast<std::size_t>(halvings) + 1;
+  Runs runs;
+  runs.traces.resize(count);
+  runs.travel.resize(count);
+  for (std::size_t i = 0; i < count; ++i) runs.steps.push_back(scenario.physics.step / static_cast<double>(1 << i));
+  std::vector<double> rate(count);
+  parallel(count, jobs, [&](std::size_t i) {
+    Scenario halved = scenario;
+    halved.physics.step = runs.steps[i];
+    Simulation simulation({&halved, 1});
+    rate[i] = simulation.standing().rate;
+    simulation.run();
+    RunRecord r = simulation.take_record(0);
+    rate[i] = std::max(rate[i], r.worst.rate);
+    runs.travel[i] = {r.com_x.back() - r.com_x.front(), r.com_y.back() - r.com_y.front()};
+    runs.traces[i] = std::move(r.trace);
+  });
+  if (rate.back() > 0) runs.allowed = 1 / rate.back();
+  return runs;
+}
+
+void print(const ConvergenceRow& row) {
+  fmt::print("{:<24}", row.name);
+  for (const double error : row.error) fmt::print(" {:>10.2g} %", 100 * error);
+  fmt::print(" {:>6}\n", row.order ? fmt::format("{:.1f}", *row.order) : "-");
+}
+
+/// Which step is good for 1 %, of what was tried and by the order seen.
+std::string verdict(const ConvergenceRow& worst, const Runs& runs) {
+  const double finest = runs.steps.back();
+  std::string text = fmt::format("none of these steps is good for 1 % of {}", worst.name);
+  for (std::size_t i = 0; i < runs.steps.size(); ++i) {
+    const double error = i < worst.error.size() ? worst.error[i] + worst.left : worst.left;
+    if (error > kGood) continue;
+    text = fmt::format("step {} s is good for 1 %: its error is {:.2g} %, that of {} s itself included", runs.steps[i],
+                       100 * error, finest);
+    break;
   }
-  const double x = fine.com_x.back() - fine.com_x.front();
-  const double y = fine.com_y.back() - fine.com_y.front();
-  const double distance = std::hypot(x, y);
-  const double miss =
-      std::hypot(coarse.com_x.back() - coarse.com_x.front() - x, coarse.com_y.back() - coarse.com_y.front() - y);
-  c.displacement = distance > 0 ? miss / distance : miss;
-  return c;
+  const std::optional<double> reach = worst.step_for(kGood, finest);
+  if (!reach) return text + (runs.steps.size() < 3 ? "" : "; no clear order, so nothing is said of other steps");
+  if (runs.allowed > 0 && *reach > runs.allowed) {
+    return text + fmt::format("; of longer steps the rule h lambda <= 1 allows up to {:.3g} s", runs.allowed);
+  }
+  return text + fmt::format("; by the order seen about {:.2g} s would be", *reach);
 }
 
 }  // namespace
 
-int converge(const ScenarioArguments& arguments, int halvings) {
+int converge(const ConvergeArguments& arguments) {
   Catalog catalog = standard_catalog();
-  const Scenario scenario = read(arguments, catalog);
-  const std::size_t joints = scenario.robot->joints.size();
-  std::vector<double> steps;
-  std::vector<RunRecord> runs;
-  for (int i = 0; i <= halvings; ++i) {
-    Scenario halved = scenario;
-    halved.physics.step = scenario.physics.step / static_cast<double>(1 << i);
-    Simulation simulation({&halved, 1});
-    simulation.run();
-    steps.push_back(halved.physics.step);
-    runs.push_back(simulation.take_record(0));
+  ScenarioArguments with_columns = arguments;
+  std::vector<std::string> wanted = arguments.columns;
+  if (!wanted.empty()) with_columns.sets.push_back(fmt::format("trace.columns=[{}]", fmt::join(wanted, ", ")));
+  Scenario scenario = read(with_columns, catalog);
+  if (wanted.empty()) {
+    wanted = {scenario.actuator.entry != nullptr ? "joint.*.torque" : "joint.*.angle"};
+    if (!scenario.robot->joints.empty()) scenario.trace.columns = wanted;
   }
-  fmt::print("{}: change against step {} s (torque: RMS over the trace / peak of the joint)\n", scenario.name, steps.back());
-  fmt::print("{:<18}", "step, s");
-  for (std::size_t i = 0; i + 1 < runs.size(); ++i) fmt::print(" {:>12}", steps[i]);
-  fmt::print("\n");
-  std::vector<Change> changes;
-  for (std::size_t i = 0; i + 1 < runs.size(); ++i) changes.push_back(change(runs[i], runs.back(), joints));
-  const auto row = [&](const std::string& name, const auto& value) {
-    fmt::print("{:<18}", name);
-    for (const Change& c : changes) fmt::print(" {:>10.4f} %", 100 * value(c));
-    fmt::print("\n");
-  };
-  for (std::size_t j = 0; j < joints; ++j) row(scenario.robot->joints[j].name, [j](const Change& c) { return c.torque[j]; });
-  if (joints > 0) row("worst joint", [](const Change& c) { return *std::max_element(c.torque.begin(), c.torque.end()); });
-  row("displacement", [](const Change& c) { return c.displacement; });
+  const Runs runs = all_runs(scenario, arguments.halvings, arguments.jobs);
+
+  fmt::print("{}: error against step {} s (RMS over the rows / largest magnitude of the column)\n", scenario.name,
+             runs.steps.back());
+  fmt::print("{:<24}", "step, s");
+  for (std::size_t i = 0; i + 1 < runs.steps.size(); ++i) fmt::print(" {:>12}", runs.steps[i]);
+  fmt::print(" {:>6}\n", "order");
+  const std::vector<ConvergenceRow> rows = convergence(runs.traces, wanted);
+  for (const ConvergenceRow& row : rows) print(row);
+  ConvergenceRow travel = convergence("displacement", runs.travel);
+  const bool moves = std::hypot(runs.travel.back()[0], runs.travel.back()[1]) > 1e-3;  // m: else a share of noise
+  if (moves) print(travel);
+  if (rows.empty()) return 0;
+  ConvergenceRow worst = *std::max_element(
+      rows.begin(), rows.end(), [](const ConvergenceRow& a, const ConvergenceRow& b) { return a.error[0] < b.error[0]; });
+  const std::string said = verdict(worst, runs);
+  worst.name = "worst: " + worst.name;
+  print(worst);
+  fmt::print("{}\n", said);
   return 0;
 }
 

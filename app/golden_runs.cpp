@@ -1,11 +1,10 @@
 #include "app/golden_runs.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <thread>
 
+#include "app/parallel.h"
 #include "core/simulation/simulation.h"
 #include "report/build_id.h"
 #include "report/summary.h"
@@ -83,22 +82,13 @@ GoldenRun golden_run(const Scenario& scenario) {
 
 std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs) {
   std::vector<Outcome> outcomes(scenarios.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < scenarios.size(); i = next++) {
-      try {
-        outcomes[i].run = golden_run(scenarios[i]);
-      } catch (...) {
-        outcomes[i].error = std::current_exception();
-      }
+  parallel(scenarios.size(), jobs, [&](std::size_t i) {
+    try {
+      outcomes[i].run = golden_run(scenarios[i]);
+    } catch (...) {
+      outcomes[i].error = std::current_exception();
     }
-  };
-  const std::size_t threads = std::min(scenarios.size(), static_cast<std::size_t>(std::max(1, jobs)));
-  {
-    std::vector<std::jthread> others;  // joined at the end of the block
-    for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work);
-    work();
-  }
+  });
   return outcomes;
 }
 

@@ -74,12 +74,19 @@ int program(int argc, char** argv) {
   kind_option->needs(name_option);
   explain_command->callback([&] { chosen = [&] { return explain(kind, name); }; });
 
-  ScenarioArguments converge_arguments;
-  int halvings = 1;
-  CLI::App* converge_command = app.add_subcommand("converge", "halve the step; show what changes against the finest one");
+  ConvergeArguments converge_arguments;
+  CLI::App* converge_command = app.add_subcommand(
+      "converge", "halve the step: errors against the finest one, their order, the step that is good for 1 %");
   add_scenario(*converge_command, converge_arguments);
-  converge_command->add_option("--halvings", halvings, "how often (default 1)")->check(CLI::Range(1, 8));
-  converge_command->callback([&] { chosen = [&] { return converge(converge_arguments, halvings); }; });
+  converge_command->add_option("--halvings", converge_arguments.halvings, "how often (default 2; an order needs 2)")
+      ->check(CLI::Range(1, 8));
+  converge_command
+      ->add_option("--columns", converge_arguments.columns,
+                   "trace columns that match this pattern (default joint.*.torque; without motors joint.*.angle)")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  converge_command->add_option("-j,--jobs", converge_arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+  converge_command->callback([&] { chosen = [&] { return converge(converge_arguments); }; });
 
   CompareArguments compare_arguments;
   CLI::App* compare_command = app.add_subcommand(

@@ -54,11 +54,11 @@ doubled_steps() {
   local robot=$1 step=2.5e-5 error note
   while :; do
     step=$(awk -v h="$step" 'BEGIN { printf "%g", 2 * h }')
-    if ! "$program" converge "$scenarios/$robot.yaml" --quiet --set "physics.step=$step" >"$work/converge" 2>&1; then
+    if ! "$program" converge "$scenarios/$robot.yaml" --quiet --halvings 1 --set "physics.step=$step" >"$work/converge" 2>&1; then
       notes+=("$robot, step $step s: refused: $(sed -E 's/.*error: //' "$work/converge" | head -n 1)")
       return 0
     fi
-    error=$(awk '$1 == "worst" { print $3 }' "$work/converge")
+    error=$(awk '$1 == "worst:" { print $3 }' "$work/converge")
     note="$robot, step $step s: converge error $error %"
     if awk -v e="$error" 'BEGIN { exit !(e > 1) }'; then
       new "$robot" mutant "step $step s (converge error $error %)"

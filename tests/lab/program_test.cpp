@@ -120,5 +120,21 @@ TEST_F(Program, DivergingRunKeepsWhatItHas) {
   EXPECT_GE(trace.rows(), 1U);
 }
 
+TEST(Program, ConvergeShowsErrorOrderAndTheStepThatIsGood) {
+  const Folder folder;
+  const std::string arguments = "converge '" + kScenarios + "caterpillar.yaml' --quiet -j 2 --set duration=0.2";
+  const Result r = gaitlab(arguments + " --columns 'joint.1?.torque'", folder / "");
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, testing::HasSubstr("error against step 6.25e-06 s"));
+  EXPECT_THAT(r.out, testing::HasSubstr("joint.15.torque "));
+  EXPECT_THAT(r.out, testing::Not(testing::HasSubstr("joint.9.torque ")));
+  EXPECT_THAT(r.out, testing::ContainsRegex("worst: joint[.]1[0-5][.]torque +0[.]0[0-9]+ % +0[.]0[0-9]+ % +(0[.]9|1[.][01])\n"));
+  EXPECT_THAT(r.out, testing::HasSubstr("step 2.5e-05 s is good for 1 %"));
+
+  const Result wrong = gaitlab(arguments + " --columns 'joint.1.tork'", folder / "");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, testing::HasSubstr("did you mean 'joint.1.torque'?"));
+}
+
 }  // namespace
 }  // namespace gaitlab::test

@@ -1,0 +1,60 @@
+// convergence() on figures whose order is known because we make them.
+#include "core/trace/convergence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gaitlab {
+namespace {
+
+/// u(h) = cos t + 0.1 h^p sin t.
+Trace wave(double h, double order) {
+  Trace trace{{{"t", "s", ""}, {"u", "m", ""}, {"still", "m", ""}}, {}};
+  for (int k = 0; k <= 1000; ++k) {
+    const double t = 0.01 * k;
+    trace.values.insert(trace.values.end(), {t, std::cos(t) + 0.1 * std::pow(h, order) * std::sin(t), 1.0});
+  }
+  return trace;
+}
+
+std::vector<Trace> halved(double h, double order) { return {wave(h, order), wave(h / 2, order), wave(h / 4, order)}; }
+
+TEST(Convergence, FindsOrderErrorAndTheStepThatIsGood) {
+  for (const double order : {1.0, 2.0, 4.0}) {
+    const std::vector<Trace> traces = halved(0.5, order);
+    const std::vector<ConvergenceRow> rows = convergence(traces, {"u"});
+    ASSERT_EQ(rows.size(), 1U);
+    const ConvergenceRow& row = rows[0];
+    double square = 0;
+    for (int k = 0; k <= 1000; ++k) square += std::sin(0.01 * k) * std::sin(0.01 * k) / 1001;
+    double peak = 0;
+    for (std::size_t k = 0; k < traces[2].rows(); ++k) peak = std::max(peak, std::abs(traces[2].at(k, 1)));
+    const double rms = 0.1 * std::sqrt(square) / peak;
+    // All but rounding: the error is exactly C h^p.
+    EXPECT_NEAR(row.order.value(), order, 1e-9);
+    EXPECT_NEAR(row.error[0], rms * (std::pow(0.5, order) - std::pow(0.125, order)), 1e-12);
+    EXPECT_NEAR(row.left, rms * std::pow(0.125, order), 1e-12);
+    EXPECT_NEAR(row.step_for(0.01, 0.125).value(), std::pow(0.01 / rms, 1 / order), 1e-9);
+  }
+}
+
+TEST(Convergence, SaysNothingOfWhatDoesNotMove) {
+  const std::vector<Trace> traces = halved(0.5, 1);
+  const std::vector<ConvergenceRow> rows = convergence(traces, {"st*"});
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].error, (std::vector<double>{0, 0}));
+  EXPECT_FALSE(rows[0].order);
+  EXPECT_FALSE(rows[0].step_for(0.01, 0.125));
+  EXPECT_TRUE(convergence(traces, {"no such column"}).empty());
+}
+
+TEST(Convergence, TwoStepsHaveNoOrder) {
+  const std::vector<std::vector<double>> values{{1.1, 0}, {1, 0}};
+  const ConvergenceRow row = convergence("x", values);
+  EXPECT_NEAR(row.error[0], 0.1, 1e-12);
+  EXPECT_FALSE(row.order);
+}
+
+}  // namespace
+}  // namespace gaitlab
