@@ -72,9 +72,9 @@ std::string verdict(const ConvergenceRow& worst, const Runs& runs) {
 
 int converge(const ConvergeArguments& arguments) {
   Catalog catalog = standard_catalog();
-  ScenarioArguments with_columns = arguments;
+  ConvergeArguments with_columns = arguments;
   std::vector<std::string> wanted = arguments.columns;
-  if (!wanted.empty()) with_columns.sets.push_back(fmt::format("trace.columns=[{}]", fmt::join(wanted, ", ")));
+  if (!wanted.empty()) with_columns.sets.push_back(fmt::format("trace.columns=['{}']", fmt::join(wanted, "', '")));
   Scenario scenario = read(with_columns, catalog);
   if (wanted.empty()) {
     wanted = {scenario.actuator.entry != nullptr ? "joint.*.torque" : "joint.*.angle"};

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 
+#include "core/dynamics/rotor_inertia.h"
 #include "core/errors.h"
 #include "core/laws/hinge_stop.h"
 #include "core/simulation/stability.h"
@@ -36,6 +38,10 @@ class BulletPlant final : public Plant, private InverseMass {
     applied_.resize(n);
     at_rest_.resize(n);
     monitor_.contacts.reserve(s.contacts.size());
+    const In inertia = s.actuator == nullptr ? In() : s.actuator->reflected_inertia();
+    if (std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; })) {
+      rotors_.emplace(robot_, s.base, inertia);
+    }
   }
 
   [[nodiscard]] std::size_t lanes() const override { return 1; }
@@ -55,7 +61,7 @@ class BulletPlant final : public Plant, private InverseMass {
       }
       work_[0] += weight * h * power_[0];
       work_[1] += weight * h * power_[1];
-      body_.accelerate(state, out);
+      accelerate(state, out);
     });
     layout_.write(state_, 0, numbers_);
   }
@@ -74,7 +80,7 @@ class BulletPlant final : public Plant, private InverseMass {
   [[nodiscard]] Stability stability(std::size_t, In command, bool standing) override {
     layout_.read(numbers_, 0, state_);
     evaluate(state_, command);
-    body_.accelerate(state_, acceleration_);  // factorises the mass matrix for inverse_mass
+    accelerate(state_, acceleration_);  // factorises the mass matrix for apply
     // A robot that stands does not turn its motors: at speed they may be saturated, and their slope 0.
     if (standing && settings_.actuator != nullptr) settings_.actuator->effort(at_rest_, at_rest_, torque_, slope_);
     for (std::size_t j = 0; j < torque_.size(); ++j) {
@@ -95,7 +101,21 @@ class BulletPlant final : public Plant, private InverseMass {
   }
 
  private:
-  void apply(In force, Out acceleration) override { body_.inverse_mass(force, acceleration); }
+  void apply(In force, Out acceleration) override {
+    if (rotors_) {
+      rotors_->inverse_mass(force, acceleration);
+    } else {
+      body_.inverse_mass(force, acceleration);
+    }
+  }
+
+  /// Under all forces gathered so far.
+  void accelerate(const RobotState& state, Acceleration& out) {
+    body_.accelerate(state, out);
+    if (!rotors_) return;
+    rotors_->update(kinematics_);
+    rotors_->add_to(out);
+  }
 
   [[nodiscard]] HingeStop stop_at(const RobotState& state, std::size_t j) const {
     return HingeStop::at(state.q[j], state.qd[j], robot_.joints[j].lo, robot_.joints[j].hi);
@@ -172,6 +192,7 @@ class BulletPlant final : public Plant, private InverseMass {
   bullet::MultiBody body_;
   mutable Kinematics kinematics_;  // caches: every entry point fills them anew from numbers_
   mutable RobotState state_;
+  std::optional<RotorInertia> rotors_;  ///< Bullet's algorithm has no place for them
   ExplicitIntegrator integrator_;
   Acceleration acceleration_;
   std::vector<double> torque_, slope_, applied_, at_rest_;
@@ -191,7 +212,7 @@ void register_bullet(Catalog& catalog) {
       {"semi_implicit", "rk4"},
       2.5e-5,
       1,
-      false,
+      true,
       [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<BulletPlant>(s); }});
 }
 

@@ -26,8 +26,8 @@ std::unique_ptr<T> make(const Choice& choice, const RobotInfo& info) {
 
 std::int64_t whole(double period, double step) { return std::llround(period / step); }
 
-SimulationError::SimulationError(std::int64_t at_step, double at_time, std::string at, std::string what)
-    : RunError(std::move(what)), step(at_step), time(at_time), where(std::move(at)) {}
+SimulationError::SimulationError(std::int64_t at_step, double at_time, std::string at, const std::string& what)
+    : RunError(what), step(at_step), time(at_time), where(std::move(at)) {}
 
 /// The scalar half of one rollout: its CPG, controller, sensors, trace row.
 struct Simulation::Lane {

@@ -19,7 +19,7 @@ namespace gaitlab {
 /// A run that left the numbers: step, time and joint are in what().
 class SimulationError : public RunError {
  public:
-  SimulationError(std::int64_t step, double time, std::string where, std::string what);
+  SimulationError(std::int64_t step, double time, std::string where, const std::string& what);
   std::int64_t step;
   double time;
   std::string where;  ///< a joint's name, or "base"

@@ -1,4 +1,6 @@
 // Bad input as a user meets it: the whole message, exit code 2, nothing written; and a run that diverges.
+#include <regex>
+
 #include "core/trace/h5.h"
 #include "fixture.h"
 
@@ -70,9 +72,6 @@ TEST_F(Program, ScenarioErrors) {
   expect_refused("missing.yaml", "missing.yaml: error: cannot be read: No such file or directory");
   expect_refused_text("gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\ntrace: {columns: [joint.0.torqe]}\n",
                       "bad.yaml:4:18: error: 'joint.0.torqe' matches no column; did you mean 'joint.0.torque'?");
-  expect_refused_text(
-      "gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\nactuator: {rotor_inertia: 1e-8}\n",
-      "bad.yaml:4:27: error: engine 'bullet' cannot add rotor inertia; no engine of this build can: set it to 0");
 }
 
 TEST_F(Program, ABaseCannotStartWithAVelocityItCannotHave) {
@@ -120,20 +119,20 @@ TEST_F(Program, DivergingRunKeepsWhatItHas) {
   EXPECT_GE(trace.rows(), 1U);
 }
 
-TEST(Program, ConvergeShowsErrorOrderAndTheStepThatIsGood) {
-  const Folder folder;
+TEST_F(Program, ConvergeShowsErrorOrderAndTheStepThatIsGood) {
   const std::string arguments = "converge '" + kScenarios + "caterpillar.yaml' --quiet -j 2 --set duration=0.2";
   const Result r = gaitlab(arguments + " --columns 'joint.1?.torque'", folder / "");
+  const auto shows = [&](const std::string& what) { return std::regex_search(r.out, std::regex(what)); };
   EXPECT_EQ(r.code, 0) << r.err;
-  EXPECT_THAT(r.out, testing::HasSubstr("error against step 6.25e-06 s"));
-  EXPECT_THAT(r.out, testing::HasSubstr("joint.15.torque "));
-  EXPECT_THAT(r.out, testing::Not(testing::HasSubstr("joint.9.torque ")));
-  EXPECT_THAT(r.out, testing::ContainsRegex("worst: joint[.]1[0-5][.]torque +0[.]0[0-9]+ % +0[.]0[0-9]+ % +(0[.]9|1[.][01])\n"));
-  EXPECT_THAT(r.out, testing::HasSubstr("step 2.5e-05 s is good for 1 %"));
+  EXPECT_TRUE(shows("error against step 6.25e-06 s")) << r.out;
+  EXPECT_TRUE(shows("joint.15.torque ")) << r.out;
+  EXPECT_FALSE(shows("joint.9.torque ")) << r.out;
+  EXPECT_TRUE(shows("worst: joint[.]1[0-5][.]torque +0[.]0[0-9]+ % +0[.]0[0-9]+ % +(0[.]9|1[.][01])\n")) << r.out;
+  EXPECT_TRUE(shows("step 2.5e-05 s is good for 1 %")) << r.out;
 
   const Result wrong = gaitlab(arguments + " --columns 'joint.1.tork'", folder / "");
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_THAT(wrong.err, testing::HasSubstr("did you mean 'joint.1.torque'?"));
+  EXPECT_NE(wrong.err.find("did you mean 'joint.1.torque'?"), std::string::npos) << wrong.err;
 }
 
 }  // namespace
