@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/laws/hinge_stop.h"
+#include "core/simulation/start_check.h"
 #include "core/simulation/step_advice.h"
 
 namespace gaitlab {
@@ -180,7 +181,9 @@ void Simulation::set_start() {
 }
 
 void Simulation::check_standing() {
+  const In rotors = actuator_ == nullptr ? In{} : actuator_->reflected_inertia();
   for (std::size_t l = 0; l < lanes_.size(); ++l) {
+    check_inertia(scenarios_[l], lanes_[l]->sample.kinematics, rotors, lanes_.size(), l);
     const Stability one = plant_->stability(l, command_, true);
     if (one.rate > standing_.rate) standing_ = one;
   }

@@ -1,0 +1,14 @@
+// What must hold of a robot before its first step.
+#pragma once
+#include "core/model/kinematics.h"
+#include "core/plugin/fields.h"
+#include "core/scenario/scenario.h"
+
+namespace gaitlab {
+
+/// Every joint must have some inertia to move at the start, or its acceleration has no value: a body without mass between two
+/// hinges whose axes are in line turns freely. `kinematics`: at the start; `rotors`: reflected inertia of joint j, kg m^2, at
+/// j * lanes + lane, or empty. InputError naming the joint, at `robot`.
+void check_inertia(const Scenario& scenario, const Kinematics& kinematics, In rotors, std::size_t lanes, std::size_t lane);
+
+}  // namespace gaitlab
