@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/dynamics/inverse_dynamics.h"
 #include "fixture.h"
 #include "tests/validation.h"
 
@@ -119,38 +120,80 @@ TEST(Published, MotionGenesisBabybootAccelerations) {
 TEST(Published, ChronoRevoluteAgainstAdams) {
   struct Sample {
     double t;
-    Vec3 position, spin;
+    Vec3 position, spin, force, moment;  // of the COM; of the joint on the ground
   };
-  // Of the files' 501 rows each.
+  // Of the files' 501 rows each; 1e-14 and less is 0.
   const std::array<std::vector<Sample>, 2> adams{{
-      {{0.5, {1.660810E+00, 0, -1.114320E+00}, {0, 2.308810E+00, 0}},
-       {1, {-8.923810E-01, 0, -1.789880E+00}, {0, 2.926140E+00, 0}},
-       {2, {-1.951120E+00, 0, -4.394790E-01}, {0, -1.449950E+00, 0}},
-       {3, {1.869170E+00, 0, -7.114810E-01}, {0, -1.844870E+00, 0}},
-       {4, {1.296960E+00, 0, -1.522460E+00}, {0, 2.698710E+00, 0}},
-       {5, {-1.999680E+00, 0, -3.555870E-02}, {0, 4.124360E-01, 0}}},
-      {{0.5, {2.825910E+00, 2.577080E+00, 2.422920E+00}, {0, 1.174870E+00, 1.174870E+00}},
-       {1, {1.042100E+00, 3.413900E+00, 1.586100E+00}, {0, 1.838980E+00, 1.838980E+00}},
-       {2, {-1.000000E+00, 2.000630E+00, 2.999370E+00}, {0, 3.872270E-02, 3.872270E-02}},
-       {3, {8.738000E-01, 3.411400E+00, 1.588600E+00}, {0, -1.837350E+00, -1.837350E+00}},
-       {4, {3.000000E+00, 2.002510E+00, 2.997490E+00}, {0, -7.744530E-02, -7.744530E-02}},
-       {5, {1.209960E+00, 3.406400E+00, 1.593600E+00}, {0, 1.834100E+00, 1.834100E+00}}},
+      {{0.5, {1.660810, 0, -1.114320}, {0, 2.308810, 0}, {13.27970, 0, -9.149250}, {0, 0, 0}},
+       {1, {-0.8923810, 0, -1.789880}, {0, 2.926140, 0}, {-11.46120, 0, -23.22730}, {0, 0, 0}},
+       {2, {-1.951120, 0, -0.4394790}, {0, -1.449950, 0}, {-6.152950, 0, -1.625120}, {0, 0, 0}},
+       {3, {1.869170, 0, -0.7114810}, {0, -1.844870, 0}, {9.542820, 0, -3.871560}, {0, 0, 0}},
+       {4, {1.296960, 0, -1.522460}, {0, 2.698710, 0}, {14.16910, 0, -16.87180}, {0, 0, 0}},
+       {5, {-1.999680, 0, -0.03555870}, {0, 0.4124360, 0}, {-0.5102250, 0, -0.2482590}, {0, 0, 0}}},
+      {{0.5,
+        {2.825910, 2.577080, 2.422920},
+        {0, 1.174870, 1.174870},
+        {7.560950, -2.394070, -7.412590},
+        {-5.659270, 8.953040, -8.953040}},
+       {1,
+        {1.042100, 3.413900, 1.586100},
+        {0, 1.838980, 1.838980},
+        {0.4271640, 9.560810, -19.36730},
+        {-13.86540, 0.2064460, -0.2064460}},
+       {2,
+        {-1.000000, 2.000630, 2.999370},
+        {0, 0.03872270, 0.03872270},
+        {-0.008990560, -4.783850, -5.023050},
+        {-0.006147890, -9.806900, 9.806900}},
+       {3,
+        {0.8738000, 3.411400, 1.588600},
+        {0, -1.837350, -1.837350},
+        {-1.278100, 9.510780, -19.31710},
+        {-13.84060, -0.6187770, 0.6187770}},
+       {4,
+        {3.000000, 2.002510, 2.997490},
+        {0, -0.07744530, -0.07744530},
+        {0.03602900, -4.783660, -5.022970},
+        {-0.02459090, 9.806610, -9.806610}},
+       {5,
+        {1.209960, 3.406400, 1.593600},
+        {0, 1.834100, 1.834100},
+        {2.118950, 9.409770, -19.21640},
+        {-13.79200, 1.029500, -1.029500}}},
   }};
+  const std::string what = "pendulum of 4 m let go from the horizontal, at six times of 5 s: ";
   for (std::size_t i = 0; i < 2; ++i) {
-    const RunRecord record = run(published(fmt::format("chrono_revolute_{}.yaml", i + 1)));
+    const Scenario pendulum = published(fmt::format("chrono_revolute_{}.yaml", i + 1));
+    const Robot& robot = *pendulum.robot;
+    const RunRecord record = run(pendulum);
     const Table table(record.trace);
     const std::string id = fmt::format("published.chrono_revolute.{}.", i + 1);
     const std::string source = fmt::format("ADAMS in Chrono, Revolute_Case0{}_ADAMS", i + 1);
+    const auto worst = [](const Vec3& a, const Vec3& b) { return (a - b).cwiseAbs().maxCoeff(); };
     for (const Sample& sample : adams[i]) {
-      const auto at = [&](const std::string& name) { return table(sample.t, "body.m0/pendulum." + name); };
-      const Quat turn(at("qw"), at("qx"), at("qy"), at("qz"));
-      const Vec3 com = Vec3(at("x"), at("y"), at("z")) + turn * Vec3(2, 0, 0);
-      const Vec3 spin = turn * Vec3(0, 0, table(sample.t, "joint.0.speed"));
-      validate_below({id + "position", "pendulum of 4 m from the horizontal, 5 s: COM at six times", source, "m"},
-                     (com - sample.position).cwiseAbs().maxCoeff(), 6e-6,
+      RobotState state{pendulum.position, Quat(rpy(pendulum.orientation)),    Vec3::Zero(),
+                       Vec3::Zero(),      {table(sample.t, "joint.0.angle")}, {table(sample.t, "joint.0.speed")}};
+      Kinematics kinematics(robot);
+      kinematics.update(robot, state);
+      validate_below({id + "position", what + "COM", source, "m"},
+                     worst(kinematics.point(1, robot.links[1].com), sample.position), 6e-6,
                      "six digits published, half a unit of the last is 5e-6; the rest ADAMS's own error");
-      validate_below({id + "spin", "pendulum of 4 m from the horizontal, 5 s: angular velocity at six times", source, "rad/s"},
-                     (spin - sample.spin).cwiseAbs().maxCoeff(), 6e-6, "as the position");
+      validate_below({id + "spin", what + "angular velocity", source, "rad/s"}, worst(kinematics.omega[1], sample.spin), 6e-6,
+                     "as the position");
+      // The acceleration that frees the joint of torque: what it takes is in proportion to it.
+      InverseDynamics dynamics(robot);
+      Acceleration acceleration{Vec3::Zero(), Vec3::Zero(), {0}};
+      dynamics.update(kinematics, acceleration, pendulum.physics.gravity);
+      const double held = dynamics.torques()[0];
+      acceleration.joints[0] = 1;
+      dynamics.update(kinematics, acceleration, pendulum.physics.gravity);
+      acceleration.joints[0] = -held / (dynamics.torques()[0] - held);
+      dynamics.update(kinematics, acceleration, pendulum.physics.gravity);
+      validate_below({id + "reaction_force", what + "force of the joint on the ground", source, "N"},
+                     worst(-dynamics.hinge(0).force, sample.force), 6e-4,
+                     "ADAMS's forces miss Newton's law at its own positions and spins by up to 4e-4 (t = 4 s)");
+      validate_below({id + "reaction_moment", what + "moment of the joint on the ground", source, "N m"},
+                     worst(-dynamics.hinge(0).moment, sample.moment), 6e-4, "as the force");
     }
   }
 }
