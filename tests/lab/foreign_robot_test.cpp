@@ -149,6 +149,18 @@ TEST(ForeignRobot, APlanarBaseIsAFloatingOneInThePlane) {
       apart(planar, floating, "base.*"), 1e-12, kRounding);
 }
 
+TEST(ForeignRobot, TheExampleInTheManualRuns) {
+  // The indented block of docs/modules.md.
+  std::istringstream page(read(std::string(GAITLAB_SOURCE_DIR) + "/docs/modules.md"));
+  std::string text;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("    ")) text += line.substr(4) + "\n";
+  }
+  const Scenario two_rods = scenario(text);
+  EXPECT_EQ(two_rods.robot->joints.size(), 2U);
+  EXPECT_EQ(run(two_rods).steps, 2000);
+}
+
 /// What the program says of a robot whose middle body has no mass.
 std::string said_of(const std::string& axis, const std::string& angle) {
   const Folder folder;
