@@ -1,9 +1,11 @@
 // Blesses the run of a scenario as it is now: shows what changed, makes or keeps the bands, writes the golden.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "app/app.h"
 #include "app/golden_report.h"

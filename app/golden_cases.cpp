@@ -21,6 +21,7 @@ std::vector<fs::path> scenarios_in(const fs::path& folder) {
     if (entry.path().extension() == ".yaml" && !entry.is_directory()) files.push_back(entry.path());
   }
   if (error) throw InputError(Place{folder.string()}, "cannot be read: " + error.message());
+  if (files.empty()) throw InputError(Place{folder.string()}, "holds no scenario (*.yaml)");
   std::sort(files.begin(), files.end());
   return files;
 }

@@ -28,7 +28,7 @@ struct GoldenCase {
 
 /// One case a scenario, in the order of the arguments, a folder's by name; each scenario once. In a folder a scenario without a
 /// golden is skipped. Goldens and scenarios are read; what cannot be read is a verdict of that case. InputError: neither
-/// scenario nor folder, or --golden with anything but one scenario.
+/// scenario nor folder, a folder without scenarios, or --golden with anything but one scenario.
 std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& catalog);
 
 /// Runs and compares those that can be.

@@ -40,8 +40,8 @@ std::string table(const std::vector<const ColumnCheck*>& columns) {
     const std::string from = c->outside ? fmt::format("{:.6g} s", *c->outside) : "never";
     const std::string late =
         c->time_shift == 0 ? "-" : fmt::format("{:+.4g} s, then {}", c->time_shift, percent(c->rms_after_shift));
-    text += fmt::format("  {:<{}} {:>11} {:>11} {:>9.3g} {:>11} {:>13}  {}\n", c->name, name, percent(c->rms), percent(c->band),
-                        c->ratio(), percent(c->maximum), from, late);
+    text += fmt::format("  {:<{}} {:>11} {:>11} {:>9} {:>11} {:>13}  {}\n", c->name, name, percent(c->rms), percent(c->band),
+                        bands(c->ratio()), percent(c->maximum), from, late);
   }
   return text;
 }
@@ -52,8 +52,8 @@ std::string table(const std::vector<const NumberCheck*>& numbers) {
   std::string text = fmt::format("  {:<{}} {:>13} {:>13} {:>11} {:>11} {:>11}  {}\n", "number", name, "golden", "now", "change",
                                  "band", "change/band", "unit");
   for (const NumberCheck* n : numbers) {
-    text += fmt::format("  {:<{}} {:>13.7g} {:>13.7g} {:>11} {:>11} {:>11.3g}  {}\n", n->name, name, n->golden, n->now,
-                        percent(n->change), percent(n->band), n->ratio(), n->unit);
+    text += fmt::format("  {:<{}} {:>13.7g} {:>13.7g} {:>11} {:>11} {:>11}  {}\n", n->name, name, n->golden, n->now,
+                        percent(n->change), percent(n->band), bands(n->ratio()), n->unit);
   }
   return text;
 }
@@ -61,6 +61,8 @@ std::string table(const std::vector<const NumberCheck*>& numbers) {
 }  // namespace
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+std::string bands(double ratio) { return ratio < 1000 ? fmt::format("{:.3g}", ratio) : fmt::format("{:.0f}", ratio); }
 
 std::string parts(const Band& band) {
   return fmt::format("max(ensemble {}, halving {}, floor {})", percent(band.ensemble), percent(band.halving),

@@ -14,6 +14,9 @@ std::string differences(const GoldenDifference& difference, Shown shown);
 /// `0.0123 %`
 std::string percent(double share);
 
+/// In bands: `0.0123`, `1250`
+std::string bands(double ratio);
+
 /// `max(ensemble 0.2 %, halving 0.03 %, floor 0.001 %)`
 std::string parts(const Band& band);
 

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <mutex>
 
 #include "app/parallel.h"
+#include "app/progress.h"
 #include "core/simulation/simulation.h"
 #include "report/build_id.h"
 #include "report/summary.h"
@@ -69,22 +72,47 @@ std::uint64_t splitmix64(std::uint64_t counter) {
 // In [-1, 1).
 double symmetric(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-52 - 1; }
 
-}  // namespace
-
-GoldenRun golden_run(const Scenario& scenario) {
+GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>& progress) {
   Scenario ours = scenario;
   ours.trace.columns = columns(scenario);
   Simulation simulation({&ours, 1});
-  simulation.run();
+  simulation.run(progress);
   const RunRecord record = simulation.take_record(0);
   return {thinned(record.trace, scenario.trace.period), numbers(scenario, record)};
 }
 
+double steps(const Scenario& scenario) { return scenario.duration / scenario.physics.step; }
+
+// One bar for all runs, in steps.
+class Bar {
+ public:
+  explicit Bar(const std::vector<Scenario>& scenarios) {
+    for (const Scenario& scenario : scenarios) all_ += steps(scenario);
+  }
+  void add(double more) {
+    const std::lock_guard lock(mutex_);
+    done_ += more;
+    progress_(std::min(1.0, done_ / all_));
+  }
+
+ private:
+  std::mutex mutex_;
+  double all_ = 0, done_ = 0;
+  Progress progress_{false};
+};
+
+}  // namespace
+
 std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs) {
   std::vector<Outcome> outcomes(scenarios.size());
+  Bar bar(scenarios);
   parallel(scenarios.size(), jobs, [&](std::size_t i) {
     try {
-      outcomes[i].run = golden_run(scenarios[i]);
+      double before = 0;
+      outcomes[i].run = golden_run(scenarios[i], [&](double share) {
+        bar.add((share - before) * steps(scenarios[i]));
+        before = share;
+      });
     } catch (...) {
       outcomes[i].error = std::current_exception();
     }

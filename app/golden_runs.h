@@ -9,19 +9,17 @@
 
 namespace gaitlab::app {
 
-/// Torque, current and angle of every joint (without a motor: the angle) and the base pose, whatever `trace.columns` says, a
-/// row every 20 ms (the largest whole multiple of the trace period up to that, at least one of it); and the figures that a
-/// golden holds. InputError: the step is too long; RunError: it diverged.
-GoldenRun golden_run(const Scenario& scenario);
-
 /// What one of several runs came to.
 struct Outcome {
+  /// Torque, current and angle of every joint (without a motor: the angle) and the base pose, whatever `trace.columns` says, a
+  /// row every 20 ms (the largest whole multiple of the trace period up to that, at least one of it); and the figures that a
+  /// golden holds.
   GoldenRun run;
-  std::exception_ptr error;  ///< of golden_run
+  std::exception_ptr error;  ///< InputError: the step is too long; RunError: it diverged
 };
 
-/// One each, in the order of `scenarios`; up to `jobs` at once. Every run is an object of its own: the same bits for any
-/// `jobs`.
+/// One each, in the order of `scenarios`; up to `jobs` at once, with a bar on a terminal. Every run is an object of its own:
+/// the same bits for any `jobs`.
 std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs);
 
 /// Which run a golden is, for Golden::origin.

@@ -119,7 +119,7 @@ int program(int argc, char** argv) {
   CLI::App* approve_command = app.add_subcommand("approve", "bless a scenario's torques as they are now: its golden");
   approve_command->add_option("SCENARIO", approve_arguments.file, "scenario file (YAML)")->required();
   approve_command->add_option("--reason", approve_arguments.reason, "why these numbers are right; kept in the golden");
-  approve_command->add_flag("--calibrate", approve_arguments.calibrate, "make new bands: six more runs");
+  approve_command->add_flag("--calibrate", approve_arguments.calibrate, "make new bands, from five more runs");
   approve_command->add_option("-j,--jobs", approve_arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
   approve_command->callback([&] { chosen = [&] { return approve(approve_arguments); }; });
 

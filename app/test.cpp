@@ -20,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kPanels = 4;  // of a figure: what strayed first explains the rest
-constexpr double kOutside = 3;      // bands, as ColumnCheck::outside
 
 // ---- the table
 
@@ -32,12 +31,11 @@ std::string row(const std::vector<std::size_t>& widths, const std::vector<std::s
 std::vector<std::string> cells(const GoldenCase& c) {
   const ColumnCheck* column = c.difference.worst_column();
   const NumberCheck* number = c.difference.worst_number();
-  const auto ratio = [](double value) { return fmt::format("{:.3g}", value); };
   return {c.file,
           column == nullptr ? "-" : column->name,
-          column == nullptr ? "-" : ratio(column->ratio()),
+          column == nullptr ? "-" : bands(column->ratio()),
           number == nullptr ? "-" : number->name,
-          number == nullptr ? "-" : ratio(number->ratio()),
+          number == nullptr ? "-" : bands(number->ratio()),
           to_string(c.verdict)};
 }
 
@@ -70,8 +68,16 @@ std::string counts(const std::vector<GoldenCase>& cases) {
 
 // ---- what failed
 
-std::size_t failing(const GoldenDifference& d) {
-  return static_cast<std::size_t>(std::count_if(d.columns.begin(), d.columns.end(), [](const auto& c) { return !c.passed(); }));
+template <class Check>
+std::size_t failing(const std::vector<Check>& checks) {
+  return static_cast<std::size_t>(std::count_if(checks.begin(), checks.end(), [](const Check& c) { return !c.passed(); }));
+}
+
+/// One line, the same on screen and in XML.
+std::string outside(const GoldenDifference& d) {
+  return fmt::format("{} of {} and {} of {} outside their bands", failing(d.columns), plural(d.columns.size(), "column"),
+                     failing(d.numbers), plural(d.numbers.size(), "number")) +
+         (d.findings.empty() ? "" : ", and a run of another form");
 }
 
 std::vector<OverlayPanel> panels(const GoldenCase& c) {
@@ -81,7 +87,9 @@ std::vector<OverlayPanel> panels(const GoldenCase& c) {
   }
   const double never = c.scenario->duration + 1;
   std::stable_sort(first.begin(), first.end(), [&](const ColumnCheck* a, const ColumnCheck* b) {
-    return a->outside.value_or(never) < b->outside.value_or(never);
+    const double from_a = a->outside.value_or(never);
+    const double from_b = b->outside.value_or(never);
+    return from_a != from_b ? from_a < from_b : a->ratio() > b->ratio();
   });
   first.resize(std::min(first.size(), kPanels));
   std::vector<OverlayPanel> panels;
@@ -112,7 +120,7 @@ class Figures {
     const std::vector<OverlayPanel> shown = panels(c);
     if (shown.empty()) return "";
     const std::string title = fmt::format("{}: {} outside their bands, the first to stray on top", c.scenario->name,
-                                          plural(failing(c.difference), "column"));
+                                          plural(failing(c.difference.columns), "column"));
     if (!common_) {
       RunFolder own({}, "test-" + c.scenario->name);
       return put(own, own.path() / "overlay.svg", overlay_svg(title, shown));
@@ -133,12 +141,7 @@ class Figures {
 };
 
 void print_failure(const GoldenCase& c, Figures& figures) {
-  const std::size_t columns = failing(c.difference);
-  const auto numbers = static_cast<std::size_t>(std::count_if(c.difference.numbers.begin(), c.difference.numbers.end(),
-                                                              [](const NumberCheck& n) { return !n.passed(); }));
-  fmt::print("\n{}: {} of {} and {} of {} outside their bands\n", c.file, columns,
-             plural(c.difference.columns.size(), "column"), numbers, plural(c.difference.numbers.size(), "number"));
-  fmt::print("{}", differences(c.difference, Shown::failing));
+  fmt::print("\n{}: {}\n{}", c.file, outside(c.difference), differences(c.difference, Shown::failing));
   const std::string figure = figures.write(c);
   if (!figure.empty()) fmt::print("  figure: {}\n", figure);
 }
@@ -174,10 +177,8 @@ std::string junit(const std::vector<GoldenCase>& cases) {
       }
       return escaped;
     };
-    if (c.verdict == Verdict::regression) {
-      element("failure", fmt::format("{} outside", plural(failing(c.difference), "column")),
-              lines(differences(c.difference, Shown::failing)));
-    }
+    if (c.verdict == Verdict::regression)
+      element("failure", outside(c.difference), lines(differences(c.difference, Shown::failing)));
     if (c.verdict == Verdict::bad_input || c.verdict == Verdict::run_failed)
       element("error", to_string(c.verdict), lines(c.problem));
     if (c.verdict == Verdict::skipped) element("skipped", "no golden", "");

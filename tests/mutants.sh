@@ -49,6 +49,13 @@ turned() {
   key robot build "robots/turned-$1"
 }
 
+# Compiler, and the folder of the build, which should say its flags.
+build_of() {
+  local build
+  build=$(basename -- "$(dirname -- "$(dirname -- "$(readlink -f -- "$1")")")")
+  printf '%s: %s' "$build" "$("$1" --version | sed -E 's/.*[(]([^;)]*).*/\1/')"
+}
+
 # The first doubled step whose converge error exceeds 1 %; every doubling below that is shown, too.
 doubled_steps() {
   local robot=$1 step=2.5e-5 error note
@@ -96,7 +103,7 @@ for robot in "${robots[@]}"; do
   new "$robot" innocent "nothing"
   new "$robot" innocent "half the step" && key physics step 1.25e-5
   for other in "${others[@]}"; do
-    new "$robot" innocent "built by $("$other" --version | sed -E 's/.*[(]([^;)]*).*/\1/')" "$other"
+    new "$robot" innocent "$(build_of "$other")" "$other"
   done
 done
 

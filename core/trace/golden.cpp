@@ -187,7 +187,8 @@ void write_golden(const Golden& golden, const fs::path& folder) {
 Golden read_golden(const fs::path& folder) {
   const fs::path file = folder / kJsonFile;
   std::error_code error;
-  if (!fs::is_directory(folder, error)) throw wrong(folder, "there is no such golden; gaitlab approve makes it");
+  if (!fs::exists(folder, error)) throw wrong(folder, "there is no such golden; gaitlab approve makes it");
+  if (!fs::is_directory(folder, error)) throw wrong(folder, "is no golden: a golden is a folder");
   if (!fs::exists(file, error))
     throw wrong(file, "is missing: the golden is only half there; make it anew with gaitlab approve");
   const Json json = checked(file, read_file(file));

@@ -11,7 +11,6 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kOutside = 3;      // bands; an error that is one band in the mean is seldom three
 constexpr double kSameTime = 1e-6;  // of the spacing
 constexpr std::size_t kNamesShown = 8;
 

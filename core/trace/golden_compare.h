@@ -8,6 +8,8 @@
 
 namespace gaitlab {
 
+inline constexpr double kOutside = 3;  ///< bands; an error that is one band in the mean is seldom three
+
 /// One column. Shares are of its scale (golden_bands.h); what the golden's own rounding explains is taken off, so that the same
 /// run differs by 0 and one that differs by less than the precision is measured right.
 struct ColumnCheck {
@@ -17,7 +19,7 @@ struct ColumnCheck {
   double scale = 0;                    ///< in the unit
   double time_shift = 0;               ///< s; positive: the run is late (see best_shift); 0 where no shift explains it
   double rms_after_shift = 0;          ///< share; rms where time_shift is 0
-  std::optional<double> outside = {};  ///< s; first time at which the difference exceeds 3 bands
+  std::optional<double> outside = {};  ///< s; first time at which the difference exceeds kOutside bands
   [[nodiscard]] bool passed() const { return rms <= band; }  // false for NaN
   [[nodiscard]] double ratio() const { return band > 0 ? rms / band : rms; }
 };

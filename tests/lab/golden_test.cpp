@@ -11,9 +11,9 @@ namespace fs = std::filesystem;
 
 const std::string kCaterpillar =
     "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"
-    "cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.6, phase_lag: 1.2}\nduration: 0.3\n";
+    "cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.6, phase_lag: 1.2}\nduration: 0.1\n";
 
-/// A folder with the scenario good.yaml (two modules that creep for 0.3 s) and its golden, approved once.
+/// A folder with the scenario good.yaml (two modules that creep for 0.1 s) and its golden, approved once.
 class GoldenCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -53,7 +53,7 @@ class GoldenCommand : public ::testing::Test {
 };
 
 TEST_F(GoldenCommand, ApprovedIsGreen) {
-  EXPECT_TRUE(told.starts_with("good.golden: approval 1: 19 columns of 16 rows, 18 numbers, ")) << told;
+  EXPECT_TRUE(told.starts_with("good.golden: approval 1: 19 columns of 6 rows, 18 numbers, ")) << told;
   expect_contains(told, " kB; bands made\n  widest band: joint.");
   const Golden golden = read_golden(folder / "good.golden");
   EXPECT_EQ(golden.origin.engine, "bullet");
@@ -130,16 +130,16 @@ TEST_F(GoldenCommand, OtherTextSameRunIsANote) {
 }
 
 TEST_F(GoldenCommand, OtherFormIsARegression) {
-  folder.write("good.yaml", kCaterpillar + "trace: {period: 0.015}\n");
+  folder.write("good.yaml", kCaterpillar + "trace: {period: 0.025}\n");
   Result result = call("test good.yaml");
   EXPECT_EQ(result.code, 4);
-  expect_contains(result.out, "\n  a row every 0.015 s, in the golden every 0.02 s\n");
-  std::string longer = kCaterpillar;
-  longer.replace(longer.find("0.3"), 3, "0.2");
-  folder.write("good.yaml", longer);
+  expect_contains(result.out, "\n  a row every 0.025 s, in the golden every 0.02 s\n");
+  std::string shorter = kCaterpillar;
+  shorter.replace(shorter.find("0.1"), 3, "0.08");
+  folder.write("good.yaml", shorter);
   result = call("test good.yaml");
   EXPECT_EQ(result.code, 4);
-  expect_contains(result.out, "\n  11 rows, in the golden 16\n");
+  expect_contains(result.out, "\n  5 rows, in the golden 6\n");
 }
 
 TEST_F(GoldenCommand, NoGolden) {
@@ -162,6 +162,10 @@ TEST_F(GoldenCommand, NoGolden) {
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err, "gaitlab: error: nothing was tested: no scenario has a golden; make one with gaitlab approve\n");
   expect_refused("test", "scenarios: error: there is no such scenario or folder");
+  fs::create_directory(folder / "empty");
+  expect_refused("test empty good.yaml", "empty: error: holds no scenario (*.yaml)");
+  folder.write("good.golden", "no folder");
+  EXPECT_EQ(call("test good.yaml").err, "good.golden: error: is no golden: a golden is a folder\n");
 }
 
 TEST_F(GoldenCommand, UnreadableGoldenOrScenarioIsNotTested) {
@@ -227,7 +231,7 @@ TEST_F(GoldenCommand, ApproveShowsWhatChangedAndKeepsTheBands) {
   for (std::size_t i = 0; i < before.bands.size(); ++i) EXPECT_EQ(after.bands[i].width(), before.bands[i].width());
   EXPECT_EQ(call("test good.yaml").code, 0);
 
-  folder.write("good.yaml", kCaterpillar + "trace: {period: 0.015}\n");
+  folder.write("good.yaml", kCaterpillar + "trace: {period: 0.025}\n");
   result = call("approve good.yaml --reason 'fewer rows'");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err,
