@@ -47,6 +47,12 @@ struct ConvergeArguments : ScenarioArguments {
 };
 int converge(const ConvergeArguments& arguments);
 
+struct DynamicsArguments : ScenarioArguments {
+  std::string state;     ///< JSON file
+  bool inverse = false;  ///< torques and reactions of given accelerations
+};
+int dynamics(const DynamicsArguments& arguments);
+
 struct CompareArguments {
   std::string a, b;                  ///< run folders or trace files
   std::vector<std::string> columns;  ///< patterns; none: all
@@ -54,10 +60,11 @@ struct CompareArguments {
 int compare(const CompareArguments& arguments);
 
 struct ExportArguments {
-  std::string run;   ///< run folder or trace file
-  std::string file;  ///< to write; must not exist
+  ScenarioArguments source;  ///< file: run folder or trace file (csv), scenario (mjcf, urdf)
+  std::string format;        ///< csv, mjcf, urdf
+  std::string file;          ///< to write; must not exist
 };
-int export_run(const ExportArguments& arguments);
+int export_to(const ExportArguments& arguments);
 
 struct RerunArguments {
   std::string run;                 ///< run folder, or trace.h5

@@ -13,6 +13,20 @@ namespace {
 using namespace gaitlab;
 using namespace gaitlab::app;
 
+constexpr const char* kDynamicsHelp =
+    "The state: {\"q\": [], \"qd\": [], \"tau\": [], \"qdd\": [], \"base\": {\"position\", \"quaternion\": [w, x, y, z],\n"
+    "\"velocity\", \"angular_velocity\", \"acceleration\", \"angular_acceleration\"}, \"wrenches\": [{\"body\", \"point\",\n"
+    "\"force\", \"torque\"}]}; SI, world axes, joints in the order of `gaitlab check`. What is missing: q, qd, pose and twist "
+    "are\n"
+    "those the scenario starts with, a wrench's point is the origin of its body's frame, all else is 0.\n"
+    "Gravity, tau and the wrenches act; motors, hinge stops and the ground do not. tau is the torque on the joint.\n\n"
+    "Out, forward (tau in, by the scenario's engine): qdd, base, mass_matrix, bias, with\n"
+    "    mass_matrix [base acceleration; qdd] + bias = [0; tau]\n"
+    "and of the base what it can move: all (floating), nothing (fixed), x, z, turn about y (planar).\n"
+    "Out, --inverse (qdd and the base's accelerations in): tau, base_wrench (from outside, about the origin of the base "
+    "frame),\n"
+    "reactions: of the parent on the child at every hinge and dock (m3/dock), about its origin.";
+
 void add_scenario(CLI::App& command, ScenarioArguments& arguments) {
   command.add_option("SCENARIO", arguments.file, "scenario file (YAML)")->required();
   command.add_option("--set", arguments.sets, "key.path=value, as if it stood in the file")
@@ -88,6 +102,14 @@ int program(int argc, char** argv) {
   converge_command->add_option("-j,--jobs", converge_arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
   converge_command->callback([&] { chosen = [&] { return converge(converge_arguments); }; });
 
+  DynamicsArguments dynamics_arguments;
+  CLI::App* dynamics_command = app.add_subcommand("dynamics", "one evaluation of the equations of motion, as JSON");
+  dynamics_command->footer(kDynamicsHelp);
+  add_scenario(*dynamics_command, dynamics_arguments);
+  dynamics_command->add_option("--state", dynamics_arguments.state, "JSON file: where and how fast, and what acts")->required();
+  dynamics_command->add_flag("--inverse", dynamics_arguments.inverse, "accelerations in; torques and reactions out");
+  dynamics_command->callback([&] { chosen = [&] { return dynamics(dynamics_arguments); }; });
+
   CompareArguments compare_arguments;
   CLI::App* compare_command = app.add_subcommand(
       "compare", "what differs between two runs, column by column; a report: exit code 0 whether or not they differ");
@@ -108,12 +130,17 @@ int program(int argc, char** argv) {
   rerun_command->callback([&] { chosen = [&] { return rerun(rerun_arguments); }; });
 
   ExportArguments export_arguments;
-  std::string export_format;
-  CLI::App* export_command = app.add_subcommand("export", "write the trace of a run in another format");
-  export_command->add_option("RUN", export_arguments.run, "run folder or trace file")->required();
-  export_command->add_option("--to", export_format, "csv")->required()->check(CLI::IsMember({"csv"}));
+  CLI::App* export_command = app.add_subcommand("export", "write a run's trace, or a scenario's robot, in another format");
+  export_command->add_option("SOURCE", export_arguments.source.file, "csv: run folder or trace file; mjcf, urdf: scenario file")
+      ->required();
+  export_command->add_option("--to", export_arguments.format, "csv; mjcf (MuJoCo), urdf")
+      ->required()
+      ->check(CLI::IsMember({"csv", "mjcf", "urdf"}));
   export_command->add_option("FILE", export_arguments.file, "file to write; must not exist")->required();
-  export_command->callback([&] { chosen = [&] { return export_run(export_arguments); }; });
+  export_command->add_option("--set", export_arguments.source.sets, "key.path=value in the scenario")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  export_command->callback([&] { chosen = [&] { return export_to(export_arguments); }; });
 
   ApproveArguments approve_arguments;
   CLI::App* approve_command = app.add_subcommand("approve", "bless a scenario's torques as they are now: its golden");

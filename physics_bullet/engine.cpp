@@ -70,11 +70,23 @@ class BulletPlant final : public Plant, private InverseMass {
     return {applied_, In(work_).subspan(0, 1), In(work_).subspan(1, 1), In(work_).subspan(2, 1)};
   }
 
+  void accelerate(const RobotState& state, In torque, std::span<const BodyWrench> wrenches, Acceleration& out) override {
+    kinematics_.update(robot_, state);
+    body_.set(state, kinematics_);
+    body_.add_weight(settings_.gravity);
+    for (const BodyWrench& w : wrenches) {
+      const std::size_t link = robot_.bodies[w.body].link;
+      body_.add_force(link, w.point - kinematics_.point(link, robot_.links[link].com), w.force, w.torque);
+    }
+    for (std::size_t j = 0; j < torque.size(); ++j) body_.add_torque(j, torque[j]);
+    accelerate(state, out);
+  }
+
   void contacts(std::size_t, std::span<ContactSample> out) const override {
     layout_.read(numbers_, 0, state_);
     kinematics_.update(robot_, state_);
     for (ContactSample& sample : out) sample = {};
-    for_each_contact([&](const Contact& c) { out[c.element] = {c.world(), c.force.fn, c.touch.penetration}; });
+    for_each_contact([&](const Contact& c) { out[c.element] = {c.world(), c.force.fn, c.touch.penetration, c.touch.point}; });
   }
 
   [[nodiscard]] Stability stability(std::size_t, In command, bool standing) override {

@@ -148,14 +148,15 @@ void MultiBody::set(const RobotState& s, const Kinematics& k) {
   body_.clearForcesAndTorques();
 }
 
-void MultiBody::add_force(std::size_t link, const Vec3& arm_from_com, const Vec3& force) {
+void MultiBody::add_force(std::size_t link, const Vec3& arm_from_com, const Vec3& force, const Vec3& torque) {
   const int index = index_of(link);
+  const btVector3 moment = bt(arm_from_com.cross(force) + torque);
   if (index < 0) {
     body_.addBaseForce(bt(force));
-    body_.addBaseTorque(bt(arm_from_com.cross(force)));
+    body_.addBaseTorque(moment);
   } else {
     body_.addLinkForce(index, bt(force));
-    body_.addLinkTorque(index, bt(arm_from_com.cross(force)));
+    body_.addLinkTorque(index, moment);
   }
 }
 

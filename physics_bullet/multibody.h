@@ -27,7 +27,7 @@ class MultiBody {
   /// Poses and velocities into Bullet; forces cleared.
   void set(const RobotState& state, const Kinematics& kinematics);
   /// Forces for the next accelerate: world axes; joints N m.
-  void add_force(std::size_t link, const Vec3& arm_from_com, const Vec3& force);
+  void add_force(std::size_t link, const Vec3& arm_from_com, const Vec3& force, const Vec3& torque = Vec3::Zero());
   void add_weight(const Vec3& gravity);
   void add_torque(std::size_t joint, double torque) { body_.addJointTorque(index_of_joint_[joint], torque); }
   void accelerate(const RobotState& state, Acceleration& out);

@@ -30,6 +30,8 @@ Attachment attachment(const Robot& robot, std::size_t b) {
 
 }  // namespace
 
+std::string dock_name(std::size_t module) { return "m" + std::to_string(module) + "/dock"; }
+
 BodyTree::BodyTree(const Robot& robot) {
   std::vector<std::vector<std::size_t>> children(robot.bodies.size());
   for (std::size_t b = 0; b < robot.bodies.size(); ++b) {

@@ -1,6 +1,7 @@
 // What every body hangs on: a hinge of its module, or the dock of its module. The bodies of a link stay apart here.
 #pragma once
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "core/model/robot.h"
@@ -19,5 +20,8 @@ struct BodyTree {
   std::vector<Attachment> attachments;  ///< one a body
   std::vector<std::size_t> order;       ///< all bodies, a parent before its children
 };
+
+/// `m3/dock`: a module's dock on its parent. No hinge is called dock (core/scenario/module_file).
+std::string dock_name(std::size_t module);
 
 }  // namespace gaitlab

@@ -2,7 +2,6 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <algorithm>
 
 #include "core/math/functions.h"
 
@@ -41,9 +40,13 @@ inline Mat3 rpy(const Vec3& roll_pitch_yaw) {
       .toRotationMatrix();
 }
 
-/// The inverse of rpy; pitch in [-pi/2, pi/2].
+/// The inverse of rpy; pitch in [-pi/2, pi/2]. Exact to rounding at a pitch of +-pi/2, too, where roll and yaw are one turn:
+/// there yaw is whatever rounding says, and roll is what is left of R without it.
 inline Vec3 to_rpy(const Mat3& R) {
-  return {math::atan2(R(2, 1), R(2, 2)), math::asin(std::clamp(-R(2, 0), -1.0, 1.0)), math::atan2(R(1, 0), R(0, 0))};
+  const double yaw = math::atan2(R(1, 0), R(0, 0));
+  const auto [s, c] = math::sincos(yaw);
+  return {math::atan2(s * R(0, 2) - c * R(1, 2), c * R(1, 1) - s * R(0, 1)), math::atan2(-R(2, 0), c * R(0, 0) + s * R(1, 0)),
+          yaw};
 }
 
 }  // namespace gaitlab

@@ -179,7 +179,10 @@ class ModuleReader {
     FrameFields frame;
     reader.require({"name", "axis", "range"});
     reader.text("name", hinge.name, "Name of the hinge and of its joint.");
-    if (const Node* name = reader.take("name")) check_name(hinge.name, *name);
+    if (const Node* name = reader.take("name")) {
+      check_name(hinge.name, *name);
+      if (hinge.name == "dock") problems_.add(name->place, "a hinge cannot be named dock: that is where the module is docked");
+    }
     hinge.parent = body_of(reader, "parent");
     hinge.child = body_of(reader, "child");
     frame.fields(reader);

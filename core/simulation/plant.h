@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/dynamics/wrench.h"
 #include "core/laws/contact.h"
 #include "core/laws/ground.h"
 #include "core/model/kinematics.h"
@@ -38,6 +39,7 @@ struct Stability {
 struct ContactSample {
   Vec3 force = Vec3::Zero();
   double fn = 0, penetration = 0;
+  Vec3 point = Vec3::Zero();  ///< where the force acts, m, world
 };
 
 /// What the last step applied, for the ledger and not for the trace. Works: J that the robot gave, a lane; every stage's power
@@ -70,6 +72,9 @@ class Plant {
   /// One step of h seconds under held commands (joint * lanes + lane), asking the actuator at every stage the integrator needs.
   virtual void advance(In command, double h) = 0;
   [[nodiscard]] virtual Applied applied() const = 0;
+  /// Forward dynamics by the engine's own algorithm at `state`, not the bound one: accelerations under these joint torques, N
+  /// m, and wrenches on bodies. Weight acts; motors, stops and contacts do not, but for the motors' rotors.
+  virtual void accelerate(const RobotState& state, In torque, std::span<const BodyWrench> wrenches, Acceleration& out) = 0;
   /// Forces of every contact element at the present state.
   virtual void contacts(std::size_t lane, std::span<ContactSample> out) const = 0;
   /// At the present state under these commands. standing: the weight rests in equal parts on the robot's support (support.h),

@@ -2,14 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gaitlab {
 
+namespace {
+
+const std::string kReaction = "reaction.";
+
+}  // namespace
+
 Sample::Sample(const Robot& robot, std::size_t contacts_count, std::size_t cpg_states)
-    : kinematics(robot), orientation(robot.links.size(), Quat::Identity()), contacts(contacts_count), cpg(cpg_states) {
+    : kinematics(robot),
+      orientation(robot.links.size(), Quat::Identity()),
+      contacts(contacts_count),
+      cpg(cpg_states),
+      reactions(robot) {
   for (auto* values : {&state.q, &state.qd, &setpoint, &command, &voltage, &current, &saturation, &torque, &stop_torque,
-                       &power_in, &copper, &gear}) {
+                       &power_in, &copper, &gear, &acceleration_.joints, &applied_}) {
     values->assign(robot.joints.size(), 0.0);
   }
+  ground_.reserve(contacts_count);
 }
 
 void Sample::place(const Robot& robot) {
@@ -20,6 +33,16 @@ void Sample::place(const Robot& robot) {
         orientation[static_cast<std::size_t>(robot.links[i].parent)] * Quat(robot.links[i].in_parent.R) * kinematics.turns[i];
   }
   sums = gaitlab::sums(robot, kinematics, gravity);
+}
+
+void Sample::react(const std::vector<ContactElement>& elements, Plant& plant) {
+  for (std::size_t j = 0; j < applied_.size(); ++j) applied_[j] = torque[j] + stop_torque[j];
+  ground_.clear();
+  for (std::size_t c = 0; c < elements.size(); ++c) {
+    if (contacts[c].fn > 0) ground_.push_back({elements[c].body, contacts[c].point, contacts[c].force});
+  }
+  plant.accelerate(state, applied_, ground_, acceleration_);
+  reactions.update(kinematics, acceleration_, gravity, ground_);
 }
 
 Probes::Probes(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg,
@@ -35,6 +58,7 @@ Probes::Probes(const Scenario& scenario, const std::vector<ContactElement>& cont
     add("cpg." + cpg->state_name(i), "", "state of the CPG", [i](const Sample& s) { return s.cpg[i]; });
   }
   add_energy();
+  add_reactions(robot);
   select(scenario);
 }
 
@@ -137,6 +161,27 @@ void Probes::add_energy() {
              [](const Sample& s) { return s.sums.angular_momentum; });
 }
 
+void Probes::add_wrench(const std::string& name, const std::string& of, std::function<const Wrench&(const Sample&)> read) {
+  add_vector(name + ".f", "N", "force" + of, [read](const Sample& s) { return read(s).force; });
+  add_vector(name + ".m", "N m", "moment" + of, [read](const Sample& s) { return read(s).moment; });
+}
+
+void Probes::add_reactions(const Robot& robot) {
+  add_wrench(kReaction + "base", " from outside on the base, about its frame's origin, world axes; 0 where it floats",
+             [](const Sample& s) -> const Wrench& { return s.reactions.base(); });
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    add_wrench(kReaction + std::to_string(j),
+               " of the parent on the child at hinge " + robot.joints[j].name + ", about its origin, world axes",
+               [j](const Sample& s) -> const Wrench& { return s.reactions.hinge(j); });
+  }
+  for (std::size_t m = 1; m < robot.modules.size(); ++m) {
+    add_wrench(
+        kReaction + dock_name(m),
+        " of the parent on module " + std::to_string(m) + " at its dock, about the docked " + "faces' origin, world axes",
+        [m](const Sample& s) -> const Wrench& { return s.reactions.dock(m); });
+  }
+}
+
 void Probes::select(const Scenario& scenario) {
   std::vector<bool> wanted(columns_.size(), false);
   wanted[0] = true;
@@ -154,7 +199,7 @@ void Probes::select(const Scenario& scenario) {
     problems.add(scenario.place("trace.columns"),
                  fmt::format("'{}' matches no column{}", pattern,
                              near.empty() ? "; groups are t, joint, base, com, contact, body, cpg, "
-                                            "energy, momentum, angular_momentum"
+                                            "energy, momentum, angular_momentum, reaction"
                                           : "; did you mean '" + near + "'?"));
   }
   problems.raise();
@@ -168,6 +213,7 @@ void Probes::select(const Scenario& scenario) {
     ++kept;
   }
   columns_.resize(kept);
+  want_reactions_ = std::ranges::any_of(columns_, [](const Column& c) { return c.name.starts_with(kReaction); });
   reads_.resize(kept);
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/dynamics/inverse_dynamics.h"
 #include "core/scenario/scenario.h"
 #include "core/simulation/ledger.h"
 #include "core/simulation/plant.h"
@@ -15,6 +16,8 @@ namespace gaitlab {
 struct Sample {
   explicit Sample(const Robot& robot, std::size_t contacts, std::size_t cpg_states);
   void place(const Robot& robot);  ///< fills kinematics, link orientations and sums from state
+  /// Fills reactions from what is known here and the accelerations that `plant` gives for it.
+  void react(const std::vector<ContactElement>& elements, Plant& plant);
 
   double t = 0;
   RobotState state;
@@ -26,6 +29,12 @@ struct Sample {
   std::vector<ContactSample> contacts;
   std::vector<double> cpg;
   Ledger ledger;
+  InverseDynamics reactions;  ///< at hinges, docks and base: motors, stops and contacts acting; only after react
+
+ private:
+  Acceleration acceleration_;
+  std::vector<double> applied_;
+  std::vector<BodyWrench> ground_;
 };
 
 class Probes {
@@ -36,6 +45,8 @@ class Probes {
          const Sample& first);
 
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
+  /// Whether a column reads Sample::reactions.
+  [[nodiscard]] bool want_reactions() const { return want_reactions_; }
   void fill(const Sample& sample, Out row) const;
 
  private:
@@ -48,10 +59,13 @@ class Probes {
   void add_contacts(const std::vector<ContactElement>& contacts);
   void add_bodies(const Robot& robot, const Sample& first);
   void add_energy();
+  void add_wrench(const std::string& name, const std::string& of, std::function<const Wrench&(const Sample&)> read);
+  void add_reactions(const Robot& robot);
   void select(const Scenario& scenario);
 
   std::vector<Column> columns_;
   std::vector<Read> reads_;
+  bool want_reactions_ = false;
 };
 
 }  // namespace gaitlab

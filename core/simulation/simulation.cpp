@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/laws/hinge_stop.h"
+#include "core/simulation/start.h"
 #include "core/simulation/start_check.h"
 #include "core/simulation/step_advice.h"
 
@@ -144,20 +145,8 @@ void Simulation::set_start() {
     Sample& sample = lane.sample;
     sample.gravity = s.physics.gravity;
     RobotState& start = sample.state;
-    start.orientation = Quat(rpy(s.orientation)).normalized();
-    if (start.orientation.w() < 0) start.orientation.coeffs() *= -1;
-    start.position = s.position;
-    start.velocity = s.initial.base_velocity;
-    start.angular_velocity = s.initial.base_angular_velocity;
-    for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
-      start.q[j] = s.initial.angles[j];
-      start.qd[j] = s.initial.speeds[j];
-    }
+    start = start_state(s);
     sample.place(robot_);
-    if (s.on_ground && s.ground.kind != Ground::Kind::none) {
-      start.position.z() -= lowest_point(robot_, sample.kinematics, contacts_);
-      sample.place(robot_);
-    }
     layout_.write(start, l, plant_state_);
     lane.energy_at_start = energy(sample, l);
     // No command yet: set point = angle, command 0.
@@ -260,7 +249,8 @@ void Simulation::record() {
   }
   for (std::size_t l = 0; l < lanes_.size(); ++l) {
     Lane& lane = *lanes_[l];
-    const Sample& s = take_sample(lane, l);
+    Sample& s = take_sample(lane, l);
+    if (lane.probes->want_reactions()) s.react(contacts_, *plant_);
     RunRecord& r = lane.record;
     r.ledger = s.ledger;
     r.trace.values.resize(r.trace.values.size() + r.trace.columns.size());

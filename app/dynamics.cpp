@@ -1,0 +1,89 @@
+// One evaluation of the dynamics: a state in, accelerations or torques out, as JSON.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/app.h"
+#include "core/dynamics/mass_matrix.h"
+#include "core/scenario/state_file.h"
+#include "core/simulation/plant.h"
+#include "core/simulation/start.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+/// Shortest text that reads back to the same double, as JSON: {fmt}'s default form.
+std::string list(In values) { return fmt::format("[{}]", fmt::join(values, ", ")); }
+std::string list(const Eigen::VectorXd& v) { return list(In(v.data(), static_cast<std::size_t>(v.size()))); }
+std::string list(const Vec3& v) { return list(In(v.data(), 3)); }
+
+std::string wrench(const Wrench& w) { return fmt::format("{{\"force\": {}, \"torque\": {}}}", list(w.force), list(w.moment)); }
+
+void check_finite(const Eigen::VectorXd& result) {
+  if (!result.allFinite())
+    throw RunError("the dynamics give no finite number: a hinge moves no inertia, or the state is too far out");
+}
+
+/// Accelerations under the input's torques and wrenches, by the scenario's engine.
+Acceleration forward(const Scenario& scenario, const DynamicsInput& input) {
+  PlantSettings settings;
+  settings.robot = scenario.robot;
+  settings.base = scenario.base;
+  settings.gravity = scenario.physics.gravity;
+  settings.ground.kind = Ground::Kind::none;
+  settings.integrator = scenario.physics.integrator;
+  const std::unique_ptr<Plant> plant = scenario.physics.engine->make(settings);
+  Acceleration acceleration;
+  acceleration.joints.resize(input.tau.size());
+  plant->accelerate(input.state, input.tau, input.wrenches, acceleration);
+  return acceleration;
+}
+
+void print_forward(const Scenario& s, const DynamicsInput& input, const Kinematics& k) {
+  const Acceleration a = forward(s, input);
+  MassMatrix mass(*s.robot, s.base);
+  mass.update(k);
+  InverseDynamics at_rest(*s.robot);
+  Acceleration none;
+  none.joints.assign(input.tau.size(), 0.0);
+  at_rest.update(k, none, s.physics.gravity, input.wrenches);
+  const Eigen::VectorXd bias = generalised_force(at_rest, s.base);
+  Eigen::VectorXd all(6 + static_cast<Eigen::Index>(a.joints.size()));
+  all << a.linear, a.angular, Eigen::Map<const Eigen::VectorXd>(a.joints.data(), static_cast<Eigen::Index>(a.joints.size()));
+  check_finite(all);
+  check_finite(bias);
+  std::vector<std::string> rows;
+  for (const auto& row : mass.matrix().rowwise()) rows.push_back("    " + list(Eigen::VectorXd(row.transpose())));
+  fmt::print("{{\n  \"qdd\": {},\n  \"base\": {{\"acceleration\": {}, \"angular_acceleration\": {}}},\n", list(a.joints),
+             list(a.linear), list(a.angular));
+  fmt::print("  \"mass_matrix\": [\n{}\n  ],\n  \"bias\": {}\n}}\n", fmt::join(rows, ",\n"), list(bias));
+}
+
+void print_inverse(const Scenario& s, const DynamicsInput& input, const Kinematics& k) {
+  const Robot& robot = *s.robot;
+  InverseDynamics dynamics(robot);
+  dynamics.update(k, input.acceleration, s.physics.gravity, input.wrenches);
+  check_finite(generalised_force(dynamics, Base::floating));
+  std::vector<std::string> reactions;
+  const auto add = [&](const std::string& name, const Wrench& w) {
+    reactions.push_back(fmt::format("    \"{}\": {}", name, wrench(w)));
+  };
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) add(robot.joints[j].name, dynamics.hinge(j));
+  for (std::size_t m = 1; m < robot.modules.size(); ++m) add(dock_name(m), dynamics.dock(m));
+  fmt::print("{{\n  \"tau\": {},\n  \"base_wrench\": {},\n  \"reactions\": {{\n{}\n  }}\n}}\n", list(dynamics.torques()),
+             wrench(dynamics.base()), fmt::join(reactions, ",\n"));
+}
+
+}  // namespace
+
+int dynamics(const DynamicsArguments& arguments) {
+  Catalog catalog = standard_catalog();
+  const Scenario scenario = read(arguments, catalog);
+  const DynamicsInput input = read_state_file(arguments.state, *scenario.robot, scenario.base, start_state(scenario));
+  Kinematics kinematics(*scenario.robot);
+  kinematics.update(*scenario.robot, input.state);
+  (arguments.inverse ? print_inverse : print_forward)(scenario, input, kinematics);
+  return 0;
+}
+
+}  // namespace gaitlab::app

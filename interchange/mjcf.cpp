@@ -1,0 +1,240 @@
+#include "interchange/mjcf.h"
+
+#include <fmt/format.h>
+
+#include "core/simulation/start.h"
+#include "interchange/robot_xml.h"
+
+namespace gaitlab {
+
+namespace {
+
+using namespace interchange;
+
+// MuJoCo wants mass and inertia above 1e-15 of whatever a joint moves.
+constexpr double kMassless = 2e-15;
+constexpr double kPointSize = 0.001;  // m, drawn
+
+std::string text(const Quat& q) { return interchange::text({q.w(), q.x(), q.y(), q.z()}); }
+
+void set_pose(tinyxml2::XMLElement& element, const Pose& pose) {
+  set(element, "pos", interchange::text(pose.p));
+  set(element, "quat", text(Quat(pose.R)));
+}
+
+class Mjcf {
+ public:
+  explicit Mjcf(const Scenario& s) : s_(s), robot_(*s.robot), start_(start_state(s)), tree_(robot_), limits_(motor_limits(s)) {}
+
+  std::string write() {
+    tinyxml2::XMLElement& root = add(document_, "mujoco");
+    set(root, "model", s_.name);
+    comment(root,
+            fmt::format("Written by gaitlab. Not in this file, because MJCF does not hold it:{} Geoms touch nothing: those of "
+                        "group 3 are the contact elements (points are drawn as spheres of {} m), each with a site.{}",
+                        left_out(s_), interchange::text({kPointSize}), massless()));
+    write_options(root);
+    tinyxml2::XMLElement& world = add(root, "worldbody");
+    if (s_.ground.kind == Ground::Kind::plane) {
+      tinyxml2::XMLElement& ground = geom(world, "ground", "plane", "0 0 1");
+      set(ground, "group", "2");
+    }
+    elements_.resize(robot_.bodies.size());
+    for (ContactElement& e : contact_elements(robot_, static_cast<ContactSet>(s_.contact.on))) {
+      elements_[e.body].push_back(std::move(e));
+    }
+    std::vector<tinyxml2::XMLElement*> bodies(robot_.bodies.size());
+    for (const std::size_t b : tree_.order) {
+      const Attachment& at = tree_.attachments[b];
+      bodies[b] = &write_body(at.kind == Attachment::Kind::base ? world : *bodies[at.parent], b);
+    }
+    write_motors(root);
+    write_start(root);
+    return print(document_);
+  }
+
+ private:
+  void write_options(tinyxml2::XMLElement& root) {
+    tinyxml2::XMLElement& compiler = add(root, "compiler");
+    set(compiler, "angle", "radian");
+    set(compiler, "inertiafromgeom", "false");
+    tinyxml2::XMLElement& option = add(root, "option");
+    set(option, "timestep", interchange::text({s_.physics.step}));
+    set(option, "gravity", interchange::text(s_.physics.gravity));
+    set(option, "integrator", "RK4");
+    tinyxml2::XMLElement& drawn = add(add(root, "default"), "geom");
+    set(drawn, "contype", "0");
+    set(drawn, "conaffinity", "0");
+    set(drawn, "group", "1");
+  }
+
+  tinyxml2::XMLElement& write_body(tinyxml2::XMLElement& parent, std::size_t b) {
+    const Body& body = robot_.bodies[b];
+    const Attachment& at = tree_.attachments[b];
+    tinyxml2::XMLElement& element = add(parent, "body");
+    set(element, "name", body.name);
+    if (at.kind == Attachment::Kind::base) {
+      set(element, "pos", interchange::text(start_.position));
+      set(element, "quat", text(start_.orientation));
+      write_base_joints(element);
+    } else {
+      const Body& on = robot_.bodies[at.parent];
+      const Pose step = at.kind == Attachment::Kind::hinge ? robot_.links[body.link].in_parent : Pose{};
+      set_pose(element, on.in_link.inverse() * step * body.in_link);
+      if (at.kind == Attachment::Kind::hinge) write_hinge(element, body, at.index);
+    }
+    write_inertia(element, body, at.kind);
+    draw(element, body);
+    for (const ContactElement& e : elements_[b]) draw(element, e, body);
+    return element;
+  }
+
+  /// The base's joints turn and shift a body that stands as the scenario starts it: world axes are R^T e there.
+  void write_base_joints(tinyxml2::XMLElement& element) {
+    if (s_.base == Base::floating) set(add(element, "freejoint"), "name", "base");
+    if (s_.base != Base::planar) return;
+    const Mat3 R = start_.orientation.toRotationMatrix();
+    const auto joint = [&](const char* name, const char* type, const Vec3& axis) {
+      tinyxml2::XMLElement& j = add(element, "joint");
+      set(j, "name", name);
+      set(j, "type", type);
+      set(j, "axis", interchange::text(Vec3(R.transpose() * axis)));
+    };
+    joint("base/x", "slide", Vec3::UnitX());
+    joint("base/z", "slide", Vec3::UnitZ());
+    joint("base/turn", "hinge", Vec3::UnitY());
+  }
+
+  void write_hinge(tinyxml2::XMLElement& element, const Body& body, std::size_t j) {
+    const Joint& joint = robot_.joints[j];
+    const Pose hinge = body.in_link.inverse();  // the link's frame is the hinge's
+    tinyxml2::XMLElement& e = add(element, "joint");
+    set(e, "name", joint.name);
+    set(e, "type", "hinge");
+    set(e, "pos", interchange::text(hinge.p));
+    set(e, "axis", interchange::text(Vec3(hinge.R * robot_.links[body.link].axis)));
+    set(e, "limited", "true");
+    set(e, "range", interchange::text({joint.lo, joint.hi}));
+    if (!limits_.empty() && limits_[j].armature > 0) set(e, "armature", interchange::text({limits_[j].armature}));
+  }
+
+  const BodyType& type(const Body& body) const { return robot_.types[robot_.modules[body.module].type].bodies[body.type]; }
+  std::string massless() const {
+    std::string names;
+    for (const Body& body : robot_.bodies) {
+      if (!(type(body).mass > 0)) names += (names.empty() ? "" : ", ") + body.name;
+    }
+    if (names.empty()) return "";
+    return fmt::format(" MuJoCo moves no body without mass: {} kg and kg m^2 stand in for 0 in {}.", kMassless, names);
+  }
+
+  void write_inertia(tinyxml2::XMLElement& element, const Body& body, Attachment::Kind kind) {
+    const BodyType& t = type(body);
+    const bool none = !(t.mass > 0);
+    if (none && kind != Attachment::Kind::hinge) return;
+    const Mat3 I = none ? Mat3(kMassless * Mat3::Identity()) : t.inertia;
+    tinyxml2::XMLElement& e = add(element, "inertial");
+    set(e, "pos", interchange::text(t.com));
+    set(e, "mass", interchange::text({none ? kMassless : t.mass}));
+    set(e, "fullinertia", interchange::text({I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)}));
+  }
+
+  static tinyxml2::XMLElement& geom(tinyxml2::XMLElement& parent, const std::string& name, const char* type,
+                                    const std::string& size) {
+    tinyxml2::XMLElement& e = add(parent, "geom");
+    if (!name.empty()) set(e, "name", name);
+    set(e, "type", type);
+    set(e, "size", size);
+    return e;
+  }
+
+  void draw(tinyxml2::XMLElement& element, const Body& body) {
+    for (const Shape& shape : type(body).shapes) {
+      Pose pose = shape.in_body;
+      if (shape.kind == Shape::Kind::box) {
+        set_pose(geom(element, "", "box", interchange::text(Vec3(shape.size / 2))), pose);
+      } else if (shape.kind == Shape::Kind::sphere) {
+        set_pose(geom(element, "", "sphere", interchange::text({shape.size.x()})), pose);
+      } else {  // MuJoCo has no half cylinder: a whole one, whose other half is inside the body
+        pose.R = pose.R * y_from_z();
+        set_pose(geom(element, "", "cylinder", interchange::text({shape.size.x(), shape.size.y() / 2})), pose);
+      }
+    }
+  }
+
+  void draw(tinyxml2::XMLElement& element, const ContactElement& contact, const Body& body) {
+    const std::string pos = interchange::text(body.in_link.inverse() * contact.centre);
+    const std::string size = interchange::text({contact.radius > 0 ? contact.radius : kPointSize});
+    tinyxml2::XMLElement& e = geom(element, contact.name, "sphere", size);
+    set(e, "pos", pos);
+    set(e, "group", "3");
+    tinyxml2::XMLElement& site = add(element, "site");
+    set(site, "name", contact.name);
+    set(site, "pos", pos);
+    set(site, "size", interchange::text({kPointSize}));
+    set(site, "group", "3");
+  }
+
+  /// The controls are torques on the joints.
+  void write_motors(tinyxml2::XMLElement& root) {
+    if (limits_.empty()) return;
+    tinyxml2::XMLElement& actuator = add(root, "actuator");
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+      tinyxml2::XMLElement& e = add(actuator, "motor");
+      set(e, "name", robot_.joints[j].name);
+      set(e, "joint", robot_.joints[j].name);
+      set(e, "ctrllimited", "true");
+      set(e, "ctrlrange", interchange::text({-limits_[j].effort, limits_[j].effort}));
+    }
+  }
+
+  /// A free joint's angular velocity is in the body's axes.
+  void write_start(tinyxml2::XMLElement& root) {
+    std::vector<double> q;
+    std::vector<double> v;
+    const Vec3& p = start_.position;
+    const Quat& turn = start_.orientation;
+    const Vec3& velocity = start_.velocity;
+    if (s_.base == Base::floating) {
+      const Vec3 w = turn.conjugate() * start_.angular_velocity;
+      q = {p.x(), p.y(), p.z(), turn.w(), turn.x(), turn.y(), turn.z()};
+      v = {velocity.x(), velocity.y(), velocity.z(), w.x(), w.y(), w.z()};
+    } else if (s_.base == Base::planar) {
+      q = {0, 0, 0};
+      v = {velocity.x(), velocity.z(), start_.angular_velocity.y()};
+    }
+    // MuJoCo numbers joints as the bodies come, depth first.
+    append_joints(*root.FirstChildElement("worldbody"), q, v);
+    if (q.empty()) return;
+    tinyxml2::XMLElement& key = add(add(root, "keyframe"), "key");
+    set(key, "name", "start");
+    set(key, "qpos", interchange::text(q));
+    set(key, "qvel", interchange::text(v));
+  }
+
+  void append_joints(const tinyxml2::XMLElement& element, std::vector<double>& q, std::vector<double>& v) const {
+    for (const auto* body = element.FirstChildElement("body"); body != nullptr; body = body->NextSiblingElement("body")) {
+      const auto* hinge = body->FirstChildElement("joint");
+      for (std::size_t j = 0; hinge != nullptr && j < robot_.joints.size(); ++j) {
+        if (robot_.joints[j].name != hinge->Attribute("name")) continue;
+        q.push_back(start_.q[j]);
+        v.push_back(start_.qd[j]);
+      }
+      append_joints(*body, q, v);
+    }
+  }
+
+  const Scenario& s_;
+  const Robot& robot_;
+  RobotState start_;
+  BodyTree tree_;
+  std::vector<MotorLimits> limits_;
+  std::vector<std::vector<ContactElement>> elements_;  ///< a body
+  tinyxml2::XMLDocument document_;
+};
+
+}  // namespace
+
+std::string to_mjcf(const Scenario& scenario) { return Mjcf(scenario).write(); }
+
+}  // namespace gaitlab

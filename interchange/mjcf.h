@@ -1,0 +1,15 @@
+// A scenario's robot for MuJoCo.
+#pragma once
+#include <string>
+
+#include "core/scenario/scenario.h"
+
+namespace gaitlab {
+
+/// MJCF (MuJoCo 2.2 and later) of the robot as the scenario starts it: one MuJoCo body for each of the robot's, docked ones
+/// without a joint between them; full inertia tensors; hinges with their ranges; a free, planar (slide x, slide z, hinge y) or
+/// fixed base; the start as keyframe `start`; gravity, step and RK4; shapes and contact elements as geoms that touch nothing;
+/// motors as torques. What MJCF cannot hold is said in a comment at its top. Numbers read back to the same doubles.
+std::string to_mjcf(const Scenario& scenario);
+
+}  // namespace gaitlab

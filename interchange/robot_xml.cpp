@@ -1,0 +1,111 @@
+#include "interchange/robot_xml.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+
+#include "core/laws/hinge_stop.h"
+#include "core/plugin/actuator.h"
+#include "core/scenario/value.h"
+
+namespace gaitlab::interchange {
+
+namespace {
+
+template <class Numbers>
+std::string joined_numbers(const Numbers& numbers) {
+  std::string out;
+  for (const double x : numbers) out += (out.empty() ? "" : " ") + number_text(x + 0.0);  // no -0
+  return out;
+}
+
+/// Speed at which the torque of joint j under `command` vanishes, rad/s; 0 where it never does.
+double no_load_speed(const Actuator& actuator, const std::vector<double>& command, std::size_t j) {
+  std::vector<double> speed(command.size(), 0.0);
+  std::vector<double> torque(command.size());
+  std::vector<double> slope(command.size());
+  const auto drives = [&](double w) {
+    speed[j] = w;
+    actuator.effort(command, speed, torque, slope);
+    return torque[j] > 0;
+  };
+  double lo = 0;
+  double hi = 1e6;  // rad/s on a joint: nothing turns faster
+  if (drives(hi)) return 0;
+  for (int i = 0; i < 200 && lo < hi; ++i) {  // ends where no double lies between
+    const double middle = lo + (hi - lo) / 2;
+    if (middle <= lo || middle >= hi) break;
+    (drives(middle) ? lo : hi) = middle;
+  }
+  return hi;
+}
+
+}  // namespace
+
+std::string text(std::initializer_list<double> numbers) { return joined_numbers(numbers); }
+std::string text(const std::vector<double>& numbers) { return joined_numbers(numbers); }
+
+Mat3 y_from_z() {
+  Mat3 R;
+  R << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  return R;
+}
+
+tinyxml2::XMLElement& add(tinyxml2::XMLNode& parent, const char* name) {
+  tinyxml2::XMLElement* element = parent.GetDocument()->NewElement(name);
+  parent.InsertEndChild(element);
+  return *element;
+}
+
+void comment(tinyxml2::XMLNode& parent, std::string words) {
+  for (std::size_t at = words.find("--"); at != std::string::npos; at = words.find("--")) words.erase(at, 1);
+  parent.InsertEndChild(parent.GetDocument()->NewComment((" " + words + " ").c_str()));
+}
+
+std::string print(const tinyxml2::XMLDocument& document) {
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  return printer.CStr();
+}
+
+std::vector<MotorLimits> motor_limits(const Scenario& scenario) {
+  if (scenario.actuator.entry == nullptr) return {};
+  const std::array<const void*, 1> settings{scenario.actuator.settings.get()};
+  const std::unique_ptr<Actuator> actuator(
+      static_cast<Actuator*>(scenario.actuator.entry->make(info(*scenario.robot), settings)));
+  const std::size_t joints = scenario.robot->joints.size();
+  const std::vector<double> command(actuator->command_limit().begin(), actuator->command_limit().end());
+  const std::vector<double> rest(joints, 0.0);
+  std::vector<double> torque(joints);
+  std::vector<double> slope(joints);
+  actuator->effort(command, rest, torque, slope);
+  const In rotors = actuator->reflected_inertia();
+  std::vector<MotorLimits> limits(joints);
+  for (std::size_t j = 0; j < joints; ++j) {
+    limits[j] = {torque[j], no_load_speed(*actuator, command, j), rotors.empty() ? 0 : rotors[j]};
+  }
+  return limits;
+}
+
+std::string left_out(const Scenario& s) {
+  std::string out;
+  if (s.ground.kind != Ground::Kind::none && s.contact.on != static_cast<int>(ContactSet::none)) {
+    out += fmt::format(
+        " Contact: a penalty force Fn = Kn p^k + Cd p^d p', Kn = {}, k = {}, Cd = {}, d = {}, and friction {} Fn with its "
+        "slope up to "
+        "{} m/s, on the contact elements.",
+        number_text(s.contact.penalty.kn), number_text(s.contact.penalty.k), number_text(s.contact.penalty.cd),
+        number_text(s.contact.penalty.d), number_text(s.ground.friction), number_text(s.contact.penalty.v_lim));
+  }
+  const auto name = [](const Choice& choice) { return choice.entry == nullptr ? "none" : std::string(choice.entry->name); };
+  if (s.actuator.entry != nullptr) {
+    out += fmt::format(" Drive: actuator {} behind controller {}, sampled every {} s.", name(s.actuator), name(s.controller),
+                       number_text(s.control_period));
+  }
+  if (s.cpg.entry != nullptr) out += fmt::format(" Gait: cpg {}.", name(s.cpg));
+  return out + fmt::format(" Hinge stops: a spring of {} N m/rad and a damper of {} N m s/rad outside the range.",
+                           number_text(HingeStop::kStiffness), number_text(HingeStop::kDamping));
+}
+
+}  // namespace gaitlab::interchange
