@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "core/model/principal_axes.h"
 #include "core/simulation/start.h"
 #include "interchange/robot_xml.h"
 
@@ -119,24 +122,33 @@ class Mjcf {
   }
 
   const BodyType& type(const Body& body) const { return robot_.types[robot_.modules[body.module].type].bodies[body.type]; }
+  /// Mass and moments below what MuJoCo moves (a moment of a rod about itself, say) are raised to it.
+  static bool raised(const BodyType& t) {
+    Vec3 moments;
+    principal_axes(t.inertia, moments);
+    return t.mass < kMassless || moments.minCoeff() < kMassless;
+  }
   std::string massless() const {
     std::string names;
     for (const Body& body : robot_.bodies) {
-      if (!(type(body).mass > 0)) names += (names.empty() ? "" : ", ") + body.name;
+      if (raised(type(body))) names += (names.empty() ? "" : ", ") + body.name;
     }
     if (names.empty()) return "";
-    return fmt::format(" MuJoCo moves no body without mass: {} kg and kg m^2 stand in for 0 in {}.", kMassless, names);
+    return fmt::format(" MuJoCo moves no body without mass and moments of inertia: {} kg and kg m^2 stand in for 0 in {}.",
+                       kMassless, names);
   }
 
   void write_inertia(tinyxml2::XMLElement& element, const Body& body, Attachment::Kind kind) {
     const BodyType& t = type(body);
-    const bool none = !(t.mass > 0);
-    if (none && kind != Attachment::Kind::hinge) return;
-    const Mat3 I = none ? Mat3(kMassless * Mat3::Identity()) : t.inertia;
+    if (!(t.mass > 0) && kind != Attachment::Kind::hinge) return;
     tinyxml2::XMLElement& e = add(element, "inertial");
     set(e, "pos", interchange::text(t.com));
-    set(e, "mass", interchange::text({none ? kMassless : t.mass}));
-    set(e, "fullinertia", interchange::text({I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)}));
+    set(e, "mass", interchange::text({std::max(t.mass, kMassless)}));
+    // MuJoCo takes whole tensors, too, but turns them with errors of 1e-12 kg m^2: principal axes are exact.
+    Vec3 moments;
+    const Mat3 axes = principal_axes(t.inertia, moments);
+    set(e, "quat", text(Quat(axes)));
+    set(e, "diaginertia", interchange::text(Vec3(moments.cwiseMax(kMassless))));
   }
 
   static tinyxml2::XMLElement& geom(tinyxml2::XMLElement& parent, const std::string& name, const char* type,

@@ -1,25 +1,10 @@
 #include "physics_bullet/multibody.h"
 
-#include <Eigen/Eigenvalues>
+#include "core/model/principal_axes.h"
 
 namespace gaitlab::bullet {
 
 namespace {
-
-/// Bullet's links move about their COM with a diagonal inertia: the principal frame, right-handed. Already diagonal: unturned,
-/// so that no rounding enters where none is needed.
-Mat3 principal_axes(const Mat3& inertia, Vec3& moments) {
-  const Mat3 off = inertia - Mat3(inertia.diagonal().asDiagonal());
-  if (off.cwiseAbs().maxCoeff() <= 1e-15 * inertia.diagonal().cwiseAbs().maxCoeff()) {
-    moments = inertia.diagonal();
-    return Mat3::Identity();
-  }
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(inertia);
-  Mat3 axes = solver.eigenvectors();
-  if (axes.determinant() < 0) axes.col(2) *= -1;
-  moments = solver.eigenvalues();
-  return axes;
-}
 
 int links_of(const Robot& robot, Base base) { return static_cast<int>(robot.links.size()) + (base == Base::planar ? 2 : -1); }
 
@@ -37,6 +22,7 @@ MultiBody::MultiBody(const Robot& robot, Base base, const std::vector<ContactEle
             btVector3(0, 0, 0), base != Base::floating, /*canSleep=*/false),
       force_(6 + static_cast<std::size_t>(links_of(robot, base))),
       output_(force_.size()) {
+  // Bullet's links move about their COM with a diagonal inertia: the principal frame.
   for (std::size_t i = 0; i < robot.links.size(); ++i) principal_[i] = principal_axes(robot.links[i].inertia, moments_[i]);
   set_up_root();
   for (std::size_t i = 1; i < robot.links.size(); ++i) set_up_link(i);
