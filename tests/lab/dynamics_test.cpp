@@ -205,7 +205,7 @@ trace: {period: 0.015, columns: [reaction.*, joint.*.speed]}
 
 /// A walking robot: along the axis a hinge carries what its motor and stop give; the base floats, so nothing holds it.
 TEST(ReactionColumns, CarryMotorAndStopTorquesAndNothingHoldsTheBase) {
-  Scenario walking = shipped("caterpillar.yaml", {"duration=0.3", "trace.period=0.015"});
+  Scenario walking = shipped("caterpillar.yaml", {"duration=0.2", "trace.period=0.02", "controller.period=0.02"});
   walking.trace.columns = {"*"};
   const RunRecord record = run(walking);
   const Table table(record.trace);
@@ -230,6 +230,21 @@ TEST(ReactionColumns, CarryMotorAndStopTorquesAndNothingHoldsTheBase) {
     }
   }
   EXPECT_GT(touching, 0);
+}
+
+/// A rotor takes part of its motor's torque for itself, and nothing from the ground.
+TEST(ReactionColumns, BalanceWithRotors) {
+  Scenario walking = shipped("caterpillar.yaml",
+                             {"duration=0.06", "trace.period=0.02", "controller.period=0.02", "actuator.rotor_inertia=1e-8"});
+  walking.trace.columns = {"reaction.base.*", "reaction.3.*", "joint.3.*"};
+  const RunRecord record = run(walking);
+  const Table table(record.trace);
+  for (std::size_t row = 0; row < record.trace.rows(); ++row) {
+    for (const char* axis : {"fx", "fy", "fz", "mx", "my", "mz"}) {
+      EXPECT_NEAR(table.at(row, std::string("reaction.base.") + axis), 0, 1e-8);
+    }
+  }
+  EXPECT_GT(std::abs(table.at(1, "reaction.3.my") - table.at(1, "joint.3.torque")), 1e-6);
 }
 
 /// Asking for more columns changes nothing else.
