@@ -26,14 +26,14 @@ class RandomRobots {
   Mat3 rotation() { return turn(direction(), uniform(-3, 3)).toRotationMatrix(); }
 
   /// 1 to `largest` modules; every second robot has modules of made-up types among them.
-  Robot robot(std::size_t largest = 10) {
+  Robot robot(std::size_t largest = 10) { return robot_of(1 + below(largest)); }
+  Robot robot_of(std::size_t count) {
     for (;;) {
       std::vector<ModuleType> types{mtran()};
       if (below(2) == 1) {
         types.push_back(type("first"));
         types.push_back(type("second"));
       }
-      const std::size_t count = 1 + below(largest);
       std::vector<std::size_t> type_of;
       for (std::size_t i = 0; i < count; ++i) type_of.push_back(below(types.size()));
       try {

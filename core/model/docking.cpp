@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
 #include <set>
 
 #include "core/model/kinematics.h"
@@ -155,6 +154,19 @@ double half_cell(const ModuleType& type) {
   return 0;
 }
 
+/// The module whose cells those of `module` continue: the first one up the tree behind which every dock keeps the lattice.
+std::size_t lattice_of(const Robot& robot, std::size_t module) {
+  const auto half = [&](std::size_t m) {
+    const ModuleType& type = robot.types[robot.modules[m].type];
+    return type.lattice ? half_cell(type) : 0;
+  };
+  for (int parent = robot.modules[module].parent; parent >= 0; parent = robot.modules[module].parent) {
+    if (half(static_cast<std::size_t>(parent)) != half(module)) break;
+    module = static_cast<std::size_t>(parent);
+  }
+  return module;
+}
+
 }  // namespace
 
 void check_docks(const std::vector<ModuleType>& types, const std::vector<std::size_t>& type_of,
@@ -165,8 +177,7 @@ void check_docks(const std::vector<ModuleType>& types, const std::vector<std::si
 void check_cells(const Robot& robot) {
   const Kinematics kinematics = at_zero(robot);
   Problems problems;
-  std::map<std::array<long, 3>, const Body*> cells;
-  std::optional<Vec3> first;
+  std::map<std::pair<std::size_t, std::array<long, 3>>, const Body*> cells;
   for (const Body& body : robot.bodies) {
     const Module& module = robot.modules[body.module];
     const ModuleType& type = robot.types[module.type];
@@ -174,11 +185,16 @@ void check_cells(const Robot& robot) {
     const auto face =
         std::find_if(type.faces.begin(), type.faces.end(), [&](const FaceType& f) { return f.body == body.type; });
     if (!type.lattice || face == type.faces.end() || !(half > 0)) continue;
-    const Vec3 centre = kinematics.point(body.link, body.in_link * (face->origin - half * face->normal));
-    if (!first) first = centre;  // cells are counted from the first block's centre
+    // Cells are counted from a block of the lattice's first module and along its axes.
+    const std::size_t lattice = lattice_of(robot, body.module);
+    const FaceType& zero = robot.types[robot.modules[lattice].type].faces.front();
+    const Body& origin = robot.bodies[robot.modules[lattice].first_body + zero.body];
+    const Pose from{kinematics.R[origin.link] * origin.in_link.R,
+                    kinematics.point(origin.link, origin.in_link * (zero.origin - half * zero.normal))};
+    const Vec3 offset = from.inverse() * kinematics.point(body.link, body.in_link * (face->origin - half * face->normal));
     std::array<long, 3> cell{};
-    for (int i = 0; i < 3; ++i) cell[static_cast<std::size_t>(i)] = std::lround((centre[i] - (*first)[i]) / (2 * half));
-    const auto [at, fresh] = cells.try_emplace(cell, &body);
+    for (int i = 0; i < 3; ++i) cell[static_cast<std::size_t>(i)] = std::lround(offset[i] / (2 * half));
+    const auto [at, fresh] = cells.try_emplace({lattice, cell}, &body);
     if (fresh) continue;
     problems.add(module.dock.place, fmt::format("overlapping cells: {} and {} are in the same lattice cell at zero angles",
                                                 at->second->name, body.name));
