@@ -176,7 +176,8 @@ TEST(Mujoco, HoldsTheHexapodWithItsNames) {
     const int id = mj_name2id(&m, mjOBJ_BODY, body.name.c_str());
     ASSERT_GE(id, 0) << body.name;
     // Ten turns and sums of numbers below 1.
-    EXPECT_LT((Eigen::Map<const Vec3>(mujoco.data().xpos + 3 * id) - k.point(body.link, body.in_link.p)).norm(), 1e-14);
+    EXPECT_LT((Eigen::Map<const Vec3>(mujoco.data().xpos + std::ptrdiff_t{3} * id) - k.point(body.link, body.in_link.p)).norm(),
+              1e-14);
   }
   // A contact element's lowest point is on the ground at the start.
   EXPECT_NEAR(mujoco.data().site_xpos[2], 0, 1e-14);
