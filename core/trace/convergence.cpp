@@ -10,12 +10,15 @@ namespace {
 // Below this share of the scale a difference is rounding.
 constexpr double kRounding = 1e-13;
 
-/// Differences to the finest in `error`, and of each to the next in `next`, both relative.
-ConvergenceRow row(const std::string& name, std::vector<double> error, std::span<const double> next) {
-  ConvergenceRow r{name, std::move(error)};
-  const double last = next.back();
-  if (next.size() > 1 && last > kRounding && next[next.size() - 2] > kRounding) {
-    const double order = std::log2(next[next.size() - 2] / last);
+/// Of `count` steps; distance(i, j): |u(h_i) - u(h_j)| / scale.
+template <class Distance>
+ConvergenceRow row(const std::string& name, std::size_t count, Distance&& distance) {
+  ConvergenceRow r{name};
+  for (std::size_t i = 0; i + 1 < count; ++i) r.error.push_back(distance(i, count - 1));
+  const double last = r.error.back();
+  const double before = count > 2 ? distance(count - 3, count - 2) : 0;
+  if (last > kRounding && before > kRounding) {
+    const double order = std::log2(before / last);
     if (order >= 0.2 && order <= 8) r.order = order;
   }
   r.left = last / (std::exp2(r.order.value_or(1)) - 1);
@@ -34,18 +37,11 @@ ConvergenceRow convergence(const std::string& name, std::span<const std::vector<
   double square = 0;
   for (const double x : finest) square += x * x;
   const double scale = square > 0 ? std::sqrt(square) : 1;
-  const auto distance = [&](const std::vector<double>& a, const std::vector<double>& b) {
+  return row(name, values.size(), [&](std::size_t i, std::size_t j) {
     double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+    for (std::size_t k = 0; k < finest.size(); ++k) sum += (values[i][k] - values[j][k]) * (values[i][k] - values[j][k]);
     return std::sqrt(sum) / scale;
-  };
-  std::vector<double> error;
-  std::vector<double> next;
-  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
-    error.push_back(distance(values[i], finest));
-    next.push_back(distance(values[i], values[i + 1]));
-  }
-  return row(name, std::move(error), next);
+  });
 }
 
 std::vector<ConvergenceRow> convergence(std::span<const Trace> traces, const std::vector<std::string>& patterns) {
@@ -57,18 +53,14 @@ std::vector<ConvergenceRow> convergence(std::span<const Trace> traces, const std
     double peak = 0;
     for (std::size_t k = 0; k < finest.rows(); ++k) peak = std::max(peak, std::abs(finest.at(k, c)));
     const double scale = (peak > 0 ? peak : 1) * std::sqrt(static_cast<double>(std::max<std::size_t>(1, finest.rows())));
-    const auto rms = [&](const Trace& a, const Trace& b) {
+    rows.push_back(row(name, traces.size(), [&](std::size_t i, std::size_t j) {
       double sum = 0;
-      for (std::size_t k = 0; k < finest.rows(); ++k) sum += (a.at(k, c) - b.at(k, c)) * (a.at(k, c) - b.at(k, c));
+      for (std::size_t k = 0; k < finest.rows(); ++k) {
+        const double d = traces[i].at(k, c) - traces[j].at(k, c);
+        sum += d * d;
+      }
       return std::sqrt(sum) / scale;
-    };
-    std::vector<double> error;
-    std::vector<double> next;
-    for (std::size_t i = 0; i + 1 < traces.size(); ++i) {
-      error.push_back(rms(traces[i], finest));
-      next.push_back(rms(traces[i], traces[i + 1]));
-    }
-    rows.push_back(row(name, std::move(error), next));
+    }));
   }
   return rows;
 }
