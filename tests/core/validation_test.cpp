@@ -3,6 +3,7 @@
 
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -57,7 +58,8 @@ TEST_F(Validation, TheScaleScalesAndZeroShowsAll) {
 }
 
 TEST_F(Validation, ALineIsAppendedForEveryRow) {
-  const std::string file = (std::filesystem::temp_directory_path() / "gaitlab-validation-test.json").string();
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("gaitlab-validation-" + std::to_string(getpid()) + ".json")).string();
   std::filesystem::remove(file);
   setenv("GAITLAB_VALIDATION", file.c_str(), 1);
   validate(kRow, 0.3333, 1.0 / 3, 1e-3, "four digits");
