@@ -130,6 +130,19 @@ TEST(Oracle, MotorSpinUpObeysItsEquation) {
   EXPECT_GT(motor.limited_until(), 0.01);
 }
 
+TEST(Oracle, StopBounceObeysItsEquation) {
+  const StopBounce stop{0.05, 50, 0.5};
+  const auto pushed = [&](const std::array<double, 2>& x) {
+    return std::array<double, 2>{x[1], -(stop.ks * x[0] + stop.cs * x[1]) / stop.J};
+  };
+  const auto end = integrate(pushed, std::array<double, 2>{0, 2}, stop.lasts(), 10);
+  EXPECT_NEAR(end[0], stop.at(stop.lasts(), 2)[0], kRounding);
+  EXPECT_NEAR(end[1], stop.at(stop.lasts(), 2)[1], kRounding);
+  EXPECT_NEAR(stop.ks * end[0] + stop.cs * end[1], 0, 1e-11);
+  EXPECT_LT(end[1], 0);
+  EXPECT_GT(end[0], 0);
+}
+
 TEST(Oracle, PidByHand) {
   // Kp = 2, Ki = 4, Kd = 1, N = 8, Ts = 1/8: Ki Ts = 1/2, Kd + N Ts = 2. Worked on paper:
   //   e     P     I                 D                          u

@@ -90,6 +90,29 @@ trace: {{period: 1e-3, columns: [joint.*]}}
            "rounding; an error in the torque would turn it by its 0.7th part a second");
 }
 
+TEST(HingeStop, ThrowsBackWhatDampingLeaves) {
+  std::string text = flywheel("[0, 0, 0]");
+  text.replace(text.find("[-1000, 1000]"), 13, "[-1, 0]");
+  // Starts at the limit with 1 rad/s; a step of 1 us, because the stop's torque jumps by cs v where it is touched.
+  const RunRecord record = run(scenario(text + R"(
+initial: {speeds: 1}
+actuator: {type: none}
+physics: {integrator: rk4, step: 1e-6}
+duration: 0.15
+trace: {period: 0.005, columns: [joint.*]}
+)"));
+  const oracle::StopBounce stop{0.05, 50, 0.5};
+  const Table table(record.trace);
+  validate({"closed.stop.bounce", "flywheel of 0.05 kg m^2 runs against a hinge stop at 1 rad/s: speed afterwards",
+            "closed form of the stop (docs/equations.md, 2)", "rad/s"},
+           table.at(record.trace.rows() - 1, "joint.0.speed"), stop.at(stop.lasts(), 1)[1], 1e-5,
+           "the torque jumps by cs v inside the step of 1 us in which it touches: h cs / J");
+  const std::array<double, 2> deep = stop.at(0.05, 1);
+  validate({"closed.stop.depth", "the flywheel 50 ms after it ran against the stop: angle beyond it",
+            "closed form of the stop (docs/equations.md, 2)", "rad"},
+           table(0.05, "joint.0.angle"), deep[0], 1e-6, "the speed's 1e-5 for 50 ms");
+}
+
 TEST(PidLoop, IsTheTextbooks) {
   const RunRecord record = run(scenario(flywheel("[0, 0, -0.1]") + R"(
 physics: {integrator: semi_implicit, step: 1e-3}

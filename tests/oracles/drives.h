@@ -1,6 +1,8 @@
 // What moves the joints: a motor that spins up an inertia, the PID of the paper as its equations stand, phases that lock.
 #pragma once
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace gaitlab::oracle {
 
@@ -16,6 +18,24 @@ struct MotorSpinUp {
     if (t <= limited_until()) return eta * Kt * i_max * n / J * t;
     const double last = u / (Ks * n);
     return last + (limited_until_speed() - last) * std::exp(-(t - limited_until()) * slope() / J);
+  }
+};
+
+/// A free inertia J runs against a hinge stop at speed v: J x'' = -ks x - cs x' until that would pull it back in.
+struct StopBounce {
+  double J, ks, cs;
+
+  [[nodiscard]] double decay() const { return cs / (2 * J); }
+  [[nodiscard]] double frequency() const { return std::sqrt(ks / J - decay() * decay()); }
+  /// ks x + cs x' = 0 at the end: tan(w t) = -cs w / (ks - cs decay).
+  [[nodiscard]] double lasts() const {
+    return (std::numbers::pi - std::atan(cs * frequency() / (ks - cs * decay()))) / frequency();
+  }
+  /// x and x' after t; with t = lasts(): what it leaves with.
+  [[nodiscard]] std::array<double, 2> at(double t, double v) const {
+    const double w = frequency();
+    const double size = v * std::exp(-decay() * t);
+    return {size * std::sin(w * t) / w, size * (std::cos(w * t) - decay() / w * std::sin(w * t))};
   }
 };
 
