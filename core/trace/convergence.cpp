@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/functions.h"
+
 namespace gaitlab {
 
 namespace {
@@ -18,10 +20,10 @@ ConvergenceRow row(const std::string& name, std::size_t count, Distance&& distan
   const double last = r.error.back();
   const double before = count > 2 ? distance(count - 3, count - 2) : 0;
   if (last > kRounding && before > kRounding) {
-    const double order = std::log2(before / last);
+    const double order = math::log(before / last) / math::log(2);
     if (order >= 0.2 && order <= 8) r.order = order;
   }
-  r.left = last / (std::exp2(r.order.value_or(1)) - 1);
+  r.left = last / (math::pow(2, r.order.value_or(1)) - 1);
   return r;
 }
 
@@ -29,7 +31,7 @@ ConvergenceRow row(const std::string& name, std::size_t count, Distance&& distan
 
 std::optional<double> ConvergenceRow::step_for(double wanted, double finest) const {
   if (!order || !(left > 0)) return std::nullopt;
-  return finest * std::pow(wanted / left, 1 / *order);
+  return finest * math::pow(wanted / left, 1 / *order);
 }
 
 ConvergenceRow convergence(const std::string& name, std::span<const std::vector<double>> values) {
