@@ -1,25 +1,30 @@
 #!/usr/bin/env bash
 # Whether the tests notice wrong physics: ten defects, one at a time, put into a copy of the tree; each must turn a test red.
-# usage: tests/code_mutants.sh     (a quarter of an hour on 2 cores; leaves the tree alone)
+# usage: tests/code_mutants.sh [CLONE]     (CLONE: a scratch clone with a finished build/release, which is edited and put back;
+# default: a copy of this tree, which takes a full build more)
 set -euo pipefail
 
 root=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/..
-work=$(mktemp -d)
-trap 'rm -rf -- "$work"' EXIT
+work=${1:-}
+if [[ -z $work ]]; then
+  work=$(mktemp -d)
+  trap 'rm -rf -- "$work"' EXIT
+  git -C "$root" ls-files -z | (cd -- "$root" && xargs -0 cp --parents -t "$work")
+fi
+build=$work/build/release log=$work/build/mutants.log
 # Whole walks and goldens see any of these, of course; what counts is that the tests which name the cause do.
-left_out='-Walk.*:Golden*:*Determinism*:Rerun*:Program*'
+left_out='-Walk*:*Golden*:*Determinism*:Rerun*:*Program*:*Command*:RunFolder*'
 
-git -C "$root" ls-files -z | (cd -- "$root" && xargs -0 cp --parents -t "$work")
+mkdir -p -- "$work/build"
 build() {
-  cmake -S "$work" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 >"$work/log" 2>&1 &&
-    cmake --build "$work/build" --target gaitlab core_tests lab_tests >>"$work/log" 2>&1 ||
-    { tail -n 20 -- "$work/log"; exit 1; }
+  { [[ -f $build/build.ninja ]] || (cd -- "$work" && cmake --preset release); } >"$log" 2>&1 &&
+    cmake --build "$build" --target gaitlab core_tests lab_tests >>"$log" 2>&1 || { tail -n 20 -- "$log"; exit 1; }
 }
 # The names of the failed tests.
 red() {
   local tests
   for tests in core_tests lab_tests; do
-    timeout 600 "$work/build/bin/$tests" --gtest_filter="$left_out" --gtest_brief=1 2>&1 |
+    timeout 600 "$build/bin/$tests" --gtest_filter="$left_out" --gtest_brief=1 2>&1 |
       sed -nE 's/^\[  FAILED  \] ([A-Za-z0-9_]+[.\/][A-Za-z0-9_.\/]+).*/\1/p' | sort -u || true
   done
 }
@@ -32,12 +37,12 @@ bad=0
 # mutant NAME FILE SED: a defect; an edit that finds nothing is an error.
 mutant() {
   local name=$1 file=$2 found
-  cp -- "$work/$file" "$work/whole"
+  cp -- "$work/$file" "$work/build/whole"
   sed -i -E "$3" "$work/$file"
-  ! cmp -s "$work/whole" "$work/$file" || { printf '%s: nothing to edit in %s\n' "$name" "$file"; exit 1; }
+  ! cmp -s "$work/build/whole" "$work/$file" || { printf '%s: nothing to edit in %s\n' "$name" "$file"; exit 1; }
   build
   found=$(red)
-  mv -- "$work/whole" "$work/$file"
+  mv -- "$work/build/whole" "$work/$file"
   touch "$work/$file"
   if [[ -n $found ]]; then
     printf '| %s | %s | %s |\n' "$name" "$(wc -l <<<"$found")" "$(head -n 3 <<<"$found" | sed 's/.*/`&`/' | paste -sd ' ')"
@@ -51,7 +56,7 @@ printf '| defect | tests red | among them |\n|---|---|---|\n'
 mutant "a sign in the use of the articulated-body algorithm" physics_bullet/multibody.cpp \
   's/- out\.angular\.cross\(base_com_\)/+ out.angular.cross(base_com_)/'
 mutant "motor: back-EMF drives" core/laws/dc_motor.h 's/\(u - emf\) \/ R/(u + emf) \/ R/'
-mutant "contact: damping pushes when leaving" core/laws/contact.h 's/power\(p, k\) - damping \* vn/power(p, k) + damping * vn/'
+mutant "contact: friction drives" physics_bullet/engine.cpp 's/touch\.normal - force\.friction_slope/touch.normal + force.friction_slope/'
 mutant "hinge stop: damping drives" core/laws/hinge_stop.h 's/excess - kDamping \* qd/excess + kDamping * qd/'
 mutant "fusion: parallel axes forgotten" core/model/assembly.cpp 's/t\.mass \* \(d\.squaredNorm/0 * (d.squaredNorm/'
 mutant "docking turns the other way" core/model/assembly.cpp 's/kQuarter\[static_cast<std::size_t>\(orientation\)\]/kQuarter[static_cast<std::size_t>((4 - orientation) % 4)]/'
