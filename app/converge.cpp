@@ -14,6 +14,20 @@ namespace {
 
 constexpr double kGood = 0.01;  // what "good" means below: 1 %
 
+/// A YAML list's items.
+std::string quoted(const std::vector<std::string>& patterns) {
+  std::string text;
+  for (const std::string& pattern : patterns) {
+    text += text.empty() ? "\"" : ", \"";
+    for (const char c : pattern) {
+      if (c == '"' || c == '\\') text += '\\';
+      text += c;
+    }
+    text += '"';
+  }
+  return text;
+}
+
 struct Runs {
   std::vector<double> steps;
   std::vector<Trace> traces;
@@ -49,20 +63,36 @@ void print(const ConvergenceRow& row) {
   fmt::print(" {:>6}\n", row.order ? fmt::format("{:.1f}", *row.order) : "-");
 }
 
+/// The column that is worst at step number `i`; its error with what the finest step itself misses.
+std::pair<const ConvergenceRow*, double> worst_at(const std::vector<ConvergenceRow>& rows, std::size_t i) {
+  std::pair<const ConvergenceRow*, double> worst{nullptr, -1};
+  for (const ConvergenceRow& row : rows) {
+    const double error = (i < row.error.size() ? row.error[i] : 0) + row.left;
+    if (error > worst.second) worst = {&row, error};
+  }
+  return worst;
+}
+
 /// Which step is good for 1 %, of what was tried and by the order seen.
-std::string verdict(const ConvergenceRow& worst, const Runs& runs) {
+std::string verdict(const std::vector<ConvergenceRow>& rows, const Runs& runs) {
   const double finest = runs.steps.back();
-  std::string text = fmt::format("none of these steps is good for 1 % of {}", worst.name);
+  const auto within_rule = [&](double step) { return !(runs.allowed > 0) || step <= runs.allowed; };
+  const ConvergenceRow& last = *worst_at(rows, runs.steps.size() - 1).first;
+  std::string text = fmt::format("none of these steps is good for 1 % of {}", last.name);
   for (std::size_t i = 0; i < runs.steps.size(); ++i) {
-    const double error = i < worst.error.size() ? worst.error[i] + worst.left : worst.left;
-    if (error > kGood) continue;
-    text = fmt::format("step {} s is good for 1 %: its error is {:.2g} %, that of {} s itself included", runs.steps[i],
-                       100 * error, finest);
+    const auto [row, error] = worst_at(rows, i);
+    if (error > kGood || !within_rule(runs.steps[i])) continue;
+    text = fmt::format("step {} s is good for 1 %: the error is at most {:.2g} % ({}), that of {} s itself included",
+                       runs.steps[i], 100 * error, row->name, finest);
     break;
   }
-  const std::optional<double> reach = worst.step_for(kGood, finest);
+  if (!within_rule(runs.steps.front())) {
+    text += fmt::format("; the rule h lambda <= 1 allows up to {:.3g} s, less than the longest tried", runs.allowed);
+  }
+  const std::optional<double> reach = last.step_for(kGood, finest);
   if (!reach) return text + (runs.steps.size() < 3 ? "" : "; no clear order, so nothing is said of other steps");
-  if (runs.allowed > 0 && *reach > runs.allowed) {
+  if (!within_rule(*reach)) {
+    if (!within_rule(runs.steps.front())) return text;
     return text + fmt::format("; of longer steps the rule h lambda <= 1 allows up to {:.3g} s", runs.allowed);
   }
   return text + fmt::format("; by the order seen about {:.2g} s would be", *reach);
@@ -74,7 +104,7 @@ int converge(const ConvergeArguments& arguments) {
   Catalog catalog = standard_catalog();
   ConvergeArguments with_columns = arguments;
   std::vector<std::string> wanted = arguments.columns;
-  if (!wanted.empty()) with_columns.sets.push_back(fmt::format("trace.columns=['{}']", fmt::join(wanted, "', '")));
+  if (!wanted.empty()) with_columns.sets.push_back("trace.columns=[" + quoted(wanted) + "]");
   Scenario scenario = read(with_columns, catalog);
   if (wanted.empty()) {
     wanted = {scenario.actuator.entry != nullptr ? "joint.*.torque" : "joint.*.angle"};
@@ -92,13 +122,14 @@ int converge(const ConvergeArguments& arguments) {
   ConvergenceRow travel = convergence("displacement", runs.travel);
   const bool moves = std::hypot(runs.travel.back()[0], runs.travel.back()[1]) > 1e-3;  // m: else a share of noise
   if (moves) print(travel);
-  if (rows.empty()) return 0;
-  ConvergenceRow worst = *std::max_element(
-      rows.begin(), rows.end(), [](const ConvergenceRow& a, const ConvergenceRow& b) { return a.error[0] < b.error[0]; });
-  const std::string said = verdict(worst, runs);
+  if (rows.empty()) {
+    fmt::print("no column but the time is asked for\n");
+    return 0;
+  }
+  ConvergenceRow worst = *worst_at(rows, 0).first;
   worst.name = "worst: " + worst.name;
   print(worst);
-  fmt::print("{}\n", said);
+  fmt::print("{}\n", verdict(rows, runs));
   return 0;
 }
 

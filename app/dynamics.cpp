@@ -20,8 +20,8 @@ std::string list(const Vec3& v) { return list(In(v.data(), 3)); }
 
 std::string wrench(const Wrench& w) { return fmt::format("{{\"force\": {}, \"torque\": {}}}", list(w.force), list(w.moment)); }
 
-void check_finite(const Eigen::VectorXd& result) {
-  if (!result.allFinite()) throw RunError("the dynamics give no finite number: the state is too far out");
+void check_finite(const Eigen::VectorXd& result, const Place& place) {
+  if (!result.allFinite()) throw InputError(place, "the dynamics give no finite number: the state is too far out");
 }
 
 /// Accelerations under the input's torques and wrenches, by the scenario's engine.
@@ -40,7 +40,7 @@ Acceleration forward(const Scenario& scenario, const DynamicsInput& input) {
 }
 
 void print_forward(const Scenario& s, const DynamicsInput& input, const Kinematics& k) {
-  check_inertia(s, k, {}, 1, 0);
+  check_inertia(s, k, {}, 1, 0, input.place);
   const Acceleration a = forward(s, input);
   MassMatrix mass(*s.robot, s.base);
   mass.update(k);
@@ -51,8 +51,8 @@ void print_forward(const Scenario& s, const DynamicsInput& input, const Kinemati
   const Eigen::VectorXd bias = generalised_force(at_rest, s.base);
   Eigen::VectorXd all(6 + static_cast<Eigen::Index>(a.joints.size()));
   all << a.linear, a.angular, Eigen::Map<const Eigen::VectorXd>(a.joints.data(), static_cast<Eigen::Index>(a.joints.size()));
-  check_finite(all);
-  check_finite(bias);
+  check_finite(all, input.place);
+  check_finite(bias, input.place);
   std::vector<std::string> rows;
   for (const auto& row : mass.matrix().rowwise()) rows.push_back("    " + list(Eigen::VectorXd(row.transpose())));
   fmt::print("{{\n  \"qdd\": {},\n  \"base\": {{\"acceleration\": {}, \"angular_acceleration\": {}}},\n", list(a.joints),
@@ -64,7 +64,7 @@ void print_inverse(const Scenario& s, const DynamicsInput& input, const Kinemati
   const Robot& robot = *s.robot;
   InverseDynamics dynamics(robot);
   dynamics.update(k, input.acceleration, s.physics.gravity, input.wrenches);
-  check_finite(generalised_force(dynamics, Base::floating));
+  check_finite(generalised_force(dynamics, Base::floating), input.place);
   std::vector<std::string> reactions;
   const auto add = [&](const std::string& name, const Wrench& w) {
     reactions.push_back(fmt::format("    \"{}\": {}", name, wrench(w)));

@@ -24,6 +24,10 @@ void check_new(const std::string& name) {
 }
 
 void export_run(const ExportArguments& arguments) {
+  if (!arguments.source.sets.empty()) {
+    throw InputError(Place{"--set " + arguments.source.sets.front()},
+                     "a recorded run cannot be changed; expected --to mjcf or urdf");
+  }
   const Trace trace = read_trace(arguments.source.file);
   write_csv(trace, arguments.file);
   fmt::print("{}: {} rows of {} columns\n", arguments.file, trace.rows(), trace.columns.size());

@@ -127,7 +127,8 @@ void read_wrenches(Reader& reader, const Node& root, const Robot& robot, const K
 
 DynamicsInput read_state_file(const std::string& path, const Robot& robot, Base base, const RobotState& start) {
   const Node root = parse_json(read_text(path), path);
-  DynamicsInput input{start, {}, std::vector<double>(robot.joints.size(), 0.0), {}};
+  DynamicsInput input{start, {}, std::vector<double>(robot.joints.size(), 0.0), {}, {path}};
+  if (const Node* q = root.find("q")) input.place = q->place;
   input.acceleration.joints = input.tau;
   Problems problems;
   const std::vector<std::string> joints = joint_names(robot);

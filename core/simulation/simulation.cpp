@@ -172,7 +172,7 @@ void Simulation::set_start() {
 void Simulation::check_standing() {
   const In rotors = actuator_ == nullptr ? In{} : actuator_->reflected_inertia();
   for (std::size_t l = 0; l < lanes_.size(); ++l) {
-    check_inertia(scenarios_[l], lanes_[l]->sample.kinematics, rotors, lanes_.size(), l);
+    check_inertia(scenarios_[l], lanes_[l]->sample.kinematics, rotors, lanes_.size(), l, scenarios_[l].place("robot"));
     const Stability one = plant_->stability(l, command_, true);
     if (one.rate > standing_.rate) standing_ = one;
   }

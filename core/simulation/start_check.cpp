@@ -16,7 +16,8 @@ constexpr double kNothing = 1e-12;
 
 }  // namespace
 
-void check_inertia(const Scenario& scenario, const Kinematics& kinematics, In rotors, std::size_t lanes, std::size_t lane) {
+void check_inertia(const Scenario& scenario, const Kinematics& kinematics, In rotors, std::size_t lanes, std::size_t lane,
+                   const Place& place) {
   const Robot& robot = *scenario.robot;
   MassMatrix mass(robot, scenario.base);
   mass.update(kinematics);
@@ -33,10 +34,9 @@ void check_inertia(const Scenario& scenario, const Kinematics& kinematics, In ro
     const double pivot = left(j, j);
     if (!(pivot > kNothing * locked[j])) {
       const Joint& joint = robot.joints[static_cast<std::size_t>(link.joint)];
-      throw InputError(scenario.place("robot"),
-                       fmt::format("joint '{}' has no inertia to move at the start: what hangs on it can turn about the "
-                                   "same axis; give the body between the two hinges mass, or start from other angles",
-                                   joint.name));
+      throw InputError(place, fmt::format("joint '{}' has no inertia to move: what hangs on it can turn about the "
+                                          "same axis; give the body between the two hinges mass, or take other angles",
+                                          joint.name));
     }
     const Eigen::VectorXd column = left.col(j);
     left.noalias() -= column * (column.transpose() / pivot);

@@ -8,7 +8,8 @@ namespace gaitlab {
 
 /// Every joint must have some inertia to move at the start, or its acceleration has no value: a body without mass between two
 /// hinges whose axes are in line turns freely. `kinematics`: at the start; `rotors`: reflected inertia of joint j, kg m^2, at
-/// j * lanes + lane, or empty. InputError naming the joint, at `robot`.
-void check_inertia(const Scenario& scenario, const Kinematics& kinematics, In rotors, std::size_t lanes, std::size_t lane);
+/// j * lanes + lane, or empty. InputError naming the joint, at `place`.
+void check_inertia(const Scenario& scenario, const Kinematics& kinematics, In rotors, std::size_t lanes, std::size_t lane,
+                   const Place& place);
 
 }  // namespace gaitlab

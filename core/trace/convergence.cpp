@@ -12,6 +12,23 @@ namespace {
 // Below this share of the scale a difference is rounding.
 constexpr double kRounding = 1e-13;
 
+// A column that stays below this share of the largest of its unit holds rounding: its scale is that share.
+constexpr double kTrifle = 1e-9;
+
+double peak_of(const Trace& trace, std::size_t column) {
+  double peak = 0;
+  for (std::size_t k = 0; k < trace.rows(); ++k) peak = std::max(peak, std::abs(trace.at(k, column)));
+  return peak;
+}
+
+double peak_of_unit(const Trace& trace, const std::string& unit) {
+  double peak = 0;
+  for (std::size_t c = 1; c < trace.columns.size(); ++c) {
+    if (trace.columns[c].unit == unit) peak = std::max(peak, peak_of(trace, c));
+  }
+  return peak;
+}
+
 /// Of `count` steps; distance(i, j): |u(h_i) - u(h_j)| / scale.
 template <class Distance>
 ConvergenceRow row(const std::string& name, std::size_t count, Distance&& distance) {
@@ -52,8 +69,7 @@ std::vector<ConvergenceRow> convergence(std::span<const Trace> traces, const std
   for (std::size_t c = 1; c < finest.columns.size(); ++c) {
     const std::string& name = finest.columns[c].name;
     if (!std::any_of(patterns.begin(), patterns.end(), [&](const std::string& p) { return glob(p, name); })) continue;
-    double peak = 0;
-    for (std::size_t k = 0; k < finest.rows(); ++k) peak = std::max(peak, std::abs(finest.at(k, c)));
+    const double peak = std::max(peak_of(finest, c), kTrifle * peak_of_unit(finest, finest.columns[c].unit));
     const double scale = (peak > 0 ? peak : 1) * std::sqrt(static_cast<double>(std::max<std::size_t>(1, finest.rows())));
     rows.push_back(row(name, traces.size(), [&](std::size_t i, std::size_t j) {
       double sum = 0;

@@ -24,8 +24,9 @@ struct ConvergenceRow {
 };
 
 /// A row for every column that matches one of `patterns`: |.| is the RMS over the rows, its scale the column's largest
-/// magnitude in the finest trace. The traces have the same columns and rows (the same scenario at other steps), coarsest first,
-/// at least two. Orders below 0.2 or above 8 are none: contacts that switch, or rounding.
+/// magnitude in the finest trace, or 1e-9 of the largest of its unit there where it holds less. The traces have the same
+/// columns and rows (the same scenario at other steps), coarsest first, at least two. Orders below 0.2 or above 8 are none:
+/// contacts that switch, or rounding.
 std::vector<ConvergenceRow> convergence(std::span<const Trace> traces, const std::vector<std::string>& patterns);
 
 /// The same for a single figure, |.| a distance in `values` (one vector a step), its scale the finest's norm.

@@ -56,5 +56,15 @@ TEST(Convergence, TwoStepsHaveNoOrder) {
   EXPECT_FALSE(row.order);
 }
 
+// Rounding of a column that should be 0 is measured by what its unit holds elsewhere.
+TEST(Convergence, RoundingIsNoError) {
+  std::vector<Trace> traces = halved(0.5, 1);
+  for (std::size_t i = 0; i < traces.size(); ++i) {
+    for (std::size_t k = 0; k < traces[i].rows(); ++k) traces[i].values[3 * k + 2] = 1e-15 * static_cast<double>((k + i) % 3);
+  }
+  // 2e-15 of 1e-9 of the 1 m that `u` holds.
+  EXPECT_LT(convergence(traces, {"still"})[0].error[0], 3e-6);
+}
+
 }  // namespace
 }  // namespace gaitlab

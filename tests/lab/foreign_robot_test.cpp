@@ -193,9 +193,9 @@ duration: 0.1
 
 TEST(ForeignRobot, AJointWithoutInertiaIsRefused) {
   const std::string refusal =
-      "s.yaml:2:1: error: joint 'm0/{}' has no inertia to move at the start: what hangs on it can turn about the same axis; "
+      "s.yaml:2:1: error: joint 'm0/{}' has no inertia to move: what hangs on it can turn about the same axis; "
       "give "
-      "the body between the two hinges mass, or start from other angles\n";
+      "the body between the two hinges mass, or take other angles\n";
   EXPECT_EQ(said_of("[1, 0, 0]", "0.5"), "");
   EXPECT_EQ(said_of("[1, 0, 0]", "0"), fmt::format(fmt::runtime(refusal), "one")) << "gimbal lock";
   EXPECT_EQ(said_of("[0, 0, 1]", "0.5"), fmt::format(fmt::runtime(refusal), "two")) << "in line";

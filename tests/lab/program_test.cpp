@@ -130,6 +130,11 @@ TEST_F(Program, ConvergeShowsErrorOrderAndTheStepThatIsGood) {
   EXPECT_TRUE(shows("worst: joint[.]1[0-5][.]torque +0[.]0[0-9]+ % +0[.]0[0-9]+ % +(0[.]9|1[.][01])\n")) << r.out;
   EXPECT_TRUE(shows("step 2.5e-05 s is good for 1 %")) << r.out;
 
+  for (const std::string odd : {"\"a'b\"", "'a\"b'", "'a, b'"}) {
+    const Result none = gaitlab(arguments + " --columns " + odd, folder / "");
+    EXPECT_EQ(none.code, 2) << odd;
+    EXPECT_NE(none.err.find("matches no column"), std::string::npos) << none.err;
+  }
   const Result wrong = gaitlab(arguments + " --columns 'joint.1.tork'", folder / "");
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.err.find("did you mean 'joint.1.torque'?"), std::string::npos) << wrong.err;
