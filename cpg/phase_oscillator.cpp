@@ -26,14 +26,7 @@ void PhaseOscillator::Model::fields(Fields& f) {
 }
 
 PhaseOscillator::PhaseOscillator(const RobotInfo& robot, const Settings& settings)
-    : joints_(robot.joints.size()),
-      s_(settings),
-      couplings_(settings.graph(joints_, settings.model.coupling)),
-      phases_(phases_of(couplings_, joints_)) {
-  s_.check(robot);
-  on_cycle_ = phases_.size() == joints_;
-  if (!on_cycle_) phases_.assign(joints_, 0.0);
-}
+    : joints_(robot.joints.size()), s_(settings), network_(robot, settings, settings.model.coupling) {}
 
 std::string PhaseOscillator::state_name(std::size_t index) const {
   static constexpr const char* kBlock[] = {"phi.", "r.", "x."};
@@ -42,7 +35,7 @@ std::string PhaseOscillator::state_name(std::size_t index) const {
 
 void PhaseOscillator::start(Out state) const {
   for (std::size_t i = 0; i < joints_; ++i) {
-    state[i] = phases_[i];
+    state[i] = network_.phases[i];
     state[joints_ + i] = 0;
     state[2 * joints_ + i] = s_.offset[i];
   }
@@ -57,7 +50,7 @@ void PhaseOscillator::derivative(const Measured&, In state, Out rate) const {
     rate[joints_ + i] = s_.model.amplitude_rate * (s_.amplitude[i] - r[i]);
     rate[2 * joints_ + i] = s_.model.offset_rate * (s_.offset[i] - x[i]);
   }
-  for (const Coupling& c : couplings_) {
+  for (const Coupling& c : network_.couplings) {
     const auto from = static_cast<std::size_t>(c.from);
     const auto to = static_cast<std::size_t>(c.to);
     const double weight = s_.model.amplitude_weighted ? c.weight * r[from] : c.weight;
@@ -69,10 +62,6 @@ void PhaseOscillator::output(double, In state, Out setpoint) const {
   for (std::size_t i = 0; i < joints_; ++i) {
     setpoint[i] = state[2 * joints_ + i] + state[joints_ + i] * math::sin(state[i]);
   }
-}
-
-std::string PhaseOscillator::note() const {
-  return on_cycle_ ? "" : "the couplings' lags contradict one another around a cycle: all phases start at 0";
 }
 
 }  // namespace gaitlab

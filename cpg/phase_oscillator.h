@@ -28,14 +28,12 @@ class PhaseOscillator final : public Cpg {
   void start(Out state) const override;
   void derivative(const Measured&, In state, Out rate) const override;
   void output(double t, In state, Out setpoint) const override;
-  [[nodiscard]] std::string note() const override;
+  [[nodiscard]] std::string note() const override { return network_.note(); }
 
  private:
   std::size_t joints_;
   Settings s_;
-  std::vector<Coupling> couplings_;
-  std::vector<double> phases_;
-  bool on_cycle_ = true;
+  OscillatorNetwork network_;
 };
 
 }  // namespace gaitlab

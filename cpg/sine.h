@@ -26,26 +26,27 @@ class Sine final : public Cpg {
     theta_i = X_i + min(1, t / ramp) R_i sin(2 pi f_i t + phi_i)
 
 phi_i: sum of the lags along the couplings; couplings that contradict one another around a cycle are an error.
+Source: Chariot, Filippi, Verlinden 2012, eq. 10 on the limit cycle of eq. 7.
 
     cpg: {type: sine, frequency: 0.25, amplitude: 0.6, phase_lag: 1.2, model: {ramp: 1}})";
 
   Sine(const RobotInfo& robot, const Settings& settings)
-      : joints_(robot.joints.size()), s_(settings), phases_(phases_of(settings.graph(joints_, 1), joints_)) {
-    s_.check(robot);
-    if (phases_.size() != joints_) throw std::invalid_argument("the couplings' lags contradict one another around a cycle");
+      : joints_(robot.joints.size()), s_(settings), network_(robot, settings, 1) {
+    if (!network_.consistent) throw std::invalid_argument("the couplings' lags contradict one another around a cycle");
   }
 
   void output(double t, In, Out setpoint) const override {
     const double grown = t < s_.model.ramp ? t / s_.model.ramp : 1;
     for (std::size_t i = 0; i < joints_; ++i) {
-      setpoint[i] = s_.offset[i] + grown * s_.amplitude[i] * math::sin(2 * std::numbers::pi * s_.frequency[i] * t + phases_[i]);
+      setpoint[i] =
+          s_.offset[i] + grown * s_.amplitude[i] * math::sin(2 * std::numbers::pi * s_.frequency[i] * t + network_.phases[i]);
     }
   }
 
  private:
   std::size_t joints_;
   Settings s_;
-  std::vector<double> phases_;
+  OscillatorNetwork network_;
 };
 
 }  // namespace gaitlab

@@ -35,6 +35,9 @@ class Fields {
   virtual void integer(const char* key, std::int64_t& value, Spec spec) = 0;
   virtual void flag(const char* key, bool& value, const char* about) = 0;
   virtual void text(const char* key, std::string& value, const char* about) = 0;
+  /// A text that may stand in a file of its own: in YAML the file's path (relative to the scenario), or the text itself, which
+  /// then has several lines. `value` is always the text; the resolved scenario holds it in full.
+  virtual void file(const char* key, std::string& value, const char* about) = 0;
   /// `value` is the index of the chosen name.
   virtual void choice(const char* key, int& value, std::span<const char* const> names, const char* about) = 0;
   virtual void per_joint(const char* key, PerJoint& value, Spec spec) = 0;

@@ -1,41 +1,25 @@
-// The keys that every oscillator CPG shares, and the coupling graph they describe. Standard library only.
+// The keys that every oscillator CPG shares, and the network they describe. Standard library only.
 #pragma once
-#include <cmath>
-#include <numbers>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
-#include "core/plugin/fields.h"
-#include "core/plugin/robot_info.h"
+#include "core/plugin/couplings.h"
 
 namespace gaitlab {
-
-/// Limit cycle phi_to = phi_from + phase_lag.
-struct Coupling {
-  std::int64_t from = 0, to = 0;
-  double weight = 1, phase_lag = 0;
-
-  void fields(Fields& f) {
-    f.joint("from", from, "The joint that is followed.");
-    f.joint("to", to, "The joint that follows.");
-    f.number("weight", weight, {"1/s", -1000, 1000, "Strength of the pull."});
-    f.number("phase_lag", phase_lag, {"rad", -100, 100, "Lead of `to` over `from` on the limit cycle."});
-  }
-};
 
 /// The common keys: frequency, amplitude, offset, phase_lag, couplings.
 struct OscillatorKeys {
   PerJoint frequency{0.25}, amplitude{0.6}, offset{0}, phase_lag{1.2};
-  int rule = 0;  ///< chain; -1: the list
+  int rule = 0;  ///< CouplingRule; -1: the list
   std::vector<Coupling> couplings;
 
   void fields(Fields& f) {
-    static constexpr const char* kRules[] = {"chain"};
     f.per_joint("frequency", frequency, {"Hz", 0, 20, "Own frequency of the oscillator."});
     f.per_joint("amplitude", amplitude, {"rad", 0, 3.2, "Peak of the set point about its offset."});
     f.per_joint("offset", offset, {"rad", -3.2, 3.2, "Mean of the set point."});
-    f.per_joint("phase_lag", phase_lag, {"rad", -100, 100, "Lead of each joint over its predecessor (rule chain)."});
-    f.rule_or_list("couplings", rule, kRules, couplings, "chain: each joint follows the one numbered before it; or a list.");
+    f.per_joint("phase_lag", phase_lag, {"rad", -100, 100, "Lead of each joint over the one it follows by the rule."});
+    f.rule_or_list("couplings", rule, kCouplingRules, couplings, kCouplingRulesAbout);
   }
 
   /// Throws std::invalid_argument for a joint that would hold a set point outside its range. One that only passes there is
@@ -49,44 +33,28 @@ struct OscillatorKeys {
   }
 
   /// The coupling graph; the rule's couplings get `weight`.
-  [[nodiscard]] std::vector<Coupling> graph(std::size_t joints, double weight) const {
-    if (rule < 0) return couplings;
-    std::vector<Coupling> chain;
-    for (std::size_t i = 1; i < joints; ++i) {
-      chain.push_back({static_cast<std::int64_t>(i) - 1, static_cast<std::int64_t>(i), weight, phase_lag[i]});
-    }
-    return chain;
+  [[nodiscard]] std::vector<Coupling> graph(const RobotInfo& robot, double weight) const {
+    return rule < 0 ? couplings : couple(robot, static_cast<CouplingRule>(rule), weight, phase_lag);
   }
 };
 
-/// Phases on the limit cycle: sums of lags along the couplings from the lowest joint of each connected part (phase 0).
-/// Empty where couplings contradict one another around a cycle: no phases keep all lags.
-inline std::vector<double> phases_of(const std::vector<Coupling>& graph, std::size_t joints) {
-  std::vector<double> phase(joints, 0.0);
-  std::vector<bool> known(joints, false);
-  for (std::size_t root = 0; root < joints; ++root) {
-    if (known[root]) continue;
-    known[root] = true;
-    for (bool grown = true; grown;) {
-      grown = false;
-      for (const Coupling& c : graph) {
-        const auto from = static_cast<std::size_t>(c.from);
-        const auto to = static_cast<std::size_t>(c.to);
-        if (known[from] == known[to]) continue;
-        if (known[from]) {
-          phase[to] = phase[from] + c.phase_lag;
-        } else {
-          phase[from] = phase[to] - c.phase_lag;
-        }
-        known[from] = known[to] = grown = true;
-      }
-    }
+/// The couplings with the phases of their limit cycle, for oscillators that start on it.
+struct OscillatorNetwork {
+  std::vector<Coupling> couplings;
+  std::vector<double> phases;  ///< rad; all 0 where the lags contradict one another around a cycle
+  bool consistent = true;
+
+  /// Throws as OscillatorKeys::check.
+  OscillatorNetwork(const RobotInfo& robot, const OscillatorKeys& keys, double weight)
+      : couplings(keys.graph(robot, weight)), phases(phases_of(couplings, robot.joints.size())) {
+    keys.check(robot);
+    consistent = phases.size() == robot.joints.size();
+    if (!consistent) phases.assign(robot.joints.size(), 0.0);
   }
-  for (const Coupling& c : graph) {
-    const double miss = phase[static_cast<std::size_t>(c.to)] - phase[static_cast<std::size_t>(c.from)] - c.phase_lag;
-    if (std::abs(std::remainder(miss, 2 * std::numbers::pi)) > 1e-9) return {};
+
+  [[nodiscard]] std::string note() const {
+    return consistent ? "" : "the couplings' lags contradict one another around a cycle: all phases start at 0";
   }
-  return phase;
-}
+};
 
 }  // namespace gaitlab

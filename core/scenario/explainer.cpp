@@ -68,6 +68,8 @@ void Explainer::flag(const char* key, bool& value, const char* about) {
 
 void Explainer::text(const char* key, std::string& value, const char* about) { row(key, "", value, "text", about); }
 
+void Explainer::file(const char* key, std::string&, const char* about) { row(key, "", "", "file, or its text", about); }
+
 void Explainer::choice(const char* key, int& value, std::span<const char* const> names, const char* about) {
   row(key, "", name_at(names, value), alternatives(names), about);
 }

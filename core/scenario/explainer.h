@@ -22,6 +22,7 @@ class Explainer final : public Fields {
   void integer(const char* key, std::int64_t& value, Spec spec) override;
   void flag(const char* key, bool& value, const char* about) override;
   void text(const char* key, std::string& value, const char* about) override;
+  void file(const char* key, std::string& value, const char* about) override;
   void choice(const char* key, int& value, std::span<const char* const> names, const char* about) override;
   void per_joint(const char* key, PerJoint& value, Spec spec) override;
   void joint(const char* key, std::int64_t& value, const char* about) override;

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
+#include "core/scenario/text_file.h"
 #include "core/scenario/value.h"
 
 namespace gaitlab {
@@ -21,17 +23,18 @@ std::string count(std::size_t n, const std::string& what) { return fmt::format("
 
 }  // namespace
 
-Reader::Reader(const Node& node, const std::string& name, Problems& problems, JointNames joints)
+Reader::Reader(const Node& node, const std::string& name, Problems& problems, JointNames joints, std::string folder)
     : empty_(empty_map(node.place)),
       map_(node.kind == Node::Kind::map ? &node : &empty_),
       problems_(problems),
       joints_(joints),
+      folder_(std::move(folder)),
       tolerant_(node.kind != Node::Kind::map) {
   if (tolerant_) problems_.add(node.place, fmt::format("{} is {}; expected a map", name, found(node)));
 }
 
-Reader::Reader(const Place& place, Problems& problems, JointNames joints)
-    : empty_(empty_map(place)), map_(&empty_), problems_(problems), joints_(joints) {}
+Reader::Reader(const Place& place, Problems& problems, JointNames joints, std::string folder)
+    : empty_(empty_map(place)), map_(&empty_), problems_(problems), joints_(joints), folder_(std::move(folder)) {}
 
 const Node* Reader::take(const char* key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
@@ -122,6 +125,22 @@ void Reader::text(const char* key, std::string& value, const char*) {
     value = std::move(reading.value);
   } else {
     problems_.add(node->place, std::string(key) + " " + reading.wrong);
+  }
+}
+
+void Reader::file(const char* key, std::string& value, const char*) {
+  const Node* node = take(key);
+  if (node == nullptr) return;
+  if (node->kind != Node::Kind::scalar) {
+    problems_.add(node->place, fmt::format("{} is {}; expected a file, or its text", key, found(*node)));
+  } else if (node->text.find('\n') != std::string::npos) {
+    value = node->text;
+  } else {
+    try {
+      value = read_text((std::filesystem::path(folder_) / node->text).string(), node->place);
+    } catch (const InputError& error) {
+      for (const Problem& problem : error.problems()) problems_.add(problem.place, problem.text);
+    }
   }
 }
 
@@ -276,7 +295,7 @@ void Reader::read_elements(const char* key, const Node& node, const List& list) 
   list.resize(list.self, 0);  // so that no element keeps what a default or an earlier file said
   list.resize(list.self, node.items.size());
   for (std::size_t i = 0; i < node.items.size(); ++i) {
-    Reader reader(node.items[i], element(key, i), problems_, joints_);
+    Reader reader(node.items[i], element(key, i), problems_, joints_, folder_);
     list.visit(list.self, i, reader);
     reader.finish();
   }
@@ -304,11 +323,11 @@ void Reader::rule_or_list(const char* key, int& rule, std::span<const char* cons
 void Reader::group(const char* key, const char*, Group group) {
   const Node* node = take(key);
   if (node != nullptr) {
-    Reader reader(*node, key, problems_, joints_);
+    Reader reader(*node, key, problems_, joints_, folder_);
     group.visit(group.self, reader);
     reader.finish();
   } else {
-    Reader reader(map_->place, problems_, joints_);
+    Reader reader(map_->place, problems_, joints_, folder_);
     group.visit(group.self, reader);
     reader.finish();
   }

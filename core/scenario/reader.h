@@ -17,14 +17,16 @@ using JointNames = const std::vector<std::string>*;
 class Reader final : public Fields {
  public:
   /// `node` should be a map: anything else is a problem of `name`. The node and the problems must outlive the reader.
-  Reader(const Node& node, const std::string& name, Problems& problems, JointNames joints);
+  /// `folder`: where the paths of files start.
+  Reader(const Node& node, const std::string& name, Problems& problems, JointNames joints, std::string folder = {});
   /// A map that is absent: every field keeps its default. `place`: its parent's.
-  Reader(const Place& place, Problems& problems, JointNames joints);
+  Reader(const Place& place, Problems& problems, JointNames joints, std::string folder = {});
 
   void number(const char* key, double& value, Spec spec) override;
   void integer(const char* key, std::int64_t& value, Spec spec) override;
   void flag(const char* key, bool& value, const char* about) override;
   void text(const char* key, std::string& value, const char* about) override;
+  void file(const char* key, std::string& value, const char* about) override;
   void choice(const char* key, int& value, std::span<const char* const> names, const char* about) override;
   void per_joint(const char* key, PerJoint& value, Spec spec) override;
   void joint(const char* key, std::int64_t& value, const char* about) override;
@@ -64,6 +66,7 @@ class Reader final : public Fields {
   const Node* map_;
   Problems& problems_;
   JointNames joints_;
+  std::string folder_;
   std::vector<std::string> known_;
   bool tolerant_ = false;  ///< which keys are known is itself unknown
 };

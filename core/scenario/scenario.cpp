@@ -156,7 +156,7 @@ class ScenarioReader {
 
   void read_sections() {
     const JointNames joints = scenario_.robot ? &joints_ : nullptr;
-    Reader reader(root_, "the scenario", problems_, joints);
+    Reader reader(root_, "the scenario", problems_, joints, folder_);
     for (const char* known : {"gaitlab", "name", "plugins", "robot", "controller", "cpg"}) reader.take(known);
     reader.require({"duration"});
     if (const Node* sensors = reader.take("sensors")) check_sensors(*sensors);

@@ -36,6 +36,11 @@ void Writer::flag(const char* key, bool& value, const char*) { add(key, scalar_n
 
 void Writer::text(const char* key, std::string& value, const char*) { add(key, text_node(value)); }
 
+void Writer::file(const char* key, std::string& value, const char*) {
+  // A text in one line would be read as a path.
+  add(key, scalar_node(value.find('\n') == std::string::npos ? value + "\n" : value, true));
+}
+
 void Writer::choice(const char* key, int& value, std::span<const char* const> names, const char*) {
   add(key, scalar_node(names[static_cast<std::size_t>(value)]));
 }

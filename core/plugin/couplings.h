@@ -1,0 +1,130 @@
+// The coupling graph of a network of oscillators: an explicit list, or a rule that reads it off the robot. Standard library
+// only.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "core/plugin/fields.h"
+#include "core/plugin/robot_info.h"
+
+namespace gaitlab {
+
+/// Limit cycle phi_to = phi_from + phase_lag.
+struct Coupling {
+  std::int64_t from = 0, to = 0;
+  double weight = 1, phase_lag = 0;
+
+  void fields(Fields& f) {
+    f.joint("from", from, "The joint that is followed.");
+    f.joint("to", to, "The joint that follows.");
+    f.number("weight", weight, {"1/s", -1000, 1000, "Strength of the pull."});
+    f.number("phase_lag", phase_lag, {"rad", -100, 100, "Lead of `to` over `from` on the limit cycle."});
+  }
+};
+
+enum class CouplingRule { chain, parent, siblings, mirror, all };
+
+inline constexpr const char* kCouplingRules[] = {"chain", "parent", "siblings", "mirror", "all"};
+inline constexpr const char* kCouplingRulesAbout =
+    "chain: each joint follows the one numbered before it; parent: the next one towards the base; siblings: as parent, and "
+    "joints with the same parent one another; mirror: joints on the right their mirror image on the left, the others as "
+    "parent; all: every joint every other, with the lags of chain; or a list.";
+
+/// The joint that is the image of `joint` (y < 0) in the plane y = 0 at zero angles, or -1. Its axis is parallel to the image
+/// of the joint's; a positive turn may go the other way.
+inline std::int64_t mirror_image(const RobotInfo& robot, std::size_t joint) {
+  constexpr double kSamePlace = 1e-3;     // m: far above rounding, far below a module
+  constexpr double kSameDirection = 0.9;  // cosine
+  const JointInfo& own = robot.joints[joint];
+  if (own.origin[1] > -kSamePlace) return -1;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const JointInfo& other = robot.joints[j];
+    const double off = std::max({std::abs(other.origin[0] - own.origin[0]), std::abs(other.origin[1] + own.origin[1]),
+                                 std::abs(other.origin[2] - own.origin[2])});
+    const double along = other.axis[0] * own.axis[0] - other.axis[1] * own.axis[1] + other.axis[2] * own.axis[2];
+    if (off < kSamePlace && std::abs(along) > kSameDirection) return static_cast<std::int64_t>(j);
+  }
+  return -1;
+}
+
+/// Phases on the limit cycle: sums of lags along the couplings from the lowest joint of each connected part (phase 0).
+/// Empty where couplings contradict one another around a cycle: no phases keep all lags.
+inline std::vector<double> phases_of(const std::vector<Coupling>& graph, std::size_t joints) {
+  std::vector<double> phase(joints, 0.0);
+  std::vector<bool> known(joints, false);
+  for (std::size_t root = 0; root < joints; ++root) {
+    if (known[root]) continue;
+    known[root] = true;
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (const Coupling& c : graph) {
+        const auto from = static_cast<std::size_t>(c.from);
+        const auto to = static_cast<std::size_t>(c.to);
+        if (known[from] == known[to]) continue;
+        if (known[from]) {
+          phase[to] = phase[from] + c.phase_lag;
+        } else {
+          phase[from] = phase[to] - c.phase_lag;
+        }
+        known[from] = known[to] = grown = true;
+      }
+    }
+  }
+  for (const Coupling& c : graph) {
+    const double miss = phase[static_cast<std::size_t>(c.to)] - phase[static_cast<std::size_t>(c.from)] - c.phase_lag;
+    if (std::abs(std::remainder(miss, 2 * std::numbers::pi)) > 1e-9) return {};
+  }
+  return phase;
+}
+
+namespace detail {
+
+/// Joints with the same parent lead one another by the difference of their lags, so that nothing contradicts rule parent.
+inline void couple_siblings(const RobotInfo& robot, double weight, const PerJoint& lag, std::vector<Coupling>& graph) {
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+      if (i == j || robot.joints[i].parent != robot.joints[j].parent) continue;
+      graph.push_back({static_cast<std::int64_t>(j), static_cast<std::int64_t>(i), weight, lag[i] - lag[j]});
+    }
+  }
+}
+
+/// w / (n - 1) each, so that a joint is pulled as hard by all as by one.
+inline std::vector<Coupling> couple_all(std::size_t joints, double weight, const PerJoint& lag) {
+  std::vector<double> phase(joints, 0.0);
+  for (std::size_t i = 1; i < joints; ++i) phase[i] = phase[i - 1] + lag[i];
+  std::vector<Coupling> graph;
+  for (std::size_t i = 0; i < joints; ++i) {
+    for (std::size_t j = 0; j < joints; ++j) {
+      if (i == j) continue;
+      graph.push_back({static_cast<std::int64_t>(j), static_cast<std::int64_t>(i), weight / static_cast<double>(joints - 1),
+                       phase[i] - phase[j]});
+    }
+  }
+  return graph;
+}
+
+}  // namespace detail
+
+/// The couplings that a rule makes; `lag[i]` is the lead of joint i over the joint it follows.
+inline std::vector<Coupling> couple(const RobotInfo& robot, CouplingRule rule, double weight, const PerJoint& lag) {
+  const std::size_t joints = robot.joints.size();
+  if (rule == CouplingRule::all) return detail::couple_all(joints, weight, lag);
+  std::vector<Coupling> graph;
+  for (std::size_t i = 0; i < joints; ++i) {
+    const auto to = static_cast<std::int64_t>(i);
+    std::int64_t from = rule == CouplingRule::chain ? to - 1 : robot.joints[i].parent;
+    if (const std::int64_t image = rule == CouplingRule::mirror ? mirror_image(robot, i) : -1; image >= 0) {
+      graph.push_back({to, image, weight, -lag[i]});  // a pair holds each other
+      from = image;
+    }
+    if (from >= 0) graph.push_back({from, to, weight, lag[i]});
+  }
+  if (rule == CouplingRule::siblings) detail::couple_siblings(robot, weight, lag, graph);
+  return graph;
+}
+
+}  // namespace gaitlab
