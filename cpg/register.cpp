@@ -1,17 +1,27 @@
 #include "cpg/register.h"
 
+#include "cpg/hopf.h"
 #include "cpg/keyframes.h"
+#include "cpg/kuramoto_amplitude.h"
+#include "cpg/matsuoka.h"
 #include "cpg/phase_oscillator.h"
 #include "cpg/sine.h"
+#include "cpg/table.h"
 #include "cpg/tripod.h"
+#include "cpg/van_der_pol.h"
 
 namespace gaitlab {
 
 void register_cpgs(Registry& registry) {
+  add_cpg<Hopf>(registry, "hopf", Hopf::kManual);
   add_cpg<Keyframes>(registry, "keyframes", Keyframes::kManual);
+  add_cpg<KuramotoAmplitude>(registry, "kuramoto_amplitude", KuramotoAmplitude::kManual);
+  add_cpg<Matsuoka>(registry, "matsuoka", Matsuoka::kManual);
   add_cpg<PhaseOscillator>(registry, "phase_oscillator", PhaseOscillator::kManual);
   add_cpg<Sine>(registry, "sine", Sine::kManual);
+  add_cpg<Table>(registry, "table", Table::kManual);
   add_cpg<Tripod>(registry, "tripod", Tripod::kManual);
+  add_cpg<VanDerPol>(registry, "van_der_pol", VanDerPol::kManual);
 }
 
 }  // namespace gaitlab

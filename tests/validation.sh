@@ -36,7 +36,7 @@ done
   cat -- "$root/tests/validation_head.md"
   # Of one id the row that is least far inside; a table a subject, in the order of the list.
   jq -rs '
-    [["closed", "Closed forms and textbook systems"], ["published", "Published numbers"], ["order", "Order of the integrators"],
+    [["closed", "Closed forms and textbook systems"], ["cpg", "Pattern generators"], ["published", "Published numbers"], ["order", "Order of the integrators"],
      ["property", "Properties of random robots"], ["format", "Other programs"], ["ledger", "Energy"]] as $subjects
     | (group_by(.id) | map(max_by(.share) + {count: length})) as $rows
     | (($rows | map(.id | split(".")[0]) | unique) - ($subjects | map(.[0]))) as $unknown

@@ -1,0 +1,109 @@
+#include "cpg/hopf.h"
+
+#include "core/math/functions.h"
+
+namespace gaitlab {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kFirstRadius = 0.01;      // the set points grow from almost nothing
+constexpr std::size_t kTableSteps = 4096;  // many within the change from swing to stance at the largest sharpness, 0.01 rad
+
+double sigmoid(double x) { return 1 / (1 + math::exp(-x)); }
+
+}  // namespace
+
+const char* const Hopf::kManual = R"(Hopf oscillators: a stable circle of radius 1 in the plane (x, y).
+
+    x_i' = a (1 - r_i^2) x_i - omega_i y_i + sum_j w_ij (x_ij - x_i)      r_i^2 = x_i^2 + y_i^2
+    y_i' = a (1 - r_i^2) y_i + omega_i x_i + sum_j w_ij (y_ij - y_i)
+    omega_i = 2 pi f_i c (S(b y_i) / d + S(-b y_i) / (1 - d)) / 2,  S(z) = 1 / (1 + exp(-z))
+    theta_i = X_i + R_i x_i
+
+(x_ij, y_ij): the state of joint j turned ahead by the lag L_ij, so that nothing is left of the coupling on the limit cycle and
+frequency, amplitude and lag are realised exactly. d: duty_factor, the share of the period (stance) in which the set point falls;
+in the rest (swing) it rises. With d = 0.5 omega = 2 pi f; else b says how sharply one pace goes over into the other, c is such
+that the period is 1 / f, and the lag is one of time: L / (2 pi) of the period. Start: at the phases of the limit cycle (where
+the lags contradict one another around a cycle: at phase 0, with a note), r = 0.01. Alone, r^2 = 1 / (1 + (1 / r0^2 - 1)
+exp(-2 a t)). For f h <= 0.05 (h: cpg.step); with d other than 0.5 f h b <= 0.6. Stable for (2 a + w) h < 2.
+Reference: L. Righetti, A. J. Ijspeert, Pattern generators with sensory feedback for the control of quadruped locomotion, IEEE
+ICRA 2008, 819-824 (there x is the set point, omega goes from swing to stance with y); the turned diffusive coupling is chosen.
+
+    cpg: {type: hopf, frequency: 0.25, amplitude: 0.6, phase_lag: 1.2, model: {duty_factor: 0.5}})";
+
+void Hopf::Model::fields(Fields& f) {
+  f.number("coupling", coupling, {"1/s", 0, 100, "Weight w of the couplings made by a rule."});
+  f.number("rate", rate, {"1/s", 0.01, 100, "a: how fast the radius goes to 1."});
+  f.number("duty_factor", duty_factor, {"", 0.05, 0.95, "d: share of the period in which the set point falls."});
+  f.number("sharpness", sharpness, {"", 1, 100, "b: how sharply swing goes over into stance."});
+}
+
+Hopf::Hopf(const RobotInfo& robot, const Settings& settings)
+    : joints_(robot.joints.size()), s_(settings), network_(robot, settings, settings.model.coupling) {
+  if (s_.model.duty_factor == 0.5) return;  // the pace is even
+  // The period in units of 1 / f is the mean of 1 / pace; the rule of even steps has no better for a smooth periodic function.
+  double sum = 0;
+  for (std::size_t k = 0; k < kTableSteps; ++k) sum += 1 / pace(-math::cos(kTurn * static_cast<double>(k) / kTableSteps));
+  scale_ = sum / kTableSteps;
+  // d(angle)/d(phase) = pace, by RK4.
+  std::vector<double> angles(kTableSteps + 1, 0.0);
+  const double h = kTurn / kTableSteps;
+  for (std::size_t k = 0; k < kTableSteps; ++k) {
+    const auto slope = [&](double at) { return pace(-math::cos(at)); };
+    const double at = angles[k];
+    const double k1 = slope(at);
+    const double k2 = slope(at + h / 2 * k1);
+    const double k3 = slope(at + h / 2 * k2);
+    angles[k + 1] = at + h / 6 * (k1 + 2 * k2 + 2 * k3 + slope(at + h * k3));
+  }
+  angles.back() = kTurn;
+  angle_ = PhaseTable(std::move(angles));
+}
+
+double Hopf::pace(double y) const {
+  const double d = s_.model.duty_factor;
+  if (d == 0.5) return 1;
+  const double stance = sigmoid(s_.model.sharpness * y);
+  return scale_ * (stance / d + (1 - stance) / (1 - d)) / 2;
+}
+
+std::string Hopf::state_name(std::size_t index) const {
+  return (index < joints_ ? "x." : "y.") + std::to_string(index % joints_);
+}
+
+void Hopf::start(Out state) const {
+  for (std::size_t i = 0; i < joints_; ++i) {
+    const double angle = s_.model.duty_factor == 0.5 ? network_.phases[i] : angle_.angle(network_.phases[i]);
+    state[i] = kFirstRadius * math::sin(angle);
+    state[joints_ + i] = -kFirstRadius * math::cos(angle);
+  }
+}
+
+void Hopf::derivative(const Measured&, In state, Out rate) const {
+  const In x = state.subspan(0, joints_);
+  const In y = state.subspan(joints_, joints_);
+  for (std::size_t i = 0; i < joints_; ++i) {
+    const double growth = s_.model.rate * (1 - x[i] * x[i] - y[i] * y[i]);
+    const double omega = kTurn * s_.frequency[i] * pace(y[i]);
+    rate[i] = growth * x[i] - omega * y[i];
+    rate[joints_ + i] = growth * y[i] + omega * x[i];
+  }
+  for (const Coupling& c : network_.couplings) {
+    const auto from = static_cast<std::size_t>(c.from);
+    const auto to = static_cast<std::size_t>(c.to);
+    double turn = c.phase_lag;
+    if (s_.model.duty_factor != 0.5) {
+      const double angle = math::atan2(x[from], -y[from]);
+      turn = angle_.angle(angle_.phase(angle) + c.phase_lag) - angle;
+    }
+    const auto [sin, cos] = math::sincos(turn);
+    rate[to] += c.weight * (x[from] * cos - y[from] * sin - x[to]);
+    rate[joints_ + to] += c.weight * (y[from] * cos + x[from] * sin - y[to]);
+  }
+}
+
+void Hopf::output(double, In state, Out setpoint) const {
+  for (std::size_t i = 0; i < joints_; ++i) setpoint[i] = s_.offset[i] + s_.amplitude[i] * state[i];
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,177 @@
+#include "cpg/limit_cycle.h"
+
+#include "core/math/functions.h"
+
+namespace gaitlab {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr std::size_t kPhases = 2048;  // of the table: linear between them, 1e-6 of the amplitude
+
+using State = std::array<double, Oscillator::kMost>;
+
+State rk4(const Oscillator& oscillator, const State& x, double h) {
+  const std::size_t n = oscillator.states();
+  State k1{}, k2{}, k3{}, k4{}, at{}, next{};
+  const auto moved = [&](const State& k, double by) {
+    for (std::size_t i = 0; i < n; ++i) at[i] = x[i] + by * k[i];
+    return In(at.data(), n);
+  };
+  oscillator.derivative({x.data(), n}, {k1.data(), n});
+  oscillator.derivative(moved(k1, h / 2), {k2.data(), n});
+  oscillator.derivative(moved(k2, h / 2), {k3.data(), n});
+  oscillator.derivative(moved(k3, h), {k4.data(), n});
+  for (std::size_t i = 0; i < n; ++i) next[i] = x[i] + h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
+  return next;
+}
+
+double sine(const Oscillator& oscillator, const State& x) { return oscillator.point({x.data(), oscillator.states()}).sine; }
+
+/// Time from x, within one step, at which the sine is 0.
+double crossing(const Oscillator& oscillator, const State& x, double h) {
+  double lo = 0;
+  double hi = h;
+  while (hi - lo > 1e-14) {
+    const double middle = (lo + hi) / 2;
+    (sine(oscillator, rk4(oscillator, x, middle)) < 0 ? lo : hi) = middle;
+  }
+  return hi;
+}
+
+struct Turn {
+  State start{};
+  double period = 0;
+};
+
+Turn settled_turn(const Oscillator& oscillator) {
+  constexpr double kSame = 1e-11;
+  constexpr std::size_t kMostSteps = 3'000'000;
+  const std::size_t n = oscillator.states();
+  const double h = oscillator.step();
+  Turn turn;
+  State x{};
+  oscillator.start({x.data(), n});
+  double since = 0;  // the last crossing
+  for (std::size_t k = 0; k < kMostSteps; ++k) {
+    const State next = rk4(oscillator, x, h);
+    if (!(sine(oscillator, x) < 0 && sine(oscillator, next) >= 0)) {
+      x = next;
+      since += h;
+      continue;
+    }
+    const double part = crossing(oscillator, x, h);
+    x = rk4(oscillator, x, part);
+    turn.period = since + part;
+    since = 0;
+    double change = 0;
+    double size = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      change = std::max(change, std::abs(x[i] - turn.start[i]));
+      size = std::max(size, std::abs(x[i]));
+    }
+    turn.start = x;
+    if (change < kSame && size > 1e-3) return turn;
+  }
+  throw std::invalid_argument("the oscillator does not come to a limit cycle");
+}
+
+}  // namespace
+
+LimitCycle::LimitCycle(const Oscillator& oscillator) {
+  const std::size_t n = oscillator.states();
+  const Turn turn = settled_turn(oscillator);
+  period = turn.period;
+  const double h = period / kPhases;
+  const auto parts = static_cast<std::size_t>(std::ceil(h / oscillator.step()));
+  State x = turn.start;
+  std::vector<double> angles;
+  for (std::size_t k = 0; k <= kPhases; ++k) {
+    const In now(x.data(), n);
+    orbit.insert(orbit.end(), now.begin(), now.end());
+    amplitude = std::max(amplitude, std::abs(oscillator.output(now)));
+    const auto [sine, cosine] = oscillator.point(now);
+    const double before = angles.empty() ? 0 : angles.back();
+    angles.push_back(before + std::remainder(math::atan2(sine, cosine) - before, kTurn));
+    for (std::size_t i = 0; i < parts; ++i) x = rk4(oscillator, x, h / static_cast<double>(parts));
+  }
+  angles.front() = 0;
+  angles.back() = kTurn;
+  angle = PhaseTable(std::move(angles));
+}
+
+void CycleNetwork::Model::fields(Fields& f) {
+  f.number("coupling", coupling, {"1/s", 0, 100, "Weight w of the couplings made by a rule."});
+  f.number("amplitude_rate", amplitude_rate, {"1/s", 0, 100, "a_r: how fast r goes to the amplitude."});
+}
+
+CycleNetwork::CycleNetwork(const RobotInfo& robot, const OscillatorKeys& keys, const Model& model,
+                           std::unique_ptr<const Oscillator> oscillator)
+    : joints_(robot.joints.size()),
+      keys_(keys),
+      model_(model),
+      network_(robot, keys, model.coupling),
+      oscillator_(std::move(oscillator)),
+      cycle_(*oscillator_) {}
+
+CycleNetwork::Local CycleNetwork::local(In state, std::size_t joint) const {
+  Local x{};
+  for (std::size_t k = 0; k < oscillator_->states(); ++k) x[k] = state[k * joints_ + joint];
+  return x;
+}
+
+std::string CycleNetwork::state_name(std::size_t index) const {
+  const std::size_t block = index / joints_;
+  return (block < oscillator_->states() ? oscillator_->state_name(block) : std::string("r")) + "." +
+         std::to_string(index % joints_);
+}
+
+void CycleNetwork::start(Out state) const {
+  const std::size_t n = oscillator_->states();
+  for (std::size_t i = 0; i < joints_; ++i) {
+    const double turns = network_.phases[i] / kTurn;
+    const double at = (turns - std::floor(turns)) * static_cast<double>(kPhases);
+    const auto k = std::min(static_cast<std::size_t>(at), kPhases - 1);
+    const double share = at - static_cast<double>(k);
+    for (std::size_t s = 0; s < n; ++s) {
+      state[s * joints_ + i] = (1 - share) * cycle_.orbit[k * n + s] + share * cycle_.orbit[(k + 1) * n + s];
+    }
+    state[n * joints_ + i] = 0;
+  }
+}
+
+void CycleNetwork::derivative(const Measured&, In state, Out rate) const {
+  const std::size_t n = oscillator_->states();
+  // `rate` keeps the phases in its first block and the paces in its last until both are used.
+  const Out phase = rate.subspan(0, joints_);
+  const Out pace = rate.subspan(n * joints_, joints_);
+  for (std::size_t i = 0; i < joints_; ++i) {
+    const Local x = local(state, i);
+    const auto [sine, cosine] = oscillator_->point({x.data(), n});
+    phase[i] = cycle_.angle.phase(math::atan2(sine, cosine));
+    pace[i] = kTurn * keys_.frequency[i];
+  }
+  for (const Coupling& c : network_.couplings) {
+    const auto from = static_cast<std::size_t>(c.from);
+    const auto to = static_cast<std::size_t>(c.to);
+    pace[to] += c.weight * math::sin(phase[from] - phase[to] + c.phase_lag);
+  }
+  for (std::size_t i = 0; i < joints_; ++i) {
+    const Local x = local(state, i);
+    Local dx{};
+    oscillator_->derivative({x.data(), n}, {dx.data(), n});
+    // Backwards in time the limit cycle is not stable.
+    const double forward = std::max(0.0, pace[i]) * cycle_.period / kTurn;
+    for (std::size_t k = 0; k < n; ++k) rate[k * joints_ + i] = forward * dx[k];
+    rate[n * joints_ + i] = model_.amplitude_rate * (keys_.amplitude[i] - state[n * joints_ + i]);
+  }
+}
+
+void CycleNetwork::output(double, In state, Out setpoint) const {
+  const std::size_t n = oscillator_->states();
+  for (std::size_t i = 0; i < joints_; ++i) {
+    const Local x = local(state, i);
+    setpoint[i] = keys_.offset[i] + state[n * joints_ + i] * oscillator_->output({x.data(), n}) / cycle_.amplitude;
+  }
+}
+
+}  // namespace gaitlab

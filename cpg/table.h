@@ -1,0 +1,33 @@
+// Gait `table`: set points from a CSV text, joined as keyframes are.
+#pragma once
+#include <string>
+
+#include "cpg/keyframes.h"
+
+namespace gaitlab {
+
+class Table final : public Cpg {
+ public:
+  struct Model {
+    std::string file = "time\n0\n1\n";
+    int interpolation = 0;  ///< spline, linear
+    bool repeat = true;
+    double ramp = 0;
+    void fields(Fields& f);
+  };
+  struct Settings {
+    Model model;
+    void fields(Fields& f) { f.group("model", model, "Keys of this gait alone."); }
+  };
+  static const char* const kManual;
+
+  /// Throws std::invalid_argument with line and column of the text: no time column, a column that is no joint or comes twice, a
+  /// row with another number of cells, a cell that is no finite number; and as Keyframes.
+  Table(const RobotInfo& robot, const Settings& settings);
+  void output(double t, In state, Out setpoint) const override { frames_.output(t, state, setpoint); }
+
+ private:
+  Keyframes frames_;
+};
+
+}  // namespace gaitlab
