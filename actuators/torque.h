@@ -13,9 +13,11 @@ class TorqueActuator final : public Actuator {
     PerJoint limit{0};
     void fields(Fields& f) { f.per_joint("limit", limit, {"N m", 0, 1e9, "The torque is cut to +- this; 0: no limit."}); }
   };
-  static constexpr const char* kManual = R"(An ideal torque source: T = command, cut to +- limit. It draws the power T w.
+  static constexpr const char* kManual = R"(An ideal torque source. It draws the power T w.
 
-Takes commands in N m; its columns voltage and current are 0, voltage_command holds the command in N m.
+    T = command, cut to +- limit
+
+Source: none; the limit of a motor without resistance. Takes commands in N m; its columns voltage and current are 0, voltage_command holds the command in N m.
 
     actuator: {type: torque, limit: 1.9}
     controller: {type: pid, unit: N m, Kp: 5, Kd: 0.05})";

@@ -13,6 +13,10 @@ class Hold final : public Controller {
   static constexpr const char* kManual =
       R"(Open loop: the command is constant, whatever the set point. Takes the actuator's unit.
 
+    u = command
+
+Source: none; for tests of motors and for joints that stay free.
+
     controller: {type: hold, command: {default: 0, m1/passive: 3}})";
 
   Hold(const RobotInfo& robot, Settings settings) : joints_(robot.joints.size()), s_(std::move(settings)) {}

@@ -1,32 +1,10 @@
 // Same build, same scenario, same bytes; and no allocation in the steady state.
-#include <atomic>
-#include <cstdlib>
 #include <locale>
-#include <new>
 
+#include "allocations.h"
 #include "core/scenario/scenario.h"
 #include "core/trace/trace.h"
 #include "fixture.h"
-
-namespace {
-std::atomic<bool> counting{false};
-std::atomic<long> allocations{0};
-
-void* counted(std::size_t size) {
-  if (counting) ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new[](std::size_t size) { return counted(size); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace gaitlab::test {
 namespace {
@@ -131,11 +109,9 @@ TEST(SteadyState, AllocatesNothing) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=0.1"});
   Simulation simulation({&s, 1});
   for (int i = 0; i < 1000; ++i) simulation.step();  // first ticks size Bullet's scratch
-  allocations = 0;
-  counting = true;
+  const Allocations allocations;
   for (int i = 0; i < 1000; ++i) simulation.step();  // trace rows and control ticks among them
-  counting = false;
-  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(allocations.count(), 0);
 }
 
 }  // namespace

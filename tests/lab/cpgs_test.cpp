@@ -1,0 +1,70 @@
+// The caterpillar under every oscillator, only `cpg.type` changed.
+#include <cmath>
+#include <numbers>
+
+#include "fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+struct Gait {
+  double period = 0, lag = 0, travel = 0;
+};
+
+/// Over one period of 4 s after 3.5 s, when amplitudes have grown.
+Gait walk_under(const std::string& type, double lag) {
+  constexpr double kFrom = 3.5, kUntil = 8;
+  const RunRecord record =
+      run(shipped("caterpillar.yaml", {"cpg.type=" + type, fmt::format("cpg.phase_lag={}", lag), "duration=8"}));
+  const Table table(record.trace);
+  std::vector<std::vector<double>> rises(16);  // of each joint's angle through 0
+  for (std::size_t j = 0; j < 16; ++j) {
+    const std::string column = fmt::format("joint.{}.angle", j);
+    const auto first = static_cast<std::size_t>(kFrom / 0.005);
+    double before = table.at(first, column);
+    for (std::size_t row = first + 1; row <= static_cast<std::size_t>(kUntil / 0.005); ++row) {
+      const double now = table.at(row, column);
+      if (before < 0 && now >= 0) rises[j].push_back(0.005 * (static_cast<double>(row) - now / (now - before)));
+      before = now;
+    }
+  }
+  Gait gait;
+  int periods = 0;
+  double sine = 0, cosine = 0;
+  for (std::size_t j = 0; j < 16; ++j) {
+    EXPECT_FALSE(rises[j].empty()) << j;
+    if (rises[j].size() == 2) {
+      gait.period += rises[j][1] - rises[j][0];
+      ++periods;
+    }
+    if (j == 0 || rises[j].empty()) continue;
+    const double lead = 2 * std::numbers::pi / 4 * (rises[j - 1][0] - rises[j][0]);
+    sine += std::sin(lead);
+    cosine += std::cos(lead);
+  }
+  gait.period /= periods;
+  gait.lag = std::atan2(sine, cosine);
+  gait.travel = table(7.5, "com.x") - table(3.5, "com.x");
+  std::printf("%s, lag %g: period %.3f s, lag %.3f, %.4f m in 4 s\n", type.c_str(), lag, gait.period, gait.lag, gait.travel);
+  return gait;
+}
+
+class WalkUnder : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(WalkUnder, TheCaterpillarTravelsAndTurnsBackWithTheLagsSign) {
+  const Gait ahead = walk_under(GetParam(), 1.2);
+  EXPECT_NEAR(ahead.period, 4, 0.04);  // the tolerances of the interface
+  EXPECT_NEAR(ahead.lag, 1.2, 0.05);
+  EXPECT_LT(ahead.travel, -0.05);
+  const Gait back = walk_under(GetParam(), -1.2);
+  EXPECT_NEAR(back.period, 4, 0.04);
+  EXPECT_NEAR(back.lag, -1.2, 0.05);
+  EXPECT_GT(back.travel, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Walk, WalkUnder,
+                         ::testing::Values("phase_oscillator", "kuramoto_amplitude", "hopf", "matsuoka", "van_der_pol"),
+                         [](const auto& param) { return std::string(param.param); });
+
+}  // namespace
+}  // namespace gaitlab::test
