@@ -25,13 +25,14 @@ struct Coupling {
   }
 };
 
+/// Whom each joint follows. chain: the joint numbered before it; parent: the next one towards the base; siblings: as parent,
+/// and joints with the same parent one another; mirror: joints on the right their mirror image on the left, the others as
+/// parent; all: every joint every other, with the lags of chain.
 enum class CouplingRule { chain, parent, siblings, mirror, all };
 
 inline constexpr const char* kCouplingRules[] = {"chain", "parent", "siblings", "mirror", "all"};
 inline constexpr const char* kCouplingRulesAbout =
-    "chain: each joint follows the one numbered before it; parent: the next one towards the base; siblings: as parent, and "
-    "joints with the same parent one another; mirror: joints on the right their mirror image on the left, the others as "
-    "parent; all: every joint every other, with the lags of chain; or a list.";
+    "Followed: the joint before; the next towards the base; that and siblings; the right's left image; all; or a list.";
 
 /// The joint that is the image of `joint` (y < 0) in the plane y = 0 at zero angles, or -1. Its axis is parallel to the image
 /// of the joint's; a positive turn may go the other way.
