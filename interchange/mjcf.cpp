@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/model/principal_axes.h"
 #include "core/simulation/start.h"
@@ -32,10 +33,10 @@ class Mjcf {
   std::string write() {
     tinyxml2::XMLElement& root = add(document_, "mujoco");
     set(root, "model", s_.name);
-    comment(root,
-            fmt::format("Written by gaitlab. Not in this file, because MJCF does not hold it:{} Geoms touch nothing: those of "
-                        "group 3 are the contact elements (points are drawn as spheres of {} m), each with a site.{}",
-                        left_out(s_), interchange::text({kPointSize}), massless()));
+    comment(root, fmt::format(
+                      "Written by gaitlab. Not in this file, because MJCF does not hold it:{}{} Geoms touch nothing: those of "
+                      "group 3 are the contact elements (points are drawn as spheres of {} m), each with a site.{}",
+                      left_out(s_), method(), interchange::text({kPointSize}), massless()));
     write_options(root);
     tinyxml2::XMLElement& world = add(root, "worldbody");
     if (s_.ground.kind == Ground::Kind::plane) {
@@ -128,6 +129,11 @@ class Mjcf {
     principal_axes(t.inertia, moments);
     return t.mass < kMassless || moments.minCoeff() < kMassless;
   }
+  /// Two programs' methods of order 1 differ by their errors: RK4 stands for both of ours.
+  std::string method() const {
+    return s_.physics.integrator == 0 ? " Integrator: semi_implicit, of order 1; RK4 at the same step stands here, of order 4."
+                                      : "";
+  }
   std::string massless() const {
     std::string names;
     for (const Body& body : robot_.bodies) {
@@ -195,8 +201,9 @@ class Mjcf {
       tinyxml2::XMLElement& e = add(actuator, "motor");
       set(e, "name", robot_.joints[j].name);
       set(e, "joint", robot_.joints[j].name);
-      set(e, "ctrllimited", "true");
-      set(e, "ctrlrange", interchange::text({-limits_[j].effort, limits_[j].effort}));
+      const bool limited = std::isfinite(limits_[j].effort);
+      set(e, "ctrllimited", limited ? "true" : "false");
+      if (limited) set(e, "ctrlrange", interchange::text({-limits_[j].effort, limits_[j].effort}));
     }
   }
 

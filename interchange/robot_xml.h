@@ -30,7 +30,7 @@ std::string print(const tinyxml2::XMLDocument& document);
 /// A joint's motor as others know motors: what it gives at rest under the largest command, the speed at which it gives nothing,
 /// and the inertia of its rotor on the joint.
 struct MotorLimits {
-  double effort = 0;    ///< N m
+  double effort = 0;    ///< N m; infinity: as much as is asked
   double speed = 0;     ///< rad/s; 0: gives its torque at every speed
   double armature = 0;  ///< kg m^2
 };

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/simulation/start.h"
 #include "interchange/robot_xml.h"
 
@@ -28,12 +30,16 @@ class Urdf {
     const RobotState start = start_state(s_);
     tinyxml2::XMLElement& root = add(document_, "robot");
     set(root, "name", s_.name);
-    comment(root, fmt::format(
-                      "Written by gaitlab. Not in this file, because URDF does not hold it: Gravity {}.{}{} Start: base at {}, "
-                      "quaternion w x y z {}, angles {}. Collision: the contact elements; points are spheres of {} m.",
-                      text(s_.physics.gravity), left_out(s_), rotors(), text(start.position),
-                      text({start.orientation.w(), start.orientation.x(), start.orientation.y(), start.orientation.z()}),
-                      text(start.q), text({kPointRadius})));
+    comment(root,
+            fmt::format(
+                "Written by gaitlab. Not in this file, because URDF does not hold it: Gravity {}.{}{} Start: base at {}, "
+                "quaternion w x y z {}, velocity {}, angular velocity {} (world axes), angles {}, speeds {}. Collision: the "
+                "contact elements; points are spheres of {} m. An effort or velocity of {} stands for no limit, an effort "
+                "of 0 for no motor.",
+                text(s_.physics.gravity), left_out(s_), rotors(), text(start.position),
+                text({start.orientation.w(), start.orientation.x(), start.orientation.y(), start.orientation.z()}),
+                text(start.velocity), text(start.angular_velocity), text(start.q), text(start.qd), text({kPointRadius}),
+                text({kUnlimited})));
     if (s_.base != Base::floating) write_world(root, {start.orientation.toRotationMatrix(), start.position});
     const std::vector<ContactElement> contacts = contact_elements(robot_, static_cast<ContactSet>(s_.contact.on));
     for (const std::size_t b : tree_.order) {
@@ -54,8 +60,12 @@ class Urdf {
   }
 
   [[nodiscard]] std::string rotors() const {
-    const bool any = !limits_.empty() && limits_[0].armature > 0;
-    return any ? fmt::format(" Rotors: {} kg m^2 on joint {}.", text({limits_[0].armature}), robot_.joints[0].name) : "";
+    std::string names;
+    for (std::size_t j = 0; j < limits_.size(); ++j) {
+      if (!(limits_[j].armature > 0)) continue;
+      names += fmt::format("{}{} on {}", names.empty() ? "" : ", ", text({limits_[j].armature}), robot_.joints[j].name);
+    }
+    return names.empty() ? "" : fmt::format(" Rotors behind their gears, kg m^2: {}.", names);
   }
 
   tinyxml2::XMLElement& write_connection(tinyxml2::XMLElement& root, const std::string& name, const char* type,
@@ -93,7 +103,7 @@ class Urdf {
     const MotorLimits motor = limits_.empty() ? MotorLimits{} : limits_[at.index];
     set(limit, "lower", text({joint.lo}));
     set(limit, "upper", text({joint.hi}));
-    set(limit, "effort", text({motor.effort}));
+    set(limit, "effort", text({std::min(motor.effort, kUnlimited)}));
     set(limit, "velocity", text({motor.speed > 0 ? motor.speed : kUnlimited}));
   }
 
