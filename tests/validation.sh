@@ -14,30 +14,39 @@ unset GAITLAB_TOL_SCALE
 : >"$GAITLAB_VALIDATION"
 
 # The gtest filter of all suites in the files of tests/FOLDER that include validation.h (but for the tests of rows themselves).
+# Every one must have a test in the program PROGRAM: a row that a build left out must not vanish from the page unseen.
 filter() {
-  local suite text=
-  for suite in $(grep -l '"tests/validation.h"' "$root/tests/$1"/*.cpp | grep -v '/validation_test[.]cpp$' |
+  local folder=$1 program=$2 suite text=
+  for suite in $(grep -l '"tests/validation.h"' "$root/tests/$folder"/*.cpp | grep -v '/validation_test[.]cpp$' |
     xargs -r grep -hoE '^(TEST|TEST_F|TEST_P|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\([A-Za-z0-9_]+' | sed 's/.*(//' | sort -u); do
-    text+=${text:+:}$suite.*:*/$suite.*
+    if ! "$program" --gtest_list_tests --gtest_filter="$suite.*:*/$suite.*" | grep '^  ' >/dev/null; then
+      printf '%s: no test of suite %s of tests/%s\n' "$program" "$suite" "$folder" >&2
+      return 1
+    fi
+    text+="${text:+:}$suite.*:*/$suite.*"
   done
   printf '%s' "$text"
 }
 
 for tests in core lab; do
-  chosen=$(filter "$tests" || true)
-  [[ -n $chosen && -x $build/bin/${tests}_tests ]] || continue
+  chosen=$(filter "$tests" "$build/bin/${tests}_tests")
+  [[ -n $chosen ]] || continue # no file there writes rows
   if ! "$build/bin/${tests}_tests" --gtest_filter="$chosen" --gtest_brief=1 >"$work/$tests.log" 2>&1; then
     cat -- "$work/$tests.log" >&2
     exit 1
   fi
 done
+if [[ ! -s $GAITLAB_VALIDATION ]]; then
+  printf 'no test wrote a row\n' >&2
+  exit 1
+fi
 
 {
   cat -- "$root/tests/validation_head.md"
   # Of one id the row that is least far inside; a table a subject, in the order of the list.
   jq -rs '
     [["closed", "Closed forms and textbook systems"], ["cpg", "Pattern generators"], ["published", "Published numbers"], ["order", "Order of the integrators"],
-     ["property", "Properties of random robots"], ["format", "Other programs"], ["ledger", "Energy"]] as $subjects
+     ["property", "Laws of mechanics and symmetries"], ["format", "Other programs"], ["ledger", "Energy"]] as $subjects
     | (group_by(.id) | map(max_by(.share) + {count: length})) as $rows
     | (($rows | map(.id | split(".")[0]) | unique) - ($subjects | map(.[0]))) as $unknown
     | if $unknown != [] then error("unknown subjects: \($unknown)") else . end
