@@ -4,7 +4,8 @@
 
 namespace gaitlab::test {
 
-/// `id` is SUBJECT.NAME and sorts the page; subjects: closed, cpg, published, order, property, format, ledger (tests/validation.sh).
+/// `id` is SUBJECT.NAME and sorts the page; subjects: closed, cpg, published, order, property, format, ledger
+/// (tests/validation.sh).
 struct Row {
   std::string id;
   std::string what;    ///< the claim, a few words
