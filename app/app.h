@@ -77,7 +77,8 @@ int rerun(const RerunArguments& arguments);
 struct ApproveArguments {
   std::string file;
   std::optional<std::string> reason;
-  bool calibrate = false;  ///< make new bands; without a golden they are made anyway
+  bool calibrate = false;  ///< make new bands; without a golden, and for a run that has left its bands, they are made anyway
+  bool replace = false;    ///< begin a new history, whatever golden is there
   int jobs = 1;            ///< threads
 };
 int approve(const ApproveArguments& arguments);
@@ -87,6 +88,7 @@ struct TestArguments {
   std::optional<std::string> golden;      ///< folder: of another scenario than the one that is run
   std::optional<std::string> engine;      ///< instead of the scenario's, with its own step and integrator
   std::optional<std::string> junit, out;  ///< file; folder for figures
+  bool strict = false;                    ///< in a folder, too, every scenario must have a golden
   int jobs = 1;                           ///< threads
 };
 int test_goldens(const TestArguments& arguments);

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "app/app.h"
+#include "app/golden_cases.h"
 #include "app/golden_report.h"
 #include "app/golden_runs.h"
 #include "core/errors.h"
@@ -23,22 +24,27 @@ namespace fs = std::filesystem;
 constexpr int kEnsemble = 4;           // runs
 constexpr double kWidestBand = 0.002;  // of the range; the smallest mutant that has to be seen moves a torque by 0.4 %
 
+/// Blank where there is none.
 std::string reason(const ApproveArguments& arguments) {
   std::string text = arguments.reason.value_or("");
-  if (text.find_first_not_of(" \t\r\n") != std::string::npos) return text;
-  throw InputError(Place{"--reason"}, fmt::format("is {}; say in a sentence why these numbers are right: it is kept in the "
-                                                  "golden's history",
-                                                  arguments.reason ? "empty" : "missing"));
+  return text.find_first_not_of(" \t\r\n") == std::string::npos ? "" : text;
 }
 
-/// The golden that is there. One that cannot be read is replaced: what else is approve for.
-std::optional<Golden> golden_before(const fs::path& folder) {
-  if (!fs::exists(folder / "golden.json")) return {};
+InputError no_reason(const ApproveArguments& arguments) {
+  return {Place{"--reason"}, fmt::format("is {}; say in a sentence why these numbers are right: it is kept in the golden's "
+                                         "history. Nothing was written",
+                                         arguments.reason ? "empty" : "missing")};
+}
+
+/// The golden that is there, unless it is to be replaced.
+std::optional<Golden> golden_before(const fs::path& folder, bool replace) {
+  if (replace || !fs::exists(folder / "golden.json")) return {};
   try {
     return read_golden(folder);
   } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n{}: note: it is replaced, and its history is lost\n", error.what(), folder.string());
-    return {};
+    std::vector<Problem> problems = error.problems();
+    problems.front().text += "; it stays as it is. approve --replace makes a new one, whose history begins with it";
+    throw InputError(std::move(problems));
   }
 }
 
@@ -57,25 +63,9 @@ void check_finite(const GoldenRun& run, const std::string& which) {
   }
 }
 
-/// The scenario itself; with bands to make also its ensemble and the run with half the step.
-struct Runs {
-  std::vector<GoldenRun> all;
-  [[nodiscard]] const GoldenRun& base() const { return all.front(); }
-};
-
-Runs simulate(const Scenario& scenario, bool calibrate, int jobs) {
-  std::vector<Scenario> scenarios{scenario};
-  std::vector<std::string> names{scenario.file};
-  for (int i = 0; calibrate && i < kEnsemble; ++i) {
-    scenarios.push_back(perturbed(scenario, i));
-    names.push_back(fmt::format("{}, start {} of {} moved by 1e-7 rad", scenario.file, i + 1, kEnsemble));
-  }
-  if (calibrate) {
-    scenarios.push_back(scenario);
-    scenarios.back().physics.step /= 2;
-    names.push_back(scenario.file + ", half the step");
-  }
-  Runs runs;
+/// One each; nothing is written where one of them fails. `names` are for messages.
+std::vector<GoldenRun> simulate(const std::vector<Scenario>& scenarios, const std::vector<std::string>& names, int jobs) {
+  std::vector<GoldenRun> runs;
   std::vector<Outcome> outcomes = golden_runs(scenarios, jobs);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     try {
@@ -84,9 +74,24 @@ Runs simulate(const Scenario& scenario, bool calibrate, int jobs) {
       throw RunError(fmt::format("{}: {}; nothing was written", names[i], error.what()));
     }
     check_finite(outcomes[i].run, names[i]);
-    runs.all.push_back(std::move(outcomes[i].run));
+    runs.push_back(std::move(outcomes[i].run));
   }
   return runs;
+}
+
+/// From an ensemble of starts and from half the step.
+Bands bands_around(const GoldenRun& base, const Scenario& scenario, int jobs) {
+  std::vector<Scenario> scenarios;
+  std::vector<std::string> names;
+  for (int i = 0; i < kEnsemble; ++i) {
+    scenarios.push_back(perturbed(scenario, i));
+    names.push_back(fmt::format("{}, start {} of {} moved by 1e-7 rad", scenario.file, i + 1, kEnsemble));
+  }
+  scenarios.push_back(scenario);
+  scenarios.back().physics.step /= 2;
+  names.push_back(scenario.file + ", half the step");
+  const std::vector<GoldenRun> runs = simulate(scenarios, names, jobs);
+  return calibrate(base, std::span(runs).first(kEnsemble), runs.back());
 }
 
 /// A band so wide would let a changed motor pass.
@@ -104,21 +109,16 @@ void check_widest(const Golden& golden, const Scenario& scenario) {
                                band.halving > band.ensemble ? " or take a smaller step" : ""));
 }
 
-void keep_bands(const Golden& before, const GoldenDifference& change, const fs::path& folder, Golden& golden) {
-  if (!change.findings.empty() || before.numbers.size() != golden.numbers.size()) {
-    throw InputError(Place{folder.string()},
-                     "its bands are those of another form of run (see above); make new ones with --calibrate. "
-                     "Nothing was written");
-  }
-  golden.bands = before.bands;
-  golden.number_bands = before.number_bands;
+/// What a pair of eyes should see before it is blessed.
+void show_change(const Golden& before, const GoldenOrigin& now, const GoldenDifference& change) {
+  const std::string text = origin_changes(before, now) + differences(change, Shown::worst);
+  fmt::print("{}", since_approval(before));
+  fmt::print("{}", text.empty() ? "  nothing has changed\n" : text);
 }
 
-/// What a pair of eyes should see before it is blessed.
-void show_change(const GoldenDifference& change, const Golden& before) {
-  fmt::print("since approval {} ({}):\n", before.history.size(), before.history.back().reason);
-  const std::string text = differences(change, Shown::worst);
-  fmt::print("{}", text.empty() ? "  nothing has changed\n" : text);
+/// Bands belong to the gait they were made for: one that has left them needs its own.
+bool can_keep(const Golden& before, const GoldenDifference& change, const GoldenRun& run) {
+  return change.passed() && before.numbers.size() == run.numbers.size();
 }
 
 std::uintmax_t size_of(const fs::path& folder) {
@@ -147,28 +147,33 @@ void tell(const Golden& golden, const fs::path& folder, bool calibrated) {
 
 int approve(const ApproveArguments& arguments) {
   const std::string why = reason(arguments);
+  const fs::path folder = own_golden(arguments.file);
   Catalog catalog = standard_catalog();
   const Scenario scenario = read({arguments.file, {}, {}, true}, catalog);
-  const fs::path folder = golden_folder(arguments.file);
-  const std::optional<Golden> before = golden_before(folder);
-  const bool calibrates = arguments.calibrate || !before;
-  const Runs runs = simulate(scenario, calibrates, arguments.jobs);
+  const std::optional<Golden> before = golden_before(folder, arguments.replace);
+  if (why.empty() && !before) throw no_reason(arguments);
+  const GoldenRun base = simulate({scenario}, {scenario.file}, arguments.jobs).front();
 
   Golden golden;
   golden.origin = golden_origin(scenario);
-  RoundedTrace rounded = unpack(pack(runs.base().trace), folder);
-  golden.rounding = mean_squares(runs.base().trace, rounded.trace);
-  golden.run = {runs.base().trace, std::move(rounded.precision)};
-  golden.numbers = runs.base().numbers;
+  RoundedTrace rounded = unpack(pack(base.trace), folder);
+  golden.rounding = mean_squares(base.trace, rounded.trace);
+  golden.run = {base.trace, std::move(rounded.precision)};
+  golden.numbers = base.numbers;
+  bool calibrates = arguments.calibrate || !before;
   if (before) {
-    const GoldenDifference change = compare(*before, runs.base());
-    show_change(change, *before);
-    if (!calibrates) keep_bands(*before, change, folder, golden);
+    const GoldenDifference change = compare(*before, base);
+    show_change(*before, golden.origin, change);
+    check_own(*before, folder, scenario, change);
+    calibrates = calibrates || !can_keep(*before, change, base);
     golden.history = before->history;
+    golden.bands = before->bands;
+    golden.number_bands = before->number_bands;
   }
+  if (why.empty()) throw no_reason(arguments);
   golden.history.push_back({static_cast<std::int64_t>(golden.history.size()) + 1, why, golden.origin.build});
   if (calibrates) {
-    Bands bands = calibrate(runs.base(), golden.run.precision, std::span(runs.all).subspan(1, kEnsemble), runs.all.back());
+    Bands bands = bands_around(base, scenario, arguments.jobs);
     golden.bands = std::move(bands.columns);
     golden.number_bands = std::move(bands.numbers);
   }

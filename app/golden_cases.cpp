@@ -14,23 +14,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> scenarios_in(const fs::path& folder) {
-  std::vector<fs::path> files;
+bool is_scenario(const fs::path& file) { return file.extension() == ".yaml" || file.extension() == ".yml"; }
+
+/// Scenarios, and goldens that have none: one of them may be gone unseen.
+struct Found {
+  std::vector<fs::path> scenarios, orphans;
+};
+
+Found found_in(const fs::path& folder) {
+  Found found;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".yaml" && !entry.is_directory()) files.push_back(entry.path());
+    const fs::path& path = entry.path();
+    if (is_scenario(path) && !entry.is_directory()) found.scenarios.push_back(path);
+    if (path.extension() != ".golden" || !entry.is_directory()) continue;
+    if (!fs::exists(fs::path(path).replace_extension(".yaml")) && !fs::exists(fs::path(path).replace_extension(".yml")))
+      found.orphans.push_back(path);
   }
   if (error) throw InputError(Place{folder.string()}, "cannot be read: " + error.message());
-  if (files.empty()) throw InputError(Place{folder.string()}, "holds no scenario (*.yaml)");
-  std::sort(files.begin(), files.end());
-  return files;
+  if (found.scenarios.empty()) throw InputError(Place{folder.string()}, "holds no scenario (*.yaml, *.yml)");
+  std::sort(found.scenarios.begin(), found.scenarios.end());
+  std::sort(found.orphans.begin(), found.orphans.end());
+  return found;
 }
 
-GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golden, bool named) {
+GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golden, bool must) {
   GoldenCase c{file.string()};
-  const fs::path folder = golden ? fs::path(*golden) : golden_folder(file);
+  const fs::path folder = golden ? fs::path(*golden) : own_golden(file);
   if (!golden && !fs::exists(folder)) {
-    if (!named) {
+    if (!must) {
       c.verdict = Verdict::skipped;
       return c;
     }
@@ -41,10 +53,20 @@ GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golde
     return c;
   }
   try {
+    c.folder = folder;
+    c.given_golden = golden.has_value();
     c.golden = read_golden(folder);
   } catch (const InputError& error) {
     c.fail(Verdict::bad_input, error.what());
   }
+  return c;
+}
+
+GoldenCase orphan(const fs::path& golden) {
+  GoldenCase c{golden.string()};
+  c.fail(Verdict::bad_input,
+         fmt::format("{}: error: has no scenario ({} does not exist); was it renamed or removed? Do the same with its golden",
+                     c.file, fs::path(golden).replace_extension(".yaml").string()));
   return c;
 }
 
@@ -90,6 +112,11 @@ void judge(GoldenCase& c, Outcome& outcome) {
   c.run = std::move(outcome.run);
   c.difference = compare(*c.golden, c.run);
   if (!c.difference.passed()) c.verdict = Verdict::regression;
+  try {
+    if (!c.given_golden) check_own(*c.golden, c.folder, *c.scenario, c.difference);
+  } catch (const InputError& error) {
+    c.fail(Verdict::bad_input, error.what());
+  }
 }
 
 }  // namespace
@@ -99,6 +126,23 @@ void GoldenCase::fail(Verdict as, std::string text) {
   problem = std::move(text);
 }
 
+fs::path own_golden(const fs::path& scenario) {
+  for (const char* extension : {".yaml", ".yml"}) {
+    const fs::path other = fs::path(scenario).replace_extension(extension);
+    if (other.extension() == scenario.extension() || !fs::exists(other)) continue;
+    throw InputError(Place{scenario.string()}, fmt::format("would share its golden, {}, with {}; rename one of them",
+                                                           golden_folder(scenario).string(), other.filename().string()));
+  }
+  return golden_folder(scenario);
+}
+
+void check_own(const Golden& golden, const fs::path& folder, const Scenario& scenario, const GoldenDifference& difference) {
+  if (golden.origin.name == scenario.name || difference.passed()) return;
+  throw InputError(Place{folder.string()},
+                   fmt::format("is the golden of '{}', and {} ('{}') is another run; gaitlab approve --replace makes its own",
+                               golden.origin.name, scenario.file, scenario.name));
+}
+
 std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& catalog) {
   std::vector<std::string> given = arguments.scenarios;
   if (given.empty()) given.emplace_back("scenarios");
@@ -106,8 +150,10 @@ std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& ca
     throw InputError(Place{"--golden"}, "is the golden of one scenario; name exactly one scenario with it");
   std::vector<GoldenCase> cases;
   std::set<std::string> seen;
-  const auto add = [&](const fs::path& file, bool named) {
-    if (seen.insert(fs::weakly_canonical(file).string()).second) cases.push_back(case_of(file, arguments.golden, named));
+  const auto add = [&](const fs::path& file, bool must) {
+    // A link is a scenario of its own, with its own golden; so only its folder is made canonical.
+    const fs::path name = fs::weakly_canonical(fs::absolute(file).parent_path()) / file.filename();
+    if (seen.insert(name.string()).second) cases.push_back(case_of(file, arguments.golden, must));
   };
   for (const std::string& path : given) {  // those named by their file first: they must have a golden
     if (fs::is_directory(path)) continue;
@@ -116,7 +162,9 @@ std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& ca
   }
   for (const std::string& path : given) {
     if (!fs::is_directory(path)) continue;
-    for (const fs::path& file : scenarios_in(path)) add(file, false);
+    const Found found = found_in(path);
+    for (const fs::path& file : found.scenarios) add(file, arguments.strict);
+    for (const fs::path& golden : found.orphans) cases.push_back(orphan(golden));
   }
   for (GoldenCase& c : cases) {
     if (c.golden) read_case(c, arguments.engine, catalog);

@@ -73,6 +73,26 @@ std::string plural(std::size_t count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+std::string since_approval(const Golden& golden) {
+  return fmt::format("since approval {} ({}):\n", golden.history.back().number, golden.history.back().reason);
+}
+
+std::string origin_changes(const Golden& golden, const GoldenOrigin& now) {
+  const GoldenOrigin& then = golden.origin;
+  std::string text;
+  const auto add = [&](const char* what, const auto& before, const auto& after) {
+    if (before != after) text += fmt::format("  {}: then {}, now {}\n", what, before, after);
+  };
+  add("build", then.build, now.build);
+  add("compiler", then.compiler, now.compiler);
+  add("name", then.name, now.name);
+  add("engine", then.engine, now.engine);
+  add("integrator", then.integrator, now.integrator);
+  add("step", then.step, now.step);
+  if (then.scenario != now.scenario) text += "  scenario: its resolved text is another\n";
+  return text;
+}
+
 std::string differences(const GoldenDifference& difference, Shown shown) {
   std::string text;
   for (const std::string& finding : difference.findings) text += "  " + finding + "\n";

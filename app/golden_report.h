@@ -8,6 +8,13 @@ namespace gaitlab::app {
 
 enum class Shown { failing, worst };  ///< all that fail; the ten that strayed farthest, in bands
 
+/// `since approval 2 (stiffer feet):`, a line.
+std::string since_approval(const Golden& golden);
+
+/// What of build, compiler, engine, integrator, step and scenario is not as it was when the golden was approved: a line each,
+/// indented by two.
+std::string origin_changes(const Golden& golden, const GoldenOrigin& now);
+
 /// Findings, then a table of columns, then one of numbers, each line indented by two; "" where nothing of it is to be shown.
 std::string differences(const GoldenDifference& difference, Shown shown);
 

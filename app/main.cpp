@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <functional>
+#include <system_error>
 
 #include "app/app.h"
 
@@ -48,6 +49,8 @@ int guarded(const std::function<int()>& command) {
     say("", error.what(), "\n");
     return 2;
   } catch (const RunError& error) {
+    say("gaitlab: error: ", error.what(), "\n");
+  } catch (const std::system_error& error) {  // of fmt: standard output
     say("gaitlab: error: ", error.what(), "\n");
   } catch (const std::bad_alloc&) {
     say("gaitlab: error: ", "out of memory", "\n");
@@ -146,7 +149,10 @@ int program(int argc, char** argv) {
   CLI::App* approve_command = app.add_subcommand("approve", "bless a scenario's torques as they are now: its golden");
   approve_command->add_option("SCENARIO", approve_arguments.file, "scenario file (YAML)")->required();
   approve_command->add_option("--reason", approve_arguments.reason, "why these numbers are right; kept in the golden");
-  approve_command->add_flag("--calibrate", approve_arguments.calibrate, "make new bands, from five more runs");
+  approve_command->add_flag("--calibrate", approve_arguments.calibrate,
+                            "make new bands, from five more runs, even where the run is within the old ones");
+  approve_command->add_flag("--replace", approve_arguments.replace,
+                            "begin anew where the golden cannot be read or is another scenario's: its history is lost");
   approve_command->add_option("-j,--jobs", approve_arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
   approve_command->callback([&] { chosen = [&] { return approve(approve_arguments); }; });
 
@@ -157,7 +163,8 @@ int program(int argc, char** argv) {
   test_command->add_option("--junit", test_arguments.junit, "also write the result as JUnit XML to this file");
   test_command->add_option("--engine", test_arguments.engine, "run with this engine, at its own step");
   test_command->add_option("--golden", test_arguments.golden, "golden folder to compare one scenario with, not its own");
-  test_command->add_option("--out", test_arguments.out, "folder for figures of what failed (default runs/test-NAME)");
+  test_command->add_option("--out", test_arguments.out, "folder for figures of what failed (default runs/test)");
+  test_command->add_flag("--strict", test_arguments.strict, "in a folder, too, a scenario without a golden is an error");
   test_command->callback([&] { chosen = [&] { return test_goldens(test_arguments); }; });
 
   try {
@@ -167,7 +174,7 @@ int program(int argc, char** argv) {
     return code == 0 ? 0 : 2;
   }
   const int code = chosen();
-  if (std::fflush(stdout) != 0) throw RunError("standard output cannot be written");
+  if (std::fflush(stdout) != 0 && code == 0) throw RunError("standard output cannot be written");
   return code;
 }
 

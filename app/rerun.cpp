@@ -143,6 +143,7 @@ void print_columns(const TraceDifference& difference) {
   for (const ColumnDifference& d : difference.columns) {
     if (!(d.relative_rms <= kTolerance)) worst.push_back(d);
   }
+  if (worst.empty()) return;  // what differs is a finding
   std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.relative_rms > b.relative_rms; });
   fmt::print("  {} of {} columns are beyond {} of their range:\n", worst.size(), difference.columns.size(), kTolerance);
   for (std::size_t i = 0; i < std::min(worst.size(), kColumnsShown); ++i) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 
 #include "app/app.h"
 #include "app/golden_cases.h"
@@ -18,8 +19,6 @@ namespace gaitlab::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kPanels = 4;  // of a figure: what strayed first explains the rest
 
 // ---- the table
 
@@ -80,20 +79,25 @@ std::string outside(const GoldenDifference& d) {
          (d.findings.empty() ? "" : ", and a run of another form");
 }
 
-std::vector<OverlayPanel> panels(const GoldenCase& c) {
-  std::vector<const ColumnCheck*> first;
+/// The columns outside their bands, the first to stray first; where only numbers are, the column nearest to its band.
+std::vector<const ColumnCheck*> strayed(const GoldenCase& c) {
+  std::vector<const ColumnCheck*> found;
   for (const ColumnCheck& check : c.difference.columns) {
-    if (!check.passed()) first.push_back(&check);
+    if (!check.passed()) found.push_back(&check);
   }
+  if (const ColumnCheck* worst = c.difference.worst_column(); found.empty() && worst != nullptr) found.push_back(worst);
   const double never = c.scenario->duration + 1;
-  std::stable_sort(first.begin(), first.end(), [&](const ColumnCheck* a, const ColumnCheck* b) {
+  std::stable_sort(found.begin(), found.end(), [&](const ColumnCheck* a, const ColumnCheck* b) {
     const double from_a = a->outside.value_or(never);
     const double from_b = b->outside.value_or(never);
     return from_a != from_b ? from_a < from_b : a->ratio() > b->ratio();
   });
-  first.resize(std::min(first.size(), kPanels));
+  return found;
+}
+
+std::vector<OverlayPanel> panels(const GoldenCase& c) {
   std::vector<OverlayPanel> panels;
-  for (const ColumnCheck* check : first) {
+  for (const ColumnCheck* check : strayed(c)) {
     OverlayPanel panel{check->name, check->unit};
     const Trace& golden = c.golden->run.trace;
     for (std::size_t k = 0; k < std::min(golden.rows(), c.run.trace.rows()); ++k) {
@@ -108,49 +112,42 @@ std::vector<OverlayPanel> panels(const GoldenCase& c) {
   return panels;
 }
 
-/// Where figures go: one folder for all with --out, else one a scenario.
+/// The folder of the figures, made for the first of them where --out does not name it.
 class Figures {
  public:
   explicit Figures(const std::optional<std::string>& out) {
-    if (out) common_.emplace(*out, "");
+    if (out) folder_.emplace(*out, "");
   }
 
   /// The file's name, or "" where there is nothing to draw.
   std::string write(const GoldenCase& c) {
     const std::vector<OverlayPanel> shown = panels(c);
     if (shown.empty()) return "";
+    if (!folder_) folder_.emplace(std::nullopt, "test");
+    fs::path file = folder_->path() / (c.scenario->name + ".svg");
+    for (int k = 2; fs::exists(file); ++k) file.replace_filename(fmt::format("{}-{}.svg", c.scenario->name, k));
     const std::string title = fmt::format("{}: {} outside their bands, the first to stray on top", c.scenario->name,
                                           plural(failing(c.difference.columns), "column"));
-    if (!common_) {
-      RunFolder own({}, "test-" + c.scenario->name);
-      return put(own, own.path() / "overlay.svg", overlay_svg(title, shown));
-    }
-    fs::path file = common_->path() / (c.scenario->name + ".svg");
-    for (int k = 2; fs::exists(file); ++k) file.replace_filename(fmt::format("{}-{}.svg", c.scenario->name, k));
-    return put(*common_, file, overlay_svg(title, shown));
-  }
-
- private:
-  static std::string put(RunFolder& folder, const fs::path& file, const std::string& svg) {
-    write_file(file, svg);
-    folder.keep();
+    write_file(file, overlay_svg(title, shown));
+    folder_->keep();
     return file.string();
   }
 
-  std::optional<RunFolder> common_;
+ private:
+  std::optional<RunFolder> folder_;
 };
 
-void print_failure(const GoldenCase& c, Figures& figures) {
-  fmt::print("\n{}: {}\n{}", c.file, outside(c.difference), differences(c.difference, Shown::failing));
-  const std::string figure = figures.write(c);
-  if (!figure.empty()) fmt::print("  figure: {}\n", figure);
+/// The same on screen and in XML.
+std::string failure(const GoldenCase& c) {
+  const std::string changes = origin_changes(*c.golden, golden_origin(*c.scenario));
+  return since_approval(*c.golden) + (changes.empty() ? "  build, engine, step and scenario are the same\n" : changes) +
+         differences(c.difference, Shown::failing) + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n");
 }
 
 /// That it was approved from another text explains a failure, and is no failure.
 void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
-    const bool compared = c.verdict == Verdict::passed || c.verdict == Verdict::regression;
-    if (!compared || c.other_engine || hash(resolved(*c.scenario)) == c.golden->origin.scenario) continue;
+    if (c.verdict != Verdict::passed || c.other_engine || hash(resolved(*c.scenario)) == c.golden->origin.scenario) continue;
     fmt::print(stderr, "{}: note: its resolved text is no longer that of the golden\n", c.file);
   }
 }
@@ -177,8 +174,7 @@ std::string junit(const std::vector<GoldenCase>& cases) {
       }
       return escaped;
     };
-    if (c.verdict == Verdict::regression)
-      element("failure", outside(c.difference), lines(differences(c.difference, Shown::failing)));
+    if (c.verdict == Verdict::regression) element("failure", outside(c.difference), lines(failure(c)));
     if (c.verdict == Verdict::bad_input || c.verdict == Verdict::run_failed)
       element("error", to_string(c.verdict), lines(c.problem));
     if (c.verdict == Verdict::skipped) element("skipped", "no golden", "");
@@ -186,6 +182,28 @@ std::string junit(const std::vector<GoldenCase>& cases) {
   }
   return text + "</testsuite>\n</testsuites>\n";
 }
+
+/// Opened before the runs, so that a wrong path costs nothing.
+class Report {
+ public:
+  explicit Report(const std::optional<std::string>& path) {
+    if (!path) return;
+    if (fs::is_directory(*path)) throw InputError(Place{"--junit " + *path}, "is a folder");
+    try {
+      file_.emplace(*path);
+    } catch (const RunError& error) {
+      throw InputError(Place{"--junit"}, error.what());
+    }
+  }
+  void write(const std::vector<GoldenCase>& cases) {
+    if (!file_) return;
+    file_->write(junit(cases));
+    file_->commit();
+  }
+
+ private:
+  std::optional<AtomicFile> file_;
+};
 
 int exit_code(const std::vector<GoldenCase>& cases) {
   if (count(cases, Verdict::regression) > 0) return 4;
@@ -197,20 +215,34 @@ int exit_code(const std::vector<GoldenCase>& cases) {
 
 int test_goldens(const TestArguments& arguments) {
   Figures figures(arguments.out);
+  Report report(arguments.junit);
   Catalog catalog = standard_catalog();
   std::vector<GoldenCase> cases = golden_cases(arguments, catalog);
   run_cases(cases, arguments.jobs);
+  bool written = true;
+  const auto write = [&](const std::function<void()>& file) {  // what was found counts more than a file that cannot be written
+    try {
+      file();
+    } catch (const std::runtime_error& error) {  // InputError: a folder that cannot be made
+      fmt::print(stderr, "gaitlab: error: {}\n", error.what());
+      written = false;
+    }
+  };
   print_table(cases);
   print_notes(cases);
-  for (const GoldenCase& c : cases) {
-    if (c.verdict == Verdict::regression) print_failure(c, figures);
+  for (GoldenCase& c : cases) {
+    if (c.verdict == Verdict::regression) {
+      write([&] { c.figure = figures.write(c); });
+      fmt::print("\n{}: {}\n{}", c.file, outside(c.difference), failure(c));
+    }
     if (!c.problem.empty()) fmt::print(stderr, "{}\n", c.problem);
   }
   fmt::print("\n{}\n", counts(cases));
-  if (arguments.junit) write_file(*arguments.junit, junit(cases));
+  write([&] { report.write(cases); });
   if (cases.size() == count(cases, Verdict::skipped))
     fmt::print(stderr, "gaitlab: error: nothing was tested: no scenario has a golden; make one with gaitlab approve\n");
-  return exit_code(cases);
+  const int code = exit_code(cases);
+  return code == 0 && !written ? 1 : code;
 }
 
 }  // namespace gaitlab::app

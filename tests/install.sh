@@ -74,8 +74,8 @@ check_installation() {
 
 use_plugin() {
   printf 'gaitlab: 1\nplugins: [%s]\nrobot: {modules: mtran}\nduration: 0.1\ncpg: {type: wave}\n' \
-    "$work/user-build/libwave.so" >"$user/scenarios/with_plugin.yaml"
-  expect 0 "$program" run "$user/scenarios/with_plugin.yaml" --quiet --out "$work/with-plugin"
+    "$work/user-build/libwave.so" >"$work/with_plugin.yaml"
+  expect 0 "$program" run "$work/with_plugin.yaml" --quiet --out "$work/with-plugin"
   printf 'ok       a plugin built against the installed headers runs\n'
 }
 
@@ -95,7 +95,7 @@ cmake_way() {
   printf 'ok       gaitlab_add_golden_test: passes, fails for a changed gait, fails without a golden\n'
 }
 
-# The recipes of docs/ci.md as they stand there, in the user's project.
+# The shell recipes of docs/ci.md, in the user's project.
 shell_recipe() {
   cd -- "$user"
   expect 0 "$program" run "$scenario" --quiet --out reference
@@ -103,10 +103,10 @@ shell_recipe() {
   sed -i 's/amplitude: 0.6$/amplitude: 0.63/' reference/scenario.resolved.yaml
   expect 4 "$program" rerun reference --verify
   printf 'ok       shell: rerun --verify passes, and fails (4) for a changed gait\n'
-  expect 0 "$program" test scenarios/walk.yaml --junit golden.xml
+  expect 0 "$program" test scenarios --strict --junit golden.xml
   [[ -s golden.xml ]] || fail "no golden.xml"
   sed -i 's/amplitude: 0.6,/amplitude: 0.63,/' "$scenario"
-  expect 4 "$program" test scenarios/walk.yaml --junit golden.xml
+  expect 4 "$program" test scenarios --strict --junit golden.xml
   printf 'ok       shell: test passes, and fails (4) for a changed gait\n'
 }
 

@@ -147,7 +147,7 @@ class Comparison {
     const auto count = static_cast<std::size_t>(std::count_if(values.begin(), values.end(), bad));
     if (count == 0) return;
     const auto first = static_cast<std::size_t>(std::find_if(values.begin(), values.end(), bad) - values.begin());
-    find(fmt::format("{}: {} of {} not finite, the first at t = {} s", name, plural(count, "value"), which, time(first)));
+    find(fmt::format("{}: {} of {} not finite, the first at t = {:.6g} s", name, plural(count, "value"), which, time(first)));
   }
 
   void compare_column(std::size_t column, std::size_t other) {

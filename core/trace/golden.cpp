@@ -119,6 +119,8 @@ Json checked(const fs::path& file, const std::string& text) {
   }
   const std::size_t end = text.rfind(kChecksum);
   const std::string_view content = std::string_view(text).substr(0, end);
+  if (text.find('\r') != std::string::npos)
+    throw wrong(file, "has other line ends than it was written with; `*.golden/** -text` in .gitattributes keeps them");
   if (end == std::string::npos || text.substr(end) != checksum_line(content))
     throw wrong(file, "is corrupt or was changed by hand: its checksum is another; bands are made by gaitlab approve");
   return json;

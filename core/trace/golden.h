@@ -13,7 +13,7 @@ namespace gaitlab {
 struct Band {
   double ensemble = 0;  ///< 10 x the spread of runs whose start differs by rounding
   double halving = 0;   ///< 3 x the change from halving the step
-  double floor = 0;     ///< what the file's precision allows to see
+  double floor = 0;     ///< rounding of other builds, grown over the run, stays below
   [[nodiscard]] double width() const;
 };
 

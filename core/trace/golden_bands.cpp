@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kOfTheLargest = 1e-3;  // range, among columns of one unit
 constexpr double kOfTheUnit = 1e-6;     // um, urad, uN m, uA: below what the model means
-constexpr double kEnsembleFactor = 10, kHalvingFactor = 3, kRoundingFactor = 2;
+constexpr double kEnsembleFactor = 10, kHalvingFactor = 3;
 constexpr double kLeastOfRange = 1e-6;  // other compilers' rounding, grown over a run, stays below
 
 struct Extent {
@@ -69,8 +69,7 @@ std::vector<double> mean_squares(const Trace& a, const Trace& b) {
   return squares;
 }
 
-Bands calibrate(const GoldenRun& base, std::span<const double> precision, std::span<const GoldenRun> ensemble,
-                const GoldenRun& halved) {
+Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, const GoldenRun& halved) {
   Bands bands;
   bands.columns.resize(1);
   const std::vector<double> scale = scales(base.trace);
@@ -79,8 +78,7 @@ Bands calibrate(const GoldenRun& base, std::span<const double> precision, std::s
     for (const GoldenRun& run : ensemble)
       band.ensemble = std::max(band.ensemble, kEnsembleFactor * std::sqrt(mean_square(base.trace, run.trace, i)) / scale[i]);
     band.halving = kHalvingFactor * std::sqrt(mean_square(base.trace, halved.trace, i)) / scale[i];
-    const double rounding = precision[i] / std::sqrt(12.0);  // RMS of an error spread evenly over one step of the grid
-    band.floor = std::max(kLeastOfRange, kRoundingFactor * rounding / scale[i]);
+    band.floor = kLeastOfRange;
     bands.columns.push_back(band);
   }
   const std::vector<double> size = scales(base.numbers);

@@ -1,13 +1,11 @@
 // Stand-ins for what a scenario names: plugins, an engine, a two-body module, files in a folder of their own.
 #pragma once
-#include <unistd.h>
-
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 
 #include "core/scenario/scenario.h"
+#include "tests/folder.h"
 
 namespace gaitlab::fakes {
 
@@ -161,39 +159,21 @@ contacts:
   all: [{body: a, sphere: [0, 0, 0], radius: 0.1}]
 )";
 
-/// A folder of its own, removed at the end; errors show it as DIR.
-class Folder {
+/// A folder with a module type; errors show it as DIR.
+class Folder : public test::Folder {
  public:
   Folder() {
-    path_ = (std::filesystem::temp_directory_path() /
-             ("gaitlab_scenario_" + std::to_string(getpid()) + "_" + std::to_string(counter()++)))
-                .string();
-    std::filesystem::create_directories(path_ + "/modules");
+    std::filesystem::create_directories(path() + "/modules");
     write("modules/duo.yaml", kDuo);
   }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ + "/" + name, std::ios::binary) << text;
-    return path_ + "/" + name;
-  }
-  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] std::string path() const { return test::Folder::path().string(); }
 
   /// Text with this folder's path replaced by DIR.
   [[nodiscard]] std::string shown(std::string text) const {
-    for (std::size_t at = text.find(path_); at != std::string::npos; at = text.find(path_))
-      text.replace(at, path_.size(), "DIR");
+    const std::string path = this->path();
+    for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path)) text.replace(at, path.size(), "DIR");
     return text;
   }
-
- private:
-  static int& counter() {
-    static int n = 0;
-    return n;
-  }
-  std::string path_;
 };
 
 /// What an InputError thrown by `act` says, or "no error".

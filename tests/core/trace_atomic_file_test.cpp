@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "core/trace/atomic_file.h"
+#include "tests/folder.h"
 
 namespace gaitlab {
 namespace {
@@ -18,21 +19,11 @@ namespace fs = std::filesystem;
 
 class AtomicFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "gaitlab-file-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-    file_ = folder_ / "trace.csv";
-    part_ = folder_ / "trace.csv.part";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  [[nodiscard]] std::string text() const { return test::read(file_); }
 
-  [[nodiscard]] std::string text() const {
-    std::ifstream in(file_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-
-  fs::path folder_, file_, part_;
+  const test::Folder own_;
+  const fs::path folder_ = own_.path();
+  const fs::path file_ = folder_ / "trace.csv", part_ = folder_ / "trace.csv.part";
 };
 
 // The disk is full after `bytes`: the kernel refuses to grow a file beyond it, with an error as for ENOSPC.

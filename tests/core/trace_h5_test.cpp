@@ -11,6 +11,7 @@
 
 #include "core/errors.h"
 #include "core/trace/h5.h"
+#include "tests/folder.h"
 
 namespace gaitlab {
 namespace {
@@ -21,19 +22,8 @@ constexpr std::size_t kHeader = 512;
 
 class H5 : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "gaitlab-h5-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-    file_ = folder_ / "trace.h5";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void put(const std::string& bytes) const { std::ofstream(file_, std::ios::binary) << bytes; }
-  [[nodiscard]] std::string bytes() const {
-    std::ifstream in(file_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  [[nodiscard]] std::string bytes() const { return test::read(file_); }
   [[nodiscard]] std::string written(const Trace& trace) const {
     write_h5(trace, kOrigin, file_);
     return bytes();
@@ -58,7 +48,8 @@ class H5 : public testing::Test {
   }
 
   const Origin kOrigin{"gaitlab: 1\nname: \"é\"\n", -5, "0.1.0+abc (g++)"};
-  fs::path folder_, file_;
+  const test::Folder own_;
+  const fs::path folder_ = own_.path(), file_ = folder_ / "trace.h5";
 };
 
 Trace sample(std::size_t rows) {

@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "core/trace/run_folder.h"
+#include "tests/folder.h"
 
 namespace gaitlab {
 namespace {
@@ -18,17 +19,8 @@ namespace fs = std::filesystem;
 
 class RunFolders : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "gaitlab-runs-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-    before_ = fs::current_path();
-    fs::current_path(folder_);
-  }
-  void TearDown() override {
-    fs::current_path(before_);
-    fs::remove_all(folder_);
-  }
+  void SetUp() override { fs::current_path(folder_); }
+  void TearDown() override { fs::current_path(before_); }
   static std::string complaint(const std::optional<fs::path>& out, const std::string& name = "walk") {
     try {
       const RunFolder folder(out, name);
@@ -38,7 +30,8 @@ class RunFolders : public testing::Test {
     return "none";
   }
 
-  fs::path folder_, before_;
+  const test::Folder own_;
+  const fs::path folder_ = own_.path(), before_ = fs::current_path();
 };
 
 TEST_F(RunFolders, AreNumbered) {

@@ -83,14 +83,16 @@ TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
   const Result result = call("test good.yaml --junit result.xml");
   EXPECT_EQ(result.code, 4);
-  EXPECT_EQ(result.err, "good.yaml: note: its resolved text is no longer that of the golden\n");
+  EXPECT_EQ(result.err, "");
   expect_contains(result.out, " of 19 columns and ");
-  expect_contains(result.out, " of 18 numbers outside their bands\n  column ");
+  expect_contains(result.out,
+                  " of 18 numbers outside their bands\nsince approval 1 (first golden):\n"
+                  "  scenario: its resolved text is another\n  column ");
   expect_contains(result.out, "\n  joint.3.torque ");
   expect_contains(result.out, "\n  m1/passive.torque.peak ");
-  expect_contains(result.out, "\n  figure: runs/test-good/overlay.svg\n");
+  expect_contains(result.out, "\n  figure: runs/test/good.svg\n");
   expect_contains(result.out, "\n0 passed, 1 failed\n");
-  const std::string figure = read(folder / "runs/test-good/overlay.svg");
+  const std::string figure = read(folder / "runs/test/good.svg");
   expect_contains(figure, "good: ");
   expect_contains(figure, "outside from ");
   const std::string junit = read(folder / "result.xml");
@@ -98,6 +100,7 @@ TEST_F(GoldenCommand, AnotherMotorIsARegression) {
                   "<testsuite name=\"gaitlab test\" tests=\"1\" failures=\"1\" errors=\"0\" skipped=\"0\">\n"
                   "<testcase classname=\"golden\" name=\"good.yaml\"><failure message=\"");
   expect_contains(junit, "\n  joint.3.torque ");
+  expect_contains(junit, "\n  figure: runs/test/good.svg\n");
   EXPECT_TRUE(junit.ends_with("</failure></testcase>\n</testsuite>\n</testsuites>\n")) << junit;
 }
 
@@ -163,7 +166,7 @@ TEST_F(GoldenCommand, NoGolden) {
   EXPECT_EQ(result.err, "gaitlab: error: nothing was tested: no scenario has a golden; make one with gaitlab approve\n");
   expect_refused("test", "scenarios: error: there is no such scenario or folder");
   fs::create_directory(folder / "empty");
-  expect_refused("test empty good.yaml", "empty: error: holds no scenario (*.yaml)");
+  expect_refused("test empty good.yaml", "empty: error: holds no scenario (*.yaml, *.yml)");
   folder.write("good.golden", "no folder");
   EXPECT_EQ(call("test good.yaml").err, "good.golden: error: is no golden: a golden is a folder\n");
 }
@@ -203,52 +206,151 @@ TEST_F(GoldenCommand, Engines) {
   expect_refused("test good.yaml --engine bulet", "--engine: error: engine 'bulet' is unknown; did you mean 'bullet'?");
 }
 
-TEST_F(GoldenCommand, ApproveWantsAReason) {
+TEST_F(GoldenCommand, ApproveShowsTheChangeAndWantsAReason) {
   const std::string before = bytes("good.golden");
-  expect_refused(
-      "approve good.yaml",
-      "--reason: error: is missing; say in a sentence why these numbers are right: it is kept in the golden's history");
-  expect_refused(
-      "approve good.yaml --reason ' '",
-      "--reason: error: is empty; say in a sentence why these numbers are right: it is kept in the golden's history");
+  const std::string wanted =
+      "; say in a sentence why these numbers are right: it is kept in the golden's history. Nothing was written\n";
+  Result result = call("approve good.yaml");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.out, "since approval 1 (first golden):\n  nothing has changed\n");
+  EXPECT_EQ(result.err, "--reason: error: is missing" + wanted);
+  folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
+  result = call("approve good.yaml --reason ' '");
+  EXPECT_EQ(result.code, 2);
+  expect_contains(result.out, "\n  joint.3.torque ");
+  EXPECT_EQ(result.err, "--reason: error: is empty" + wanted);
   EXPECT_EQ(bytes("good.golden"), before);
+  folder.write("new.yaml", kCaterpillar);
+  expect_refused("approve new.yaml", "--reason: error: is missing" + wanted.substr(0, wanted.size() - 1));
 }
 
-TEST_F(GoldenCommand, ApproveShowsWhatChangedAndKeepsTheBands) {
+TEST_F(GoldenCommand, ApproveKeepsTheBandsOfTheSameGaitAlone) {
   const Golden before = read_golden(folder / "good.golden");
   Result result = call("approve good.yaml --reason 'nothing new'");
   EXPECT_EQ(result.code, 0);
   EXPECT_TRUE(result.out.starts_with("since approval 1 (first golden):\n  nothing has changed\ngood.golden: approval 2: "));
-  folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
+  expect_contains(result.out, "; bands kept\n");
+  Golden after = read_golden(folder / "good.golden");
+  for (std::size_t i = 0; i < before.bands.size(); ++i) EXPECT_EQ(after.bands[i].width(), before.bands[i].width());
+
+  const std::string other_motor = kCaterpillar + "actuator: {Kt: 0.0039895}\n";
+  folder.write("good.yaml", other_motor);
   result = call("approve good.yaml --reason 'the motor that we bought'");
   EXPECT_EQ(result.code, 0);
-  EXPECT_TRUE(result.out.starts_with("since approval 2 (nothing new):\n  column ")) << result.out;
-  expect_contains(result.out, "; bands kept\n");
-  const Golden after = read_golden(folder / "good.golden");
+  EXPECT_TRUE(result.out.starts_with("since approval 2 (nothing new):\n  scenario: its resolved text is another\n  column "))
+      << result.out;
+  expect_contains(result.out, "; bands made\n");
+  after = read_golden(folder / "good.golden");
   ASSERT_EQ(after.history.size(), 3U);
   EXPECT_EQ(after.history[2].reason, "the motor that we bought");
   EXPECT_EQ(after.history[2].number, 3);
-  for (std::size_t i = 0; i < before.bands.size(); ++i) EXPECT_EQ(after.bands[i].width(), before.bands[i].width());
+  EXPECT_NE(after.bands[1].width(), before.bands[1].width());
   EXPECT_EQ(call("test good.yaml").code, 0);
+  folder.write("good.yaml", other_motor + "physics: {step: 1.25e-5}\n");
+  EXPECT_EQ(call("test good.yaml").code, 0);  // an innocent: its bands are made for it
 
   folder.write("good.yaml", kCaterpillar + "trace: {period: 0.025}\n");
   result = call("approve good.yaml --reason 'fewer rows'");
-  EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err,
-            "good.golden: error: its bands are those of another form of run (see above); make new ones with --calibrate. "
-            "Nothing was written\n");
-  EXPECT_EQ(read_golden(folder / "good.golden").history.size(), 3U);
-  EXPECT_EQ(call("approve good.yaml --reason 'fewer rows' --calibrate").code, 0);
+  EXPECT_EQ(result.code, 0);
+  expect_contains(result.out, "\n  a row every 0.025 s, in the golden every 0.02 s\n");
+  expect_contains(result.out, "; bands made\n");
 }
 
-TEST_F(GoldenCommand, ApproveReplacesAGoldenThatCannotBeRead) {
-  folder.write("good.golden/golden.json", "{}");
-  const Result result = call("approve good.yaml --reason 'made anew'");
+TEST_F(GoldenCommand, AnotherScenariosGoldenIsForeign) {
+  fs::rename(folder / "good.golden", folder / "other.golden");
+  fs::remove(folder / "good.yaml");
+  folder.write("other.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
+  const std::string foreign =
+      "other.golden: error: is the golden of 'good', and other.yaml ('other') is another run; gaitlab approve --replace makes "
+      "its own";
+  Result result = call("test other.yaml");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, foreign + "\n");
+  const std::string before = bytes("other.golden");
+  result = call("approve other.yaml --reason 'mine'");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, foreign + "\n");
+  EXPECT_EQ(bytes("other.golden"), before);
+  EXPECT_EQ(call("approve other.yaml --reason 'mine' --replace").code, 0);
+  EXPECT_EQ(read_golden(folder / "other.golden").history.size(), 1U);
+}
+
+TEST_F(GoldenCommand, ARenamedScenarioKeepsItsGolden) {
+  fs::rename(folder / "good.golden", folder / "better.golden");
+  fs::rename(folder / "good.yaml", folder / "better.yaml");
+  EXPECT_EQ(call("test better.yaml").code, 0);
+  const Result result = call("approve better.yaml --reason 'a better name'");
   EXPECT_EQ(result.code, 0);
-  EXPECT_EQ(
-      result.err,
-      "good.golden/golden.json: error: is no golden of gaitlab\ngood.golden: note: it is replaced, and its history is lost\n");
+  expect_contains(result.out, "\n  name: then good, now better\n");
+  EXPECT_EQ(read_golden(folder / "better.golden").history.size(), 2U);
+}
+
+TEST_F(GoldenCommand, NoScenarioAndNoGoldenVanishesUnseen) {
+  EXPECT_EQ(call("test . --strict").code, 0);
+  fs::create_symlink("good.yaml", folder / "link.yaml");  // another name: another scenario, without a golden
+  folder.write("short.yml", kCaterpillar);
+  Result result = call("test .");
+  EXPECT_EQ(result.code, 0);
+  expect_contains(result.out, "\n./link.yaml ");
+  expect_contains(result.out, "\n./short.yml ");
+  expect_contains(result.out, "\n1 passed, 0 failed, 2 skipped\n");
+  result = call("test . --strict");
+  EXPECT_EQ(result.code, 2);
+  expect_contains(result.err, "./link.yaml: error: has no golden (./link.golden does not exist); make it: ");
+  fs::remove(folder / "link.yaml");
+  fs::remove(folder / "short.yml");
+
+  fs::copy(folder / "good.golden", folder / "gone.golden");
+  result = call("test .");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err,
+            "./gone.golden: error: has no scenario (./gone.yaml does not exist); was it renamed or removed? Do the same with "
+            "its golden\n");
+  expect_contains(result.out, "\n1 passed, 0 failed, 1 not tested\n");
+  fs::remove_all(folder / "gone.golden");
+
+  folder.write("good.yml", kCaterpillar);
+  const std::string shared = "good.yml: error: would share its golden, good.golden, with good.yaml; rename one of them";
+  expect_refused("test good.yml", shared);
+  expect_refused("approve good.yml --reason 'mine'", shared);
+}
+
+TEST_F(GoldenCommand, AFileThatCannotBeWrittenHidesNothing) {
+  expect_refused("test good.yaml --junit no/where.xml",
+                 "--junit: error: no/where.xml: cannot be written: No such file or directory");
+  expect_refused("test good.yaml --junit modules", "--junit modules: error: is a folder");
+  folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
+  folder.write("runs", "a file");  // where the figure's folder should be
+  const Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 4);
+  expect_contains(result.out, "\n0 passed, 1 failed\n");
+  expect_contains(result.err, "runs");
+  const std::string command = "cd '" + folder.path().string() + "' && '" + std::string(GAITLAB_BINARY_DIR) +
+                              "/bin/gaitlab' check good.yaml >/dev/full 2>full";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+  EXPECT_EQ(read(folder / "full").find("defect"), std::string::npos) << read(folder / "full");
+  expect_contains(read(folder / "full"), "gaitlab: error: ");
+}
+
+TEST_F(GoldenCommand, ApproveReplacesAGoldenThatCannotBeReadWhereTold) {
+  folder.write("good.golden/golden.json", "{}");
+  expect_refused("approve good.yaml --reason 'made anew'",
+                 "good.golden/golden.json: error: is no golden of gaitlab; it stays as it is. approve --replace makes a new "
+                 "one, whose history begins with it");
+  EXPECT_EQ(read(folder / "good.golden/golden.json"), "{}");
+  EXPECT_EQ(call("approve good.yaml --reason 'made anew' --replace").code, 0);
   EXPECT_EQ(read_golden(folder / "good.golden").history.size(), 1U);
+}
+
+TEST_F(GoldenCommand, LineEndsThatGitChanged) {
+  std::string json = read(folder / "good.golden/golden.json");
+  for (std::size_t at = json.find('\n'); at != std::string::npos; at = json.find('\n', at + 2)) json.replace(at, 1, "\r\n");
+  folder.write("good.golden/golden.json", json);
+  const Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err,
+            "good.golden/golden.json: error: has other line ends than it was written with; `*.golden/** -text` in "
+            ".gitattributes keeps them\n");
 }
 
 TEST_F(GoldenCommand, ApproveRefusesBandsThatWouldNoticeNothing) {
@@ -259,6 +361,11 @@ TEST_F(GoldenCommand, ApproveRefusesBandsThatWouldNoticeNothing) {
   expect_contains(result.err, " % of its range, more than 0.2 %: max(ensemble ");
   expect_contains(result.err, "Nothing was written\n");
   EXPECT_FALSE(fs::exists(folder / "chaos.golden"));
+
+  const std::string before = bytes("good.golden");  // an old golden's bands are no way around it
+  folder.write("good.yaml", kCaterpillar + "controller: {Kp: 400}\n");
+  EXPECT_EQ(call("approve good.yaml --reason 'why not'").code, 2);
+  EXPECT_EQ(bytes("good.golden"), before);
 }
 
 TEST_F(GoldenCommand, AnyNumberOfThreadsWritesTheSameBytes) {
@@ -269,14 +376,14 @@ TEST_F(GoldenCommand, AnyNumberOfThreadsWritesTheSameBytes) {
     EXPECT_EQ(bytes("good.golden"), before) << jobs;
   }
   fs::copy(folder / "good.golden", folder / "other.golden");
-  folder.write("other.yaml", kCaterpillar + "controller: {Kp: 102}\n");
+  folder.write("other.yaml", kCaterpillar + "controller: {Kp: 102}\nname: good\n");
   const Result one = call("test . --out a");
   const Result two = call("test . --out b -j 2");
   EXPECT_EQ(one.code, 4);
   EXPECT_EQ(two.code, 4);
   EXPECT_EQ(one.out.substr(0, one.out.find("figure")), two.out.substr(0, two.out.find("figure")));
-  EXPECT_EQ(read(folder / "a/other.svg"), read(folder / "b/other.svg"));
-  EXPECT_NE(read(folder / "a/other.svg"), "");
+  EXPECT_EQ(read(folder / "a/good.svg"), read(folder / "b/good.svg"));
+  EXPECT_NE(read(folder / "a/good.svg"), "");
 }
 
 }  // namespace
