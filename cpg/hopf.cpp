@@ -5,6 +5,7 @@
 namespace gaitlab {
 namespace {
 
+constexpr const char* kBlocks[] = {"x", "y"};
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kFirstRadius = 0.01;      // the set points grow from almost nothing
 constexpr std::size_t kTableSteps = 4096;  // many within the change from swing to stance at the largest sharpness, 0.01 rad
@@ -31,15 +32,14 @@ ICRA 2008, 819-824 (there x is the set point, omega goes from swing to stance wi
 
     cpg: {type: hopf, frequency: 0.25, amplitude: 0.6, phase_lag: 1.2, model: {duty_factor: 0.5}})";
 
-void Hopf::Model::fields(Fields& f) {
+void HopfModel::fields(Fields& f) {
   f.number("coupling", coupling, {"1/s", 0, 100, "Weight w of the couplings made by a rule."});
   f.number("rate", rate, {"1/s", 0.01, 100, "a: how fast the radius goes to 1."});
   f.number("duty_factor", duty_factor, {"", 0.05, 0.95, "d: share of the period in which the set point falls."});
   f.number("sharpness", sharpness, {"", 1, 100, "b: how sharply swing goes over into stance."});
 }
 
-Hopf::Hopf(const RobotInfo& robot, const Settings& settings)
-    : joints_(robot.joints.size()), s_(settings), network_(robot, settings, settings.model.coupling) {
+Hopf::Hopf(const RobotInfo& robot, const Settings& settings) : OscillatorCpg(robot, settings, kBlocks) {
   if (s_.model.duty_factor == 0.5) return;  // the pace is even
   // The period in units of 1 / f is the mean of 1 / pace; the rule of even steps has no better for a smooth periodic function.
   double sum = 0;
@@ -65,10 +65,6 @@ double Hopf::pace(double y) const {
   if (d == 0.5) return 1;
   const double stance = sigmoid(s_.model.sharpness * y);
   return scale_ * (stance / d + (1 - stance) / (1 - d)) / 2;
-}
-
-std::string Hopf::state_name(std::size_t index) const {
-  return (index < joints_ ? "x." : "y.") + std::to_string(index % joints_);
 }
 
 void Hopf::start(Out state) const {

@@ -4,6 +4,12 @@
 
 namespace gaitlab {
 
+namespace {
+
+constexpr const char* kBlocks[] = {"phi", "r", "dr", "x", "dx"};
+
+}  // namespace
+
 const char* const KuramotoAmplitude::kManual =
     R"(Phase oscillators coupled in proportion to the amplitude of the one that is followed; amplitude and offset of second order.
 
@@ -20,19 +26,14 @@ Transactions on Robotics 24 (2008) 75-87; there theta = x + r cos(phi), a quarte
 
     cpg: {type: kuramoto_amplitude, frequency: 0.25, amplitude: 0.6, phase_lag: 1.2, model: {amplitude_rate: 20}})";
 
-void KuramotoAmplitude::Model::fields(Fields& f) {
+void KuramotoAmplitudeModel::fields(Fields& f) {
   f.number("coupling", coupling, {"1/(rad s)", 0, 1000, "Weight w of the couplings made by a rule."});
   f.number("amplitude_rate", amplitude_rate, {"1/s", 0, 300, "a_r: how fast r goes to the amplitude."});
   f.number("offset_rate", offset_rate, {"1/s", 0, 300, "a_x: how fast x goes to the offset."});
 }
 
 KuramotoAmplitude::KuramotoAmplitude(const RobotInfo& robot, const Settings& settings)
-    : joints_(robot.joints.size()), s_(settings), network_(robot, settings, settings.model.coupling) {}
-
-std::string KuramotoAmplitude::state_name(std::size_t index) const {
-  static constexpr const char* kBlock[] = {"phi.", "r.", "dr.", "x.", "dx."};
-  return kBlock[index / joints_] + std::to_string(index % joints_);
-}
+    : OscillatorCpg(robot, settings, kBlocks) {}
 
 void KuramotoAmplitude::start(Out state) const {
   for (std::size_t i = 0; i < joints_; ++i) {

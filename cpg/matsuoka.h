@@ -4,19 +4,14 @@
 
 namespace gaitlab {
 
+struct MatsuokaModel : CycleNetwork::Model {
+  double inhibition = 2, adaptation = 2.5, time_ratio = 0.5;
+  void fields(Fields& f);
+};
+
 class Matsuoka final : public CycleNetwork {
  public:
-  struct Model : CycleNetwork::Model {
-    double inhibition = 2, adaptation = 2.5, time_ratio = 0.5;
-    void fields(Fields& f);
-  };
-  struct Settings : OscillatorKeys {
-    Model model;
-    void fields(Fields& f) {
-      OscillatorKeys::fields(f);
-      f.group("model", model, "Keys of this model alone.");
-    }
-  };
+  using Settings = OscillatorSettings<MatsuokaModel>;
   static const char* const kManual;
 
   Matsuoka(const RobotInfo& robot, const Settings& settings);

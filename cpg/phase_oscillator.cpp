@@ -4,6 +4,12 @@
 
 namespace gaitlab {
 
+namespace {
+
+constexpr const char* kBlocks[] = {"phi", "r", "x"};
+
+}  // namespace
+
 const char* const PhaseOscillator::kManual = R"(A network of phase oscillators with any coupling graph.
 
     phi_i' = 2 pi f_i + sum_j w_ij sin(phi_j - phi_i + L_ij)      (amplitude_weighted: w_ij r_j)
@@ -17,7 +23,7 @@ note), r = 0, x = X. Source: Chariot, Filippi, Verlinden 2012, eq. 7-10 and 16-1
 
     cpg: {type: phase_oscillator, frequency: 0.25, amplitude: 0.6, phase_lag: 1.2})";
 
-void PhaseOscillator::Model::fields(Fields& f) {
+void PhaseOscillatorModel::fields(Fields& f) {
   f.number("coupling", coupling, {"1/s", 0, 1000, "Weight w of the couplings made by a rule."});
   f.number("amplitude_rate", amplitude_rate, {"1/s", 0, 1000, "a_r: how fast r goes to the amplitude."});
   f.number("offset_rate", offset_rate, {"1/s", 0, 1000, "a_x: how fast x goes to the offset."});
@@ -25,13 +31,7 @@ void PhaseOscillator::Model::fields(Fields& f) {
          "Weight each coupling with the amplitude r_j of the joint that is followed.");
 }
 
-PhaseOscillator::PhaseOscillator(const RobotInfo& robot, const Settings& settings)
-    : joints_(robot.joints.size()), s_(settings), network_(robot, settings, settings.model.coupling) {}
-
-std::string PhaseOscillator::state_name(std::size_t index) const {
-  static constexpr const char* kBlock[] = {"phi.", "r.", "x."};
-  return kBlock[index / joints_] + std::to_string(index % joints_);
-}
+PhaseOscillator::PhaseOscillator(const RobotInfo& robot, const Settings& settings) : OscillatorCpg(robot, settings, kBlocks) {}
 
 void PhaseOscillator::start(Out state) const {
   for (std::size_t i = 0; i < joints_; ++i) {

@@ -14,13 +14,7 @@ class Sine final : public Cpg {
     double ramp = 0;
     void fields(Fields& f) { f.number("ramp", ramp, {"s", 0, 1e6, "Time over which the amplitude grows linearly from 0."}); }
   };
-  struct Settings : OscillatorKeys {
-    Model model;
-    void fields(Fields& f) {
-      OscillatorKeys::fields(f);
-      f.group("model", model, "Keys of this model alone.");
-    }
-  };
+  using Settings = OscillatorSettings<Model>;
   static constexpr const char* kManual = R"(Prescribed sines: the limit cycle of a network of oscillators, without its states.
 
     theta_i = X_i + min(1, t / ramp) R_i sin(2 pi f_i t + phi_i)

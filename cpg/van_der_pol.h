@@ -4,19 +4,14 @@
 
 namespace gaitlab {
 
+struct VanDerPolModel : CycleNetwork::Model {
+  double mu = 1;
+  void fields(Fields& f);
+};
+
 class VanDerPol final : public CycleNetwork {
  public:
-  struct Model : CycleNetwork::Model {
-    double mu = 1;
-    void fields(Fields& f);
-  };
-  struct Settings : OscillatorKeys {
-    Model model;
-    void fields(Fields& f) {
-      OscillatorKeys::fields(f);
-      f.group("model", model, "Keys of this model alone.");
-    }
-  };
+  using Settings = OscillatorSettings<VanDerPolModel>;
   static const char* const kManual;
 
   VanDerPol(const RobotInfo& robot, const Settings& settings);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/plugin/couplings.h"
+#include "core/plugin/cpg.h"
 
 namespace gaitlab {
 
@@ -38,6 +39,17 @@ struct OscillatorKeys {
   }
 };
 
+/// Settings of an oscillator CPG: the common keys, and under `model` its own, a struct with `void fields(Fields&)`.
+template <class Model>
+struct OscillatorSettings : OscillatorKeys {
+  Model model;
+
+  void fields(Fields& f) {
+    OscillatorKeys::fields(f);
+    f.group("model", model, "Keys of this model alone.");
+  }
+};
+
 /// The couplings with the phases of their limit cycle, for oscillators that start on it.
 struct OscillatorNetwork {
   std::vector<Coupling> couplings;
@@ -55,6 +67,32 @@ struct OscillatorNetwork {
   [[nodiscard]] std::string note() const {
     return consistent ? "" : "the couplings' lags contradict one another around a cycle: all phases start at 0";
   }
+};
+
+/// A CPG with one oscillator a joint, whose states stand in blocks, one number a joint: derive, and give start, derivative and
+/// output.
+template <class Model>
+class OscillatorCpg : public Cpg {
+ public:
+  using Settings = OscillatorSettings<Model>;
+
+  [[nodiscard]] std::size_t states() const override { return blocks_.size() * joints_; }
+  [[nodiscard]] std::string state_name(std::size_t index) const override {
+    return blocks_[index / joints_] + ("." + std::to_string(index % joints_));
+  }
+  [[nodiscard]] std::string note() const override { return network_.note(); }
+
+ protected:
+  /// `blocks`: names of the states, kept by address. Throws as OscillatorKeys::check.
+  OscillatorCpg(const RobotInfo& robot, const Settings& settings, std::span<const char* const> blocks)
+      : joints_(robot.joints.size()), s_(settings), network_(robot, settings, settings.model.coupling), blocks_(blocks) {}
+
+  std::size_t joints_;
+  Settings s_;
+  OscillatorNetwork network_;
+
+ private:
+  std::span<const char* const> blocks_;
 };
 
 }  // namespace gaitlab
