@@ -47,6 +47,13 @@ struct ConvergeArguments : ScenarioArguments {
 };
 int converge(const ConvergeArguments& arguments);
 
+struct SwapArguments : ScenarioArguments {
+  std::vector<std::string> cpgs;
+  std::optional<std::string> out;  ///< folder of the figure
+  int jobs = 1;                    ///< threads
+};
+int swap(const SwapArguments& arguments);
+
 struct DynamicsArguments : ScenarioArguments {
   std::string state;     ///< JSON file
   bool inverse = false;  ///< torques and reactions of given accelerations

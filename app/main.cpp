@@ -105,6 +105,17 @@ int program(int argc, char** argv) {
   converge_command->add_option("-j,--jobs", converge_arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
   converge_command->callback([&] { chosen = [&] { return converge(converge_arguments); }; });
 
+  SwapArguments swap_arguments;
+  CLI::App* swap_command = app.add_subcommand("swap", "the scenario under several CPGs: one table, one figure");
+  add_scenario(*swap_command, swap_arguments);
+  swap_command
+      ->add_option("--cpg", swap_arguments.cpgs, "their types, with commas between; common keys stay, `model` falls back")
+      ->required()
+      ->delimiter(',');
+  swap_command->add_option("--out", swap_arguments.out, "folder of the figure (default runs/swap-NAME)");
+  swap_command->add_option("-j,--jobs", swap_arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+  swap_command->callback([&] { chosen = [&] { return app::swap(swap_arguments); }; });
+
   DynamicsArguments dynamics_arguments;
   CLI::App* dynamics_command = app.add_subcommand("dynamics", "one evaluation of the equations of motion, as JSON");
   dynamics_command->footer(kDynamicsHelp);

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "report/axes.h"
+#include "report/panel.h"
 
 namespace gaitlab {
 
@@ -22,17 +22,6 @@ constexpr double kChartTop = 36, kChartHeight = 260, kChartFoot = 58;  // below 
 constexpr double kViewMost = 150;                                      // px, the tallest robot
 constexpr double kViewGap = 40;  // px, between one view's ground and the next one's headroom
 constexpr double kWindow = 8;    // s
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct Bounds {
-  double lo = kInfinity, hi = -kInfinity;
-  void add(double value) {
-    if (!std::isfinite(value)) return;
-    lo = std::min(lo, value);
-    hi = std::max(hi, value);
-  }
-  [[nodiscard]] bool empty() const { return lo > hi; }
-};
 
 double left_edge(const FigureInput& input) { return input.footfalls.empty() ? kLeft : kLeftOfNames; }
 

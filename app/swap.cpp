@@ -1,0 +1,168 @@
+// A scenario under several CPGs: one table, one figure.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "app/app.h"
+#include "app/golden_report.h"
+#include "app/parallel.h"
+#include "core/errors.h"
+#include "core/trace/atomic_file.h"
+#include "core/trace/run_folder.h"
+#include "report/curves.h"
+#include "report/summary.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+constexpr double kShown = 8;  // s, of set point and torque: their last
+
+struct Swapped {
+  std::string cpg;
+  std::optional<Scenario> scenario = {};
+  RunRecord record = {};
+  Summary summary = {};
+};
+
+/// The scenario under each CPG; what is wrong with any of them is told of all at once.
+std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) {
+  std::vector<Swapped> all;
+  std::vector<Problem> problems;
+  for (const std::string& cpg : arguments.cpgs) {
+    const auto same = [&](const Swapped& other) { return other.cpg == cpg; };
+    if (std::any_of(all.begin(), all.end(), same)) {
+      problems.push_back({Place{"--cpg"}, fmt::format("names '{}' twice", cpg)});
+      continue;
+    }
+    Swapped swapped{cpg};
+    ScenarioArguments with = arguments;
+    with.sets.push_back("cpg.type=" + cpg);
+    try {
+      swapped.scenario = read(with, catalog);
+    } catch (const InputError& error) {
+      for (const Problem& problem : error.problems()) {
+        const auto alike = [&](const Problem& p) {
+          return p.text == problem.text && to_string(p.place) == to_string(problem.place);
+        };
+        if (std::none_of(problems.begin(), problems.end(), alike)) problems.push_back(problem);
+      }
+    }
+    all.push_back(std::move(swapped));
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return all;
+}
+
+void run_all(std::vector<Swapped>& all, int jobs) {
+  parallel(all.size(), jobs, [&](std::size_t i) {
+    Simulation simulation({&*all[i].scenario, 1});
+    std::string outcome = "done";
+    try {
+      simulation.run();
+    } catch (const SimulationError& error) {
+      outcome = error.what();
+    }
+    all[i].record = simulation.take_record(0);
+    all[i].summary = summarise(*all[i].scenario, all[i].record, 0);
+    all[i].summary.outcome = outcome;
+  });
+}
+
+// ---- the table
+
+double saturated(const RunRecord& record) {
+  double worst = 0;
+  for (const JointFigures& f : record.joints) worst = std::max(worst, f.saturated_voltage + f.saturated_current);
+  return worst;
+}
+
+std::string cycle(const LimitCycle& cycle) {
+  return cycle.found ? fmt::format("{:.4g} s from {:.3g} s, to {}", cycle.period, cycle.from, percent(cycle.error))
+                     : "none found";
+}
+
+void print_table(const std::vector<Swapped>& all) {
+  const Scenario& first = *all.front().scenario;
+  std::size_t width = 3;
+  for (const Swapped& swapped : all) width = std::max(width, swapped.cpg.size());
+  fmt::print("{}: {:g} s under each\n", first.name, first.duration);
+  fmt::print("{:<{}} {:>10} {:>19} {:>22} {:>12} {:>16}  {}\n", "", width, "speed", "travel x, y", "cost of transport",
+             "peak torque", "", "");
+  fmt::print("{:<{}} {:>10} {:>19} {:>11} {:>10} {:>12} {:<16} {:>9}  {}\n", "cpg", width, "m/s", "m", "electr.", "mech.",
+             "N m", "of joint", "saturated", "limit cycle");
+  for (const Swapped& swapped : all) {
+    const Summary& s = swapped.summary;
+    if (s.outcome != "done") {
+      fmt::print("{:<{}} {}\n", swapped.cpg, width, s.outcome);
+      continue;
+    }
+    const bool driven = first.actuator.entry != nullptr && !swapped.record.joints.empty();
+    const std::string joint = driven ? first.robot->joints[s.most_loaded].name : "-";
+    const double peak = driven ? swapped.record.joints[s.most_loaded].torque_peak : 0;
+    fmt::print("{:<{}} {:>10.4f} {:>19} {:>11.3g} {:>10.3g} {:>12.3f} {:<16} {:>9}  {}\n", swapped.cpg, width, s.speed,
+               fmt::format("{:+.4f}, {:+.4f}", s.displacement_x, s.displacement_y), s.cost_electrical, s.cost_mechanical, peak,
+               joint, percent(saturated(swapped.record)), cycle(s.limit_cycle));
+  }
+}
+
+// ---- the figure
+
+std::string figure(const std::vector<Swapped>& all) {
+  const Scenario& first = *all.front().scenario;
+  CurvesInput input;
+  input.title = fmt::format("{} under {}", first.name, plural(all.size(), "CPG"));
+  const std::size_t joints = first.robot->joints.size();
+  const std::size_t joint = all.front().summary.most_loaded;
+  CurvesPanel setpoint{"set point (rad)"};
+  CurvesPanel torque{"torque (N m)"};
+  CurvesPanel travel{"travel of the centre of mass along x (m)"};
+  if (joints > 0) {
+    const std::string where = fmt::format(" of joint {} ({})", joint, first.robot->joints[joint].name);
+    setpoint.title = "set point" + where + " (rad)";
+    torque.title = "torque" + where + " (N m)";
+  }
+  setpoint.from = torque.from = std::max(0.0, first.duration - kShown);
+  for (const Swapped& swapped : all) {
+    const RunRecord& r = swapped.record;
+    input.names.push_back(swapped.cpg);
+    std::vector<double> time;
+    std::vector<double> set;
+    std::vector<double> load;
+    std::vector<double> way;
+    for (std::size_t k = 0; k < r.com_x.size(); ++k) {
+      time.push_back(std::min(static_cast<double>(k) * first.trace.period, swapped.summary.simulated));
+      way.push_back(r.com_x[k] - r.com_x.front());
+      if (joints == 0 || first.actuator.entry == nullptr) continue;
+      set.push_back(r.setpoints[k * joints + joint]);
+      load.push_back(r.torques[k * joints + joint]);
+    }
+    input.time.push_back(std::move(time));
+    setpoint.values.push_back(std::move(set));
+    torque.values.push_back(std::move(load));
+    travel.values.push_back(std::move(way));
+  }
+  if (!setpoint.values.front().empty()) input.panels = {setpoint, torque};
+  input.panels.push_back(travel);
+  return curves_svg(input);
+}
+
+}  // namespace
+
+int swap(const SwapArguments& arguments) {
+  Catalog catalog = standard_catalog();
+  std::vector<Swapped> all = read_all(arguments, catalog);
+  RunFolder folder(arguments.out, "swap-" + all.front().scenario->name);
+  run_all(all, arguments.jobs);
+  print_table(all);
+  const std::filesystem::path file = folder.path() / "overlay.svg";
+  write_file(file, figure(all));
+  folder.keep();
+  fmt::print("figure: {}\n", file.string());
+  const bool broke_off = std::any_of(all.begin(), all.end(), [](const Swapped& s) { return s.summary.outcome != "done"; });
+  return broke_off ? 1 : 0;
+}
+
+}  // namespace gaitlab::app

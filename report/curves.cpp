@@ -1,0 +1,74 @@
+#include "report/curves.h"
+
+#include <algorithm>
+#include <array>
+
+#include "report/panel.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kWidth = 1000, kLeft = 90, kRight = 970;  // px
+constexpr double kTitleHeight = 44, kLegendLine = 24, kHead = 30, kHeight = 190, kFoot = 52;
+
+// Seven colours, then again with dashes.
+Style style_of(std::size_t run) {
+  constexpr std::array kColours{colour::kBlue, colour::kVermillion, colour::kGreen, colour::kPurple,
+                                colour::kSky,  colour::kOrange,     colour::kBlack};
+  constexpr std::array kDashes{"", "7 3", "2 3"};
+  return {.stroke = kColours[run % kColours.size()], .width = 1.6, .dash = kDashes[run / kColours.size() % kDashes.size()]};
+}
+
+double end_of(const CurvesInput& input) {
+  double end = 0;
+  for (const std::vector<double>& time : input.time) end = time.empty() ? end : std::max(end, time.back());
+  return end;
+}
+
+/// Draws the legend, or only measures it: the y below it.
+double legend(Svg* svg, const CurvesInput& input) {
+  double x = kLeft;
+  double y = kTitleHeight + 10;
+  for (std::size_t run = 0; run < input.names.size(); ++run) {
+    const double width = 46 + text_width(input.names[run], 13) + 24;
+    if (x > kLeft && x + width > kRight) {
+      x = kLeft;
+      y += kLegendLine;
+    }
+    if (svg != nullptr) {
+      svg->line({x, y - 4.5}, {x + 38, y - 4.5}, style_of(run));
+      svg->text({x + 46, y}, input.names[run]);
+    }
+    x += width;
+  }
+  return y + kLegendLine / 2;
+}
+
+}  // namespace
+
+std::string curves_svg(const CurvesInput& input) {
+  double top = legend(nullptr, input);
+  Svg svg(kWidth, top + (kHead + kHeight + kFoot) * static_cast<double>(input.panels.size()));
+  svg.text({kWidth / 2, 28}, input.title, {.size = 18, .anchor = Anchor::middle, .bold = true});
+  legend(&svg, input);
+  const double end = end_of(input);
+  for (const CurvesPanel& shown : input.panels) {
+    svg.text({kLeft, top + 20}, shown.title, {.bold = true});
+    Bounds bounds;
+    for (std::size_t run = 0; run < shown.values.size(); ++run) {
+      for (std::size_t k = 0; k < shown.values[run].size(); ++k) {
+        if (input.time[run][k] >= shown.from) bounds.add(shown.values[run][k]);
+      }
+    }
+    Panel panel(svg, {kLeft, kRight, top + kHead, top + kHead + kHeight}, ticks_within(shown.from, end, 8), bounds.ticks(5));
+    for (std::size_t run = 0; run < shown.values.size(); ++run) {
+      panel.curve(input.time[run], shown.values[run], style_of(run));
+    }
+    panel.time_axis();
+    top += kHead + kHeight + kFoot;
+  }
+  return svg.finish();
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,24 @@
+// Several runs in one figure: a curve each, panel under panel.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace gaitlab {
+
+struct CurvesPanel {
+  std::string title;                             ///< with the unit
+  double from = 0;                               ///< s: the time axis begins here
+  std::vector<std::vector<double>> values = {};  ///< one a run, as long as its time; not finite: a gap
+};
+
+struct CurvesInput {
+  std::string title;
+  std::vector<std::string> names;         ///< of the runs, in the legend
+  std::vector<std::vector<double>> time;  ///< s, rising; one a run
+  std::vector<CurvesPanel> panels;
+};
+
+/// An SVG document, 1000 px wide. The runs keep colour and dash from panel to panel.
+std::string curves_svg(const CurvesInput& input);
+
+}  // namespace gaitlab

@@ -1,0 +1,58 @@
+#include "report/panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gaitlab {
+
+namespace {
+
+constexpr Style kGrid{.stroke = colour::kPale};
+constexpr Style kFrame{.stroke = colour::kInk, .width = 1.2};
+
+}  // namespace
+
+void Bounds::add(double value) {
+  if (!std::isfinite(value)) return;
+  lo = std::min(lo, value);
+  hi = std::max(hi, value);
+}
+
+void Bounds::add(std::span<const double> values) {
+  for (const double value : values) add(value);
+}
+
+Ticks Bounds::ticks(int count) const { return empty() ? ticks_around(0, 1, count) : ticks_around(lo, hi, count); }
+
+Panel::Panel(Svg& svg, const Box& box, const Ticks& time, const Ticks& values)
+    : svg_(svg),
+      box_(box),
+      time_(time),
+      x_{time.lo, time.hi, box.left, box.right},
+      y_{values.lo, values.hi, box.bottom, box.top} {
+  for (const double t : time.values()) svg_.line({x_(t), box.top}, {x_(t), box.bottom}, kGrid);
+  for (const double value : values.values()) {
+    svg_.line({box.left, y_(value)}, {box.right, y_(value)}, kGrid);
+    svg_.text({box.left - 8, y_(value) + 4.5}, values.label(value), {.size = 11, .anchor = Anchor::end});
+  }
+  svg_.rectangle({box.left, box.top}, box.right - box.left, box.bottom - box.top, kFrame);
+}
+
+void Panel::curve(std::span<const double> time, std::span<const double> values, const Style& style) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (time[i] >= time_.lo && time[i] <= time_.hi) points.push_back({x_(time[i]), y_(values[i])});
+  }
+  svg_.polyline(thinned(points), style);
+}
+
+void Panel::level(double value, const Style& style) { svg_.line({box_.left, y_(value)}, {box_.right, y_(value)}, style); }
+
+void Panel::moment(double time, const Style& style) { svg_.line({x_(time), box_.top}, {x_(time), box_.bottom}, style); }
+
+void Panel::time_axis() {
+  for (const double t : time_.values()) svg_.text({x_(t), box_.bottom + 18}, time_.label(t), {.anchor = Anchor::middle});
+  svg_.text({(box_.left + box_.right) / 2, box_.bottom + 36}, "time (s)", {.anchor = Anchor::middle});
+}
+
+}  // namespace gaitlab
