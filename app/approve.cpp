@@ -1,17 +1,21 @@
 // Blesses the run of a scenario as it is now: shows what changed, makes or keeps the bands, writes the golden.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <system_error>
 
 #include "app/app.h"
 #include "app/golden_cases.h"
 #include "app/golden_report.h"
 #include "app/golden_runs.h"
 #include "core/errors.h"
+#include "core/trace/atomic_file.h"
 #include "core/trace/golden.h"
 #include "core/trace/golden_compare.h"
 
@@ -36,9 +40,22 @@ InputError no_reason(const ApproveArguments& arguments) {
                                          arguments.reason ? "empty" : "missing")};
 }
 
-/// The golden that is there, unless it is to be replaced.
+/// Before minutes of runs: whether the golden can be written where it belongs.
+void check_target(const fs::path& folder) {
+  const fs::file_type kind = kind_of(folder);
+  if (kind == fs::file_type::directory || kind == fs::file_type::not_found) {
+    const fs::path parent = folder.parent_path().empty() ? "." : folder.parent_path();
+    const fs::path& target = kind == fs::file_type::directory ? folder : parent;
+    if (::access(target.c_str(), W_OK | X_OK) == 0) return;
+    throw InputError(Place{target.string()}, "cannot be written: " + std::generic_category().message(errno));
+  }
+  throw InputError(Place{folder.string()}, "is no folder, and a golden is one; move it away");
+}
+
+/// The golden that is there, unless it is to be replaced. (What a first approval left that was killed is none.)
 std::optional<Golden> golden_before(const fs::path& folder, bool replace) {
-  if (replace || !fs::exists(folder / "golden.json")) return {};
+  const auto there = [&](const char* file) { return kind_of(folder / file) != fs::file_type::not_found; };
+  if (replace || (!there("golden.json") && !there("trace.golden"))) return {};
   try {
     return read_golden(folder);
   } catch (const InputError& error) {
@@ -117,8 +134,8 @@ void show_change(const Golden& before, const GoldenOrigin& now, const GoldenDiff
 }
 
 /// Bands belong to the gait they were made for: one that has left them needs its own.
-bool can_keep(const Golden& before, const GoldenDifference& change, const GoldenRun& run) {
-  return change.passed() && before.numbers.size() == run.numbers.size();
+bool can_keep(const Golden& before, const GoldenDifference& change, const Golden& now) {
+  return change.passed() && before.numbers.size() == now.numbers.size();
 }
 
 std::uintmax_t size_of(const fs::path& folder) {
@@ -150,22 +167,23 @@ int approve(const ApproveArguments& arguments) {
   const fs::path folder = own_golden(arguments.file);
   Catalog catalog = standard_catalog();
   const Scenario scenario = read({arguments.file, {}, {}, true}, catalog);
+  check_target(folder);
   const std::optional<Golden> before = golden_before(folder, arguments.replace);
   if (why.empty() && !before) throw no_reason(arguments);
-  const GoldenRun base = simulate({scenario}, {scenario.file}, arguments.jobs).front();
+  GoldenRun base = simulate({scenario}, {scenario.file}, arguments.jobs).front();
 
   Golden golden;
   golden.origin = golden_origin(scenario);
   RoundedTrace rounded = unpack(pack(base.trace), folder);
   golden.rounding = mean_squares(base.trace, rounded.trace);
   golden.run = {base.trace, std::move(rounded.precision)};
-  golden.numbers = base.numbers;
+  golden.numbers = golden_numbers(base);
   bool calibrates = arguments.calibrate || !before;
   if (before) {
     const GoldenDifference change = compare(*before, base);
     show_change(*before, golden.origin, change);
     check_own(*before, folder, scenario, change);
-    calibrates = calibrates || !can_keep(*before, change, base);
+    calibrates = calibrates || !can_keep(*before, change, golden);
     golden.history = before->history;
     golden.bands = before->bands;
     golden.number_bands = before->number_bands;
@@ -173,11 +191,13 @@ int approve(const ApproveArguments& arguments) {
   if (why.empty()) throw no_reason(arguments);
   golden.history.push_back({static_cast<std::int64_t>(golden.history.size()) + 1, why, golden.origin.build});
   if (calibrates) {
+    base.numbers = golden.numbers;
     Bands bands = bands_around(base, scenario, arguments.jobs);
     golden.bands = std::move(bands.columns);
     golden.number_bands = std::move(bands.numbers);
   }
   check_widest(golden, scenario);
+  if (before && calibrates) fmt::print("{}", band_changes(*before, golden));
   write_golden(golden, folder);
   tell(golden, folder, calibrates);
   return 0;

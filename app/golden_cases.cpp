@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/errors.h"
+#include "core/trace/atomic_file.h"
 
 namespace gaitlab::app {
 
@@ -21,17 +22,37 @@ struct Found {
   std::vector<fs::path> scenarios, orphans;
 };
 
-Found found_in(const fs::path& folder) {
-  Found found;
+/// The scenario that a golden belongs to, or nothing.
+fs::path scenario_of(const fs::path& golden) {
+  for (const char* extension : {".yaml", ".yml"}) {
+    fs::path file = fs::path(golden).replace_extension(extension);
+    if (fs::symlink_status(file).type() != fs::file_type::not_found) return file;
+  }
+  return {};
+}
+
+/// All scenarios of the folder, and in its subfolders those that have a golden (other YAML there may be anything).
+void find_in(const fs::path& folder, bool top, Found& found) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const fs::path& path = entry.path();
-    if (is_scenario(path) && !entry.is_directory()) found.scenarios.push_back(path);
-    if (path.extension() != ".golden" || !entry.is_directory()) continue;
-    if (!fs::exists(fs::path(path).replace_extension(".yaml")) && !fs::exists(fs::path(path).replace_extension(".yml")))
-      found.orphans.push_back(path);
+    const bool is_folder = kind_of(path) == fs::file_type::directory;
+    if (top && is_scenario(path) && !is_folder) found.scenarios.push_back(path);
+    if (!is_folder) continue;
+    if (path.extension() != ".golden") {
+      if (!entry.is_symlink()) find_in(path, false, found);
+      continue;
+    }
+    const fs::path scenario = scenario_of(path);
+    if (scenario.empty()) found.orphans.push_back(path);
+    if (!scenario.empty() && !top) found.scenarios.push_back(scenario);
   }
   if (error) throw InputError(Place{folder.string()}, "cannot be read: " + error.message());
+}
+
+Found found_in(const fs::path& folder) {
+  Found found;
+  find_in(folder, true, found);
   if (found.scenarios.empty()) throw InputError(Place{folder.string()}, "holds no scenario (*.yaml, *.yml)");
   std::sort(found.scenarios.begin(), found.scenarios.end());
   std::sort(found.orphans.begin(), found.orphans.end());
@@ -40,22 +61,19 @@ Found found_in(const fs::path& folder) {
 
 GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golden, bool must) {
   GoldenCase c{file.string()};
-  const fs::path folder = golden ? fs::path(*golden) : own_golden(file);
-  if (!golden && !fs::exists(folder)) {
-    if (!must) {
-      c.verdict = Verdict::skipped;
-      return c;
-    }
-    c.fail(Verdict::bad_input,
-           fmt::format("{0}: error: has no golden ({1} does not exist); make it: gaitlab approve {0} --reason "
-                       "TEXT",
-                       c.file, folder.string()));
-    return c;
-  }
   try {
-    c.folder = folder;
+    c.folder = golden ? fs::path(*golden) : own_golden(file);
     c.given_golden = golden.has_value();
-    c.golden = read_golden(folder);
+    if (kind_of(file) == fs::file_type::not_found) throw InputError(Place{c.file}, "is a link to nothing");
+    if (golden || fs::symlink_status(c.folder).type() != fs::file_type::not_found) {
+      c.golden = read_golden(c.folder);
+    } else if (!must) {
+      c.verdict = Verdict::skipped;
+    } else {
+      throw InputError(Place{c.file},
+                       fmt::format("has no golden ({} does not exist); make it: gaitlab approve {} --reason TEXT",
+                                   c.folder.string(), c.file));
+    }
   } catch (const InputError& error) {
     c.fail(Verdict::bad_input, error.what());
   }
@@ -113,7 +131,10 @@ void judge(GoldenCase& c, Outcome& outcome) {
   c.difference = compare(*c.golden, c.run);
   if (!c.difference.passed()) c.verdict = Verdict::regression;
   try {
-    if (!c.given_golden) check_own(*c.golden, c.folder, *c.scenario, c.difference);
+    // With the same columns it may as well be a scenario that was renamed and changed: a regression, which names both.
+    const std::size_t columns = c.golden->run.trace.columns.size();
+    if (!c.given_golden && (c.run.trace.columns.size() != columns || c.difference.columns.size() + 1 != columns))
+      check_own(*c.golden, c.folder, *c.scenario, c.difference);
   } catch (const InputError& error) {
     c.fail(Verdict::bad_input, error.what());
   }
@@ -129,7 +150,7 @@ void GoldenCase::fail(Verdict as, std::string text) {
 fs::path own_golden(const fs::path& scenario) {
   for (const char* extension : {".yaml", ".yml"}) {
     const fs::path other = fs::path(scenario).replace_extension(extension);
-    if (other.extension() == scenario.extension() || !fs::exists(other)) continue;
+    if (other.extension() == scenario.extension() || fs::symlink_status(other).type() == fs::file_type::not_found) continue;
     throw InputError(Place{scenario.string()}, fmt::format("would share its golden, {}, with {}; rename one of them",
                                                            golden_folder(scenario).string(), other.filename().string()));
   }
@@ -146,7 +167,7 @@ void check_own(const Golden& golden, const fs::path& folder, const Scenario& sce
 std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& catalog) {
   std::vector<std::string> given = arguments.scenarios;
   if (given.empty()) given.emplace_back("scenarios");
-  if (arguments.golden && (given.size() != 1 || fs::is_directory(given.front())))
+  if (arguments.golden && (given.size() != 1 || kind_of(given.front()) == fs::file_type::directory))
     throw InputError(Place{"--golden"}, "is the golden of one scenario; name exactly one scenario with it");
   std::vector<GoldenCase> cases;
   std::set<std::string> seen;
@@ -156,12 +177,12 @@ std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& ca
     if (seen.insert(name.string()).second) cases.push_back(case_of(file, arguments.golden, must));
   };
   for (const std::string& path : given) {  // those named by their file first: they must have a golden
-    if (fs::is_directory(path)) continue;
-    if (!fs::exists(path)) throw InputError(Place{path}, "there is no such scenario or folder");
-    add(path, true);
+    const fs::file_type kind = kind_of(path);
+    if (kind == fs::file_type::not_found) throw InputError(Place{path}, "there is no such scenario or folder");
+    if (kind != fs::file_type::directory) add(path, true);
   }
   for (const std::string& path : given) {
-    if (!fs::is_directory(path)) continue;
+    if (kind_of(path) != fs::file_type::directory) continue;
     const Found found = found_in(path);
     for (const fs::path& file : found.scenarios) add(file, arguments.strict);
     for (const fs::path& golden : found.orphans) cases.push_back(orphan(golden));

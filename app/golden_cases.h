@@ -38,10 +38,11 @@ std::filesystem::path own_golden(const std::filesystem::path& scenario);
 void check_own(const Golden& golden, const std::filesystem::path& folder, const Scenario& scenario,
                const GoldenDifference& difference);
 
-/// One case a scenario, in the order of the arguments, a folder's by name; each scenario once. In a folder a scenario without a
-/// golden is skipped, or with --strict a case that fails; so is always a golden there without a scenario. Goldens and scenarios
-/// are read; what cannot be read is a verdict of that case. InputError: neither scenario nor folder, a folder without
-/// scenarios, two scenarios with one golden, or --golden with anything but one scenario.
+/// One case a scenario, in the order of the arguments, a folder's by name; each scenario once. A folder: its scenarios, and
+/// those with a golden in the folders below it. A scenario without a golden is skipped, or with --strict a case that fails; so
+/// is always a golden there without a scenario. Goldens and scenarios are read; what cannot be read is a verdict of that case.
+/// InputError: neither scenario nor folder, a folder without scenarios, two scenarios with one golden, or --golden with
+/// anything but one scenario.
 std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& catalog);
 
 /// Runs and compares those that can be.

@@ -11,6 +11,7 @@ namespace gaitlab::app {
 namespace {
 
 constexpr std::size_t kMostShown = 10;
+constexpr double kBandChange = 1.2;  // times: less is no news
 
 // Those to show, by falling ratio where they are the worst, else in the golden's order.
 template <class Check>
@@ -90,6 +91,34 @@ std::string origin_changes(const Golden& golden, const GoldenOrigin& now) {
   add("integrator", then.integrator, now.integrator);
   add("step", then.step, now.step);
   if (then.scenario != now.scenario) text += "  scenario: its resolved text is another\n";
+  return text;
+}
+
+std::string band_changes(const Golden& before, const Golden& now) {
+  struct Change {
+    std::string name;
+    double then, now;
+    [[nodiscard]] double size() const { return std::abs(std::log(now / then)); }
+  };
+  std::vector<Change> changes;
+  const auto add = [&](const std::string& name, const Band& then, const Band& band) {
+    const Change change{name, then.width(), band.width()};
+    if (change.size() > std::log(kBandChange)) changes.push_back(change);
+  };
+  for (std::size_t i = 1; i < now.bands.size(); ++i) {
+    const std::size_t j = before.run.trace.find(now.run.trace.columns[i].name);
+    if (j < before.bands.size()) add(now.run.trace.columns[i].name, before.bands[j], now.bands[i]);
+  }
+  for (std::size_t i = 0; i < now.numbers.size(); ++i) {
+    for (std::size_t j = 0; j < before.numbers.size(); ++j) {
+      if (before.numbers[j].name == now.numbers[i].name) add(now.numbers[i].name, before.number_bands[j], now.number_bands[i]);
+    }
+  }
+  std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.size() > b.size(); });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(changes.size(), kMostShown); ++i)
+    text += fmt::format("  band of {}: then {}, now {}\n", changes[i].name, percent(changes[i].then), percent(changes[i].now));
+  if (changes.size() > kMostShown) text += fmt::format("  ... and {} more bands\n", changes.size() - kMostShown);
   return text;
 }
 

@@ -15,6 +15,9 @@ std::string since_approval(const Golden& golden);
 /// indented by two.
 std::string origin_changes(const Golden& golden, const GoldenOrigin& now);
 
+/// Bands that are wider or narrower by more than a fifth than before: the ten that changed most, a line each, indented by two.
+std::string band_changes(const Golden& before, const Golden& now);
+
 /// Findings, then a table of columns, then one of numbers, each line indented by two; "" where nothing of it is to be shown.
 std::string differences(const GoldenDifference& difference, Shown shown);
 

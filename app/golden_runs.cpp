@@ -16,8 +16,9 @@ namespace gaitlab::app {
 
 namespace {
 
-constexpr double kRowEvery = 0.02;      // s; a gait has 0.5 Hz, and the contacts' spikes are not what drifts
-constexpr double kNowhere = 1e-3;       // m: the work of a robot that stays is divided by noise
+constexpr double kRowEvery = 0.02;  // s; a gait has 0.5 Hz, and the contacts' spikes are not what drifts
+constexpr double kNowhere = 0.01;   // m: the work of a robot that stays is divided by noise
+constexpr const char* kCosts[] = {"cost_of_transport.electrical", "cost_of_transport.mechanical"};
 constexpr double kPerturbation = 1e-7;  // rad: above the rounding of another compiler, far below what a torque shows
 
 bool driven(const Scenario& scenario) { return scenario.actuator.entry != nullptr && !scenario.robot->joints.empty(); }
@@ -48,10 +49,8 @@ std::vector<Number> numbers(const Scenario& scenario, const RunRecord& record) {
                           {"speed", "m/s", s.speed},
                           {"path_length", "m", s.path_length}};
   if (!driven(scenario)) return all;
-  if (s.distance > kNowhere) {
-    all.push_back({"cost_of_transport.electrical", "J/(N m)", s.cost_electrical});
-    all.push_back({"cost_of_transport.mechanical", "J/(N m)", s.cost_mechanical});
-  }
+  all.push_back({kCosts[0], "J/(N m)", s.cost_electrical});
+  all.push_back({kCosts[1], "J/(N m)", s.cost_mechanical});
   for (std::size_t j = 0; j < record.joints.size(); ++j) {
     const std::string& name = scenario.robot->joints[j].name;
     all.push_back({name + ".torque.peak", "N m", record.joints[j].torque_peak});
@@ -118,6 +117,17 @@ std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int job
     }
   });
   return outcomes;
+}
+
+std::vector<Number> golden_numbers(const GoldenRun& run) {
+  const auto distance =
+      std::find_if(run.numbers.begin(), run.numbers.end(), [](const Number& n) { return n.name == "distance"; });
+  std::vector<Number> kept;
+  for (const Number& number : run.numbers) {
+    const bool cost = std::find(std::begin(kCosts), std::end(kCosts), number.name) != std::end(kCosts);
+    if (!cost || distance->value > kNowhere) kept.push_back(number);
+  }
+  return kept;
 }
 
 GoldenOrigin golden_origin(const Scenario& scenario) {

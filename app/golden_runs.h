@@ -22,6 +22,10 @@ struct Outcome {
 /// the same bits for any `jobs`.
 std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs);
 
+/// Those that a golden of this run holds: all, but for the costs of transport of a robot that stays (within 10 mm): they are
+/// shares of noise. The golden decides, so that a run on the other side of that limit is still compared.
+std::vector<Number> golden_numbers(const GoldenRun& run);
+
 /// Which run a golden is, for Golden::origin.
 GoldenOrigin golden_origin(const Scenario& scenario);
 

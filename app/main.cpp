@@ -60,6 +60,9 @@ int guarded(const std::function<int()>& command) {
   return 1;
 }
 
+/// A path that is an empty shell variable would name the working folder.
+std::string not_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
+
 int program(int argc, char** argv) {
   CLI::App app{"gaitlab: a gait lab for modular robots"};
   app.require_subcommand(1);
@@ -169,11 +172,14 @@ int program(int argc, char** argv) {
 
   TestArguments test_arguments;
   CLI::App* test_command = app.add_subcommand("test", "run scenarios and compare with their goldens; 4: a torque drifted");
-  test_command->add_option("SCENARIO", test_arguments.scenarios, "scenario files, or folders of them (default: scenarios)");
+  test_command->add_option("SCENARIO", test_arguments.scenarios, "scenario files, or folders of them (default: scenarios)")
+      ->check(not_empty);
   test_command->add_option("-j,--jobs", test_arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
-  test_command->add_option("--junit", test_arguments.junit, "also write the result as JUnit XML to this file");
+  test_command->add_option("--junit", test_arguments.junit, "also write the result as JUnit XML to this file")
+      ->check(not_empty);
   test_command->add_option("--engine", test_arguments.engine, "run with this engine, at its own step");
-  test_command->add_option("--golden", test_arguments.golden, "golden folder to compare one scenario with, not its own");
+  test_command->add_option("--golden", test_arguments.golden, "golden folder to compare one scenario with, not its own")
+      ->check(not_empty);
   test_command->add_option("--out", test_arguments.out, "folder for figures of what failed (default runs/test)");
   test_command->add_flag("--strict", test_arguments.strict, "in a folder, too, a scenario without a golden is an error");
   test_command->callback([&] { chosen = [&] { return test_goldens(test_arguments); }; });

@@ -1,9 +1,12 @@
 // Runs scenarios and compares them with their goldens: a table, the columns that strayed, a figure of them, JUnit XML.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <functional>
+#include <system_error>
 
 #include "app/app.h"
 #include "app/golden_cases.h"
@@ -183,27 +186,17 @@ std::string junit(const std::vector<GoldenCase>& cases) {
   return text + "</testsuite>\n</testsuites>\n";
 }
 
-/// Opened before the runs, so that a wrong path costs nothing.
-class Report {
- public:
-  explicit Report(const std::optional<std::string>& path) {
-    if (!path) return;
-    if (fs::is_directory(*path)) throw InputError(Place{"--junit " + *path}, "is a folder");
-    try {
-      file_.emplace(*path);
-    } catch (const RunError& error) {
-      throw InputError(Place{"--junit"}, error.what());
-    }
-  }
-  void write(const std::vector<GoldenCase>& cases) {
-    if (!file_) return;
-    file_->write(junit(cases));
-    file_->commit();
-  }
-
- private:
-  std::optional<AtomicFile> file_;
-};
+/// Before the runs, so that a wrong path costs nothing: no input is overwritten, and there is a folder for it.
+void check_report(const std::string& path) {
+  const Place place{"--junit " + path};
+  const fs::file_type kind = kind_of(path);
+  if (kind == fs::file_type::directory) throw InputError(place, "is a folder");
+  if (kind == fs::file_type::regular && fs::file_size(path) > 0 && !read_file(path).starts_with("<?xml"))
+    throw InputError(place, "is there and is no XML; it would be overwritten");
+  const fs::path folder = fs::path(path).parent_path();
+  if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError(place, "cannot be written: " + std::generic_category().message(errno));
+}
 
 int exit_code(const std::vector<GoldenCase>& cases) {
   if (count(cases, Verdict::regression) > 0) return 4;
@@ -215,7 +208,7 @@ int exit_code(const std::vector<GoldenCase>& cases) {
 
 int test_goldens(const TestArguments& arguments) {
   Figures figures(arguments.out);
-  Report report(arguments.junit);
+  if (arguments.junit) check_report(*arguments.junit);
   Catalog catalog = standard_catalog();
   std::vector<GoldenCase> cases = golden_cases(arguments, catalog);
   run_cases(cases, arguments.jobs);
@@ -238,7 +231,7 @@ int test_goldens(const TestArguments& arguments) {
     if (!c.problem.empty()) fmt::print(stderr, "{}\n", c.problem);
   }
   fmt::print("\n{}\n", counts(cases));
-  write([&] { report.write(cases); });
+  if (arguments.junit) write([&] { write_file(*arguments.junit, junit(cases)); });
   if (cases.size() == count(cases, Verdict::skipped))
     fmt::print(stderr, "gaitlab: error: nothing was tested: no scenario has a golden; make one with gaitlab approve\n");
   const int code = exit_code(cases);

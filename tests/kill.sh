@@ -137,14 +137,20 @@ kill_approvals() {
   cp -- "$work/changed.yaml" "$work/golden/s.yaml"
   time=$(duration "${approve[@]}")
   cp -r -- "$work/golden" "$work/new"
+  duration "${approve[@]}" >"$work/log"
+  cp -r -- "$work/golden" "$work/newer"
   for ((i = 0; i < moments; ++i)); do
-    rm -rf -- "$golden"
-    cp -r -- "$work/old/s.golden" "$golden"
+    # Every other kill meets what the last one left.
+    if ((i % 2 == 0)); then
+      rm -rf -- "$golden"
+      cp -r -- "$work/old/s.golden" "$golden"
+    fi
     draw_moment "$time"
-    ((i % 2)) || moment=$((time - moment * 20 / time)) # every other one near the end, where the files are written
+    ((i % 4 > 1)) || moment=$((time - moment * 20 / time)) # every other one near the end, where the files are written
     kill_after "$moment" "${approve[@]}"
     readable "$golden"
     if cmp -s -- "$golden/golden.json" "$work/old/s.golden/golden.json"; then of=old old=$((old + 1))
+    elif cmp -s -- "$golden/golden.json" "$work/newer/s.golden/golden.json"; then of=newer new=$((new + 1))
     elif cmp -s -- "$golden/golden.json" "$work/new/s.golden/golden.json"; then of=new new=$((new + 1))
     else bad "approve, killed, left a golden that is neither the old nor the new one"; continue
     fi

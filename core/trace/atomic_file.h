@@ -36,6 +36,10 @@ class AtomicFile {
 /// The whole of `bytes` as the file `path`, or RunError and no change.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// What is there, links followed; not_found for nothing (and for a link to nothing).
+/// InputError `PATH: error: cannot be read: REASON` where that cannot be told: no permission, a loop of links, too long a name.
+std::filesystem::file_type kind_of(const std::filesystem::path& path);
+
 /// All bytes of a file, of any size. InputError: `PATH: error: cannot be read: REASON`.
 std::string read_file(const std::filesystem::path& path);
 

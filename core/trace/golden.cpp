@@ -1,8 +1,12 @@
 #include "core/trace/golden.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -114,7 +118,7 @@ Json checked(const fs::path& file, const std::string& text) {
   }
   const Json& version = json[kVersionKey];
   if (version.is_number_integer() && version != kVersion) {
-    throw wrong(file, fmt::format("has golden format {}; this gaitlab reads {}: make it anew with gaitlab approve",
+    throw wrong(file, fmt::format("has golden format {}; this gaitlab reads {}: take the gaitlab that wrote it",
                                   text_of(version), kVersion));
   }
   const std::size_t end = text.rfind(kChecksum);
@@ -151,7 +155,7 @@ RoundedTrace matching_trace(const fs::path& folder, const std::string& wanted) {
     if (hash(bytes) == wanted) return unpack(bytes, folder / name);
   }
   const fs::path file = folder / kTraceFile;
-  if (missing) throw wrong(file, "is missing: the golden is only half there; make it anew with gaitlab approve");
+  if (missing) throw wrong(file, "is missing: the golden is only half there");
   (void)unpack(read_file(file), file);  // says what is wrong with it, where something is
   throw wrong(file, "belongs to another approval than golden.json");
 }
@@ -169,6 +173,34 @@ void take_bands(const Json& columns, Golden& golden) {
   if (golden.bands.size() != in_trace.size()) throw std::runtime_error("its columns are not those of the trace");
 }
 
+/// A kill between the two renames of write_golden left the trace that golden.json names under its other name.
+void finish_rename(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder / kNextTraceFile, error) || !fs::exists(folder / kJsonFile, error)) return;
+  const Json json = Json::parse(read_file(folder / kJsonFile), nullptr, false);
+  if (!json.is_object() || !json.contains("trace") || json["trace"] != hash(read_file(folder / kNextTraceFile))) return;
+  fs::rename(folder / kNextTraceFile, folder / kTraceFile, error);
+}
+
+/// One at a time: the files' temporary names are the same for all.
+class Lock {
+ public:
+  explicit Lock(const fs::path& folder) : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(descriptor_);
+      throw InputError(Place{folder.string()}, "is being written by another process; call again");
+    }
+  }
+  ~Lock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 }  // namespace
 
 double Band::width() const { return std::max({ensemble, halving, floor}); }
@@ -179,6 +211,8 @@ void write_golden(const Golden& golden, const fs::path& folder) {
   std::error_code error;
   fs::create_directory(folder, error);
   if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  const Lock lock(folder);
+  finish_rename(folder);
   const std::string bytes = pack(golden.run.trace);
   write_file(folder / kNextTraceFile, bytes);
   write_file(folder / kJsonFile, json_text(golden, bytes));  // from here on the new one holds
@@ -188,11 +222,10 @@ void write_golden(const Golden& golden, const fs::path& folder) {
 
 Golden read_golden(const fs::path& folder) {
   const fs::path file = folder / kJsonFile;
-  std::error_code error;
-  if (!fs::exists(folder, error)) throw wrong(folder, "there is no such golden; gaitlab approve makes it");
-  if (!fs::is_directory(folder, error)) throw wrong(folder, "is no golden: a golden is a folder");
-  if (!fs::exists(file, error))
-    throw wrong(file, "is missing: the golden is only half there; make it anew with gaitlab approve");
+  const fs::file_type kind = kind_of(folder);
+  if (kind == fs::file_type::not_found) throw wrong(folder, "there is no such golden; gaitlab approve makes it");
+  if (kind != fs::file_type::directory) throw wrong(folder, "is no golden: a golden is a folder");
+  if (kind_of(file) == fs::file_type::not_found) throw wrong(file, "is missing: the golden is only half there");
   const Json json = checked(file, read_file(file));
   try {
     Golden golden = from_json(json);
@@ -201,7 +234,9 @@ Golden read_golden(const fs::path& folder) {
     return golden;
   } catch (const InputError&) {
     throw;
-  } catch (const std::exception& damage) {  // of nlohmann, or ours
+  } catch (const Json::exception&) {  // whose text names no place
+    throw wrong(file, "is corrupt: an entry is missing or of another type");
+  } catch (const std::runtime_error& damage) {
     throw wrong(file, fmt::format("is corrupt: {}", damage.what()));
   }
 }

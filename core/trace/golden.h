@@ -51,6 +51,7 @@ std::filesystem::path golden_folder(const std::filesystem::path& scenario);
 
 /// Makes trace.golden (see golden_file.h) and golden.json (all else) in `folder`, which is made if missing. A process that is
 /// killed at any moment leaves the golden that was there or the new one, never a mixture. RunError: cannot be written.
+/// InputError: another process is writing it.
 void write_golden(const Golden& golden, const std::filesystem::path& folder);
 
 /// What write_golden wrote. InputError, one message each, for either file: missing, truncated, corrupt (by checksum), foreign,

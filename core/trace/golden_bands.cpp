@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 namespace gaitlab {
@@ -37,6 +38,13 @@ double range_of(const Trace& trace, std::size_t column) {
     high = std::max(high, trace.at(k, column));
   }
   return trace.rows() == 0 ? 0 : high - low;
+}
+
+const Number& number(const GoldenRun& run, const std::string& name) {
+  const auto named = [&](const Number& n) { return n.name == name; };
+  const auto found = std::find_if(run.numbers.begin(), run.numbers.end(), named);
+  if (found == run.numbers.end()) throw std::invalid_argument("a run to calibrate with has no number " + name);
+  return *found;
 }
 
 }  // namespace
@@ -83,7 +91,9 @@ Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, cons
   }
   const std::vector<double> size = scales(base.numbers);
   for (std::size_t i = 0; i < base.numbers.size(); ++i) {
-    const auto change = [&](const GoldenRun& run) { return std::abs(run.numbers[i].value - base.numbers[i].value) / size[i]; };
+    const auto change = [&](const GoldenRun& run) {
+      return std::abs(number(run, base.numbers[i].name).value - base.numbers[i].value) / size[i];
+    };
     Band band;
     for (const GoldenRun& run : ensemble) band.ensemble = std::max(band.ensemble, kEnsembleFactor * change(run));
     band.halving = kHalvingFactor * change(halved);

@@ -33,8 +33,8 @@ struct Bands {
 
 /// The bands of `base`: per column max(10 x the largest RMS difference of a run of the ensemble, 3 x that of the run with half
 /// the step, 1e-6 of the range); per number the same of its difference. That is below the golden's precision: what rounding
-/// took is known exactly (Golden::rounding) and taken off. All runs have the columns, rows and numbers of `base`, and finite
-/// values.
+/// took is known exactly (Golden::rounding) and taken off. All runs have the columns, rows and numbers of `base` (and
+/// maybe others), and finite values. std::invalid_argument: one lacks a number.
 Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, const GoldenRun& halved);
 
 }  // namespace gaitlab

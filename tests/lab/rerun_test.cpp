@@ -109,6 +109,8 @@ TEST_F(Rerun, ARunThatEndedEarlyIsComparedUpToItsLastRow) {
       << result.out;
   replace("a/summary.json", "interrupted at t = 0.1 s", "done");
   EXPECT_EQ(verify("a").code, 4);  // a trace that was cut short is no early end
+  fs::remove(folder / "a/summary.json");
+  EXPECT_EQ(verify("a").code, 4);  // nor is one that nothing explains
 }
 
 TEST_F(Rerun, ADivergedRunIsVerified) {
