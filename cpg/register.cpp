@@ -1,5 +1,6 @@
 #include "cpg/register.h"
 
+#include "cpg/equations.h"
 #include "cpg/hopf.h"
 #include "cpg/keyframes.h"
 #include "cpg/kuramoto_amplitude.h"
@@ -13,6 +14,7 @@
 namespace gaitlab {
 
 void register_cpgs(Registry& registry) {
+  add_cpg<Equations>(registry, "equations", Equations::kManual);
   add_cpg<Hopf>(registry, "hopf", Hopf::kManual);
   add_cpg<Keyframes>(registry, "keyframes", Keyframes::kManual);
   add_cpg<KuramotoAmplitude>(registry, "kuramoto_amplitude", KuramotoAmplitude::kManual);

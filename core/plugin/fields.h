@@ -25,7 +25,18 @@ struct PerJoint {
   double common = 0;
   std::vector<double> each = {};  ///< empty: `common` everywhere
   double operator[](std::size_t joint) const { return each.empty() ? common : each[joint]; }
+  bool operator==(const PerJoint&) const = default;
 };
+
+/// A value under a name that the user chose.
+struct Named {
+  std::string name;
+  std::string text = {};  ///< empty: `number` holds
+  PerJoint number = {};
+  bool operator==(const Named&) const = default;
+};
+
+enum class NamedValues { texts, texts_or_numbers };
 
 /// Visits the fields of a Settings struct in order. A Settings struct is default-constructible, its initial values are the
 /// defaults, and it has `void fields(Fields&)`. Keys and texts must be string literals (they are kept by address).
@@ -48,8 +59,14 @@ class Fields {
   /// A list of numbers of any length.
   virtual void numbers(const char* key, std::vector<double>& value, Spec spec) = 0;
   virtual void texts(const char* key, std::vector<std::string>& value, const char* about) = 0;
+  /// A map whose keys the user chooses (a letter, then letters, digits and _), in the order of the file. One that is given
+  /// takes the place of the whole default. Empty texts are refused.
+  virtual void named(const char* key, std::vector<Named>& values, NamedValues kind, const char* about) = 0;
   /// A check across fields failed: reported at the place of `key`.
   virtual void problem(const char* key, std::string_view what) = 0;
+  /// The same at the byte `offset` of a text, `name` being empty for one of its own and else that of a named value; npos: at
+  /// the name itself.
+  virtual void problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) = 0;
 
   /// A list of structs, each with `void fields(Fields&)`.
   template <class T>

@@ -101,6 +101,13 @@ void Explainer::texts(const char* key, std::vector<std::string>& value, const ch
   row(key, "", "[" + preset + "]", "list of texts", about);
 }
 
+void Explainer::named(const char* key, std::vector<Named>& values, NamedValues kind, const char* about) {
+  std::string names;
+  for (const Named& value : values) names += (names.empty() ? "" : ", ") + value.name;
+  row(key, "", names.empty() ? "{}" : names, kind == NamedValues::texts ? "NAME: text" : "NAME: text | number, per joint",
+      about);
+}
+
 void Explainer::elements(const char* key, const List& list) {
   const std::size_t size = list.size(list.self);
   if (size == 0) list.resize(list.self, 1);  // an element with its defaults, to look at

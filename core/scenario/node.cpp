@@ -7,6 +7,7 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <sstream>
 #include <unordered_map>
 
@@ -24,7 +25,7 @@ struct Stop {};
 class TreeBuilder final : public YAML::EventHandler {
  public:
   TreeBuilder(const std::string& text, const std::string& file, Problems& problems)
-      : text_(text), file_(file), problems_(problems) {}
+      : text_(std::make_shared<const std::string>(text)), file_(file), problems_(problems) {}
 
   /// The finished root; only after a whole document.
   Node take() { return std::move(root_); }
@@ -46,6 +47,8 @@ class TreeBuilder final : public YAML::EventHandler {
     Node node{Node::Kind::scalar, at(mark)};
     node.text = value;
     node.quoted = tag == "!";
+    node.source = text_;
+    node.position = static_cast<std::size_t>(std::max(0, mark.pos));
     // A quoted scalar has the tag "!" of its own; an explicit one starts with '!' in the text.
     const bool explicit_tag = tag != "?" && (tag != "!" || character(mark) == '!');
     check_tag(mark, explicit_tag, tag);
@@ -72,7 +75,7 @@ class TreeBuilder final : public YAML::EventHandler {
   [[nodiscard]] Place at(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
   [[nodiscard]] char character(const YAML::Mark& mark) const {
     const auto position = static_cast<std::size_t>(mark.pos);
-    return mark.pos >= 0 && position < text_.size() ? text_[position] : '\0';
+    return mark.pos >= 0 && position < text_->size() ? (*text_)[position] : '\0';
   }
 
   [[noreturn]] void stop(Place place, std::string what) {
@@ -142,7 +145,7 @@ class TreeBuilder final : public YAML::EventHandler {
     top.has_key = top.duplicate = false;
   }
 
-  const std::string& text_;
+  std::shared_ptr<const std::string> text_;
   const std::string& file_;
   Problems& problems_;
   std::vector<Open> stack_;

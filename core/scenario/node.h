@@ -1,5 +1,6 @@
 // A YAML text as a tree of nodes that know their place. Reading is strict where yaml-cpp 0.7 is lax (docs/decisions).
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,6 +18,8 @@ struct Node {
   bool flow = false;                                     ///< list or map in one line: { } [ ]
   std::vector<Node> items = {};                          ///< list; values of a map, in file order
   std::vector<std::pair<std::string, Place>> keys = {};  ///< map: key of items[i]
+  std::shared_ptr<const std::string> source = {};        ///< scalar read from a text: that text
+  std::size_t position = 0;                              ///< scalar: where it starts in `source`
 
   [[nodiscard]] const Node* find(const std::string& key) const;  ///< value of a map's key, or nullptr
 };

@@ -24,6 +24,7 @@ bool is_set(const Node& node) { return node.place.file.starts_with(kOption); }
 
 void move_to(Node& node, const Place& place) {
   node.place = place;
+  node.source.reset();
   for (Node& item : node.items) move_to(item, place);
   for (auto& [key, key_place] : node.keys) key_place = place;
 }

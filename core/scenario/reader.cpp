@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/scenario/node_places.h"
 #include "core/scenario/text_file.h"
 #include "core/scenario/value.h"
 
@@ -281,9 +282,72 @@ void Reader::texts(const char* key, std::vector<std::string>& value, const char*
   value = std::move(read);
 }
 
+void Reader::named(const char* key, std::vector<Named>& values, NamedValues kind, const char*) {
+  const Node* node = take(key);
+  if (node == nullptr) return;
+  if (node->kind != Node::Kind::map) {
+    problems_.add(node->place, fmt::format("{} is {}; expected a map of names", key, found(*node)));
+    return;
+  }
+  values.clear();
+  for (std::size_t i = 0; i < node->keys.size(); ++i) {
+    const auto& [name, place] = node->keys[i];
+    if (!is_name(name, "_") || name[0] == '_' || (name[0] >= '0' && name[0] <= '9')) {
+      problems_.add(place, in_quotes(name) + " is no name; expected a letter, then letters, digits and _");
+      continue;
+    }
+    read_named(node->items[i], fmt::format("{}.{}", key, clipped(name)), kind, values.emplace_back(Named{name}));
+  }
+}
+
+void Reader::read_named(const Node& node, const std::string& what, NamedValues kind, Named& value) {
+  const bool may_be_number = kind == NamedValues::texts_or_numbers;
+  const bool scalar = node.kind == Node::Kind::scalar;
+  if (may_be_number && scalar && read_number(node, "").ok()) {
+    value.number.common = read_number(node, "").value;
+  } else if (scalar && !node.text.empty()) {
+    value.text = node.text;
+  } else if (may_be_number && (node.kind == Node::Kind::list || node.kind == Node::Kind::map)) {
+    read_named_numbers(node, what, value.number);
+  } else {
+    problems_.add(node.place, fmt::format("{} is {}; expected {}", what, scalar ? "empty" : found(node),
+                                          may_be_number ? "a number, a text, a list, or a map of joints" : "a text"));
+  }
+}
+
+void Reader::read_named_numbers(const Node& node, const std::string& what, PerJoint& value) {
+  constexpr Spec kAny{"", -1e300, 1e300, ""};
+  if (node.kind == Node::Kind::list) {
+    read_joint_list(node, what, kAny, value);
+    return;
+  }
+  // There is no default that a joint left out could keep.
+  if (node.find("default") == nullptr && (joints_ == nullptr || node.keys.size() < joints_->size())) {
+    problems_.add(node.place, what + " names some joints only; add default: for the others");
+  }
+  read_joint_map(node, what, kAny, value);
+}
+
 void Reader::problem(const char* key, std::string_view what) {
   const Node* node = map_->find(key);
   problems_.add(node != nullptr ? node->place : map_->place, std::string(what));
+}
+
+void Reader::problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) {
+  const Node* node = map_->find(key);
+  if (node == nullptr || name.empty()) {
+    const bool given = node != nullptr;
+    problems_.add(given ? place_in(*node, offset) : map_->place, std::string(what));
+    return;
+  }
+  const auto key_of_it = std::find_if(node->keys.begin(), node->keys.end(), [&](const auto& one) { return one.first == name; });
+  if (key_of_it == node->keys.end()) {
+    problems_.add(node->place, std::string(what));
+  } else if (offset == std::string_view::npos) {
+    problems_.add(key_of_it->second, std::string(what));
+  } else {
+    problems_.add(place_in(*node->find(key_of_it->first), offset), std::string(what));
+  }
 }
 
 void Reader::list(const char* key, const char*, List list) {

@@ -33,7 +33,9 @@ class Reader final : public Fields {
   void vector(const char* key, std::span<double> value, Spec spec) override;
   void numbers(const char* key, std::vector<double>& value, Spec spec) override;
   void texts(const char* key, std::vector<std::string>& value, const char* about) override;
+  void named(const char* key, std::vector<Named>& values, NamedValues kind, const char* about) override;
   void problem(const char* key, std::string_view what) override;
+  void problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) override;
   using Fields::group;
   using Fields::list;
   using Fields::rule_or_list;
@@ -59,6 +61,8 @@ class Reader final : public Fields {
   void read_each(const Node& node, const std::string& key, const Spec& spec, std::span<double> value);
   void read_joint_list(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
   void read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
+  void read_named(const Node& node, const std::string& what, NamedValues kind, Named& value);
+  void read_named_numbers(const Node& node, const std::string& what, PerJoint& value);
   /// Number of a joint by its name, or -1 with a problem.
   std::int64_t joint_number(const std::string& name, const Place& place);
 

@@ -66,6 +66,20 @@ void Writer::texts(const char* key, std::vector<std::string>& value, const char*
   add(key, std::move(node));
 }
 
+void Writer::named(const char* key, std::vector<Named>& values, NamedValues, const char*) {
+  Writer writer(joints_);
+  for (Named& value : values) {
+    if (value.text.empty()) {
+      writer.per_joint(value.name.c_str(), value.number, {});
+    } else {
+      writer.text(value.name.c_str(), value.text, "");
+    }
+  }
+  Node node = writer.take();
+  node.flow = node.items.empty();
+  add(key, std::move(node));
+}
+
 void Writer::list(const char* key, const char*, List list) {
   Node node{Node::Kind::list};
   for (std::size_t i = 0; i < list.size(list.self); ++i) {

@@ -1,6 +1,8 @@
 // print_yaml: a Node as YAML text that parse_yaml reads back.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/scenario/node.h"
 
 namespace gaitlab {
@@ -74,6 +76,31 @@ bool is_block(const Node& node) {
   return (node.kind == Node::Kind::list || node.kind == Node::Kind::map) && !node.flow && !node.items.empty();
 }
 
+/// Several lines that a block after `|` holds as they are; a first line that begins with a space would need more than that.
+bool fits_block(const Node& node) {
+  const std::string& text = node.text;
+  if (node.kind != Node::Kind::scalar || !node.quoted || text.find('\n') == std::string::npos) return false;
+  if (text.front() == ' ' || text.front() == '\n' || text.ends_with("\n\n")) return false;
+  if (text.find(" \n") != std::string::npos || text.back() == ' ') return false;
+  return std::all_of(text.begin(), text.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return c == '\n' || (byte >= 0x20 && byte != 0x7F);
+  });
+}
+
+/// The lines of a block, below its key.
+std::string block(const std::string& text, int indent) {
+  const std::string margin(static_cast<std::size_t>(indent), ' ');
+  std::string out = text.ends_with('\n') ? "|\n" : "|-\n";
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    if (end > at) out += margin + text.substr(at, end - at);
+    out += '\n';
+    at = end + 1;
+  }
+  return out;
+}
+
 std::string one_line(const Node& node) {
   return node.kind == Node::Kind::scalar ? scalar(node.text, node.quoted, false) : flow(node);
 }
@@ -89,6 +116,8 @@ std::string print_yaml(const Node& node, int indent) {
     if (node.kind == Node::Kind::list) {
       // The item's own text, its first line's margin replaced by the dash.
       out += margin + "- " + print_yaml(item, indent + 2).substr(margin.size() + 2);
+    } else if (fits_block(item)) {
+      out += margin + key_text(node.keys[i].first) + ": " + block(item.text, indent + 2);
     } else if (is_block(item)) {
       out += margin + key_text(node.keys[i].first) + ":\n" + print_yaml(item, indent + 2);
     } else {

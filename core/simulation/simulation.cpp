@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/laws/hinge_stop.h"
+#include "core/simulation/cpg_check.h"
 #include "core/simulation/start.h"
 #include "core/simulation/start_check.h"
 #include "core/simulation/step_advice.h"
@@ -312,7 +313,9 @@ void Simulation::command() {
       setpoint_[j * lanes + l] = lane.setpoint[j];
       command_[j * lanes + l] = lane.command[j];
     }
-    if (lane.cpg != nullptr) lane.integrate_cpg(time());
+    if (lane.cpg == nullptr) continue;
+    lane.integrate_cpg(time());
+    check_cpg(*lane.cpg, robot_, lane.setpoint, lane.cpg_state, step_number(), time());
   }
   watch_stability();
 }

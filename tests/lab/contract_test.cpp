@@ -48,7 +48,9 @@ class Numbers final : public Fields {
   void vector(const char* key, std::span<double>, Spec spec) override { check(key, spec.about); }
   void numbers(const char* key, std::vector<double>&, Spec spec) override { check(key, spec.about); }
   void texts(const char* key, std::vector<std::string>&, const char* about) override { check(key, about); }
+  void named(const char* key, std::vector<Named>&, NamedValues, const char* about) override { check(key, about); }
   void problem(const char* key, std::string_view what) override { ADD_FAILURE() << key << ": " << what; }
+  void problem_at(const char* key, std::string_view, std::size_t, std::string_view what) override { problem(key, what); }
 
  private:
   void note(const std::string& key, double value, const Spec& spec, bool whole) {

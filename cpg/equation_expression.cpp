@@ -1,0 +1,290 @@
+#include "cpg/equation_expression.h"
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace gaitlab {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n'; }
+
+struct Token {
+  enum class Kind { number, name, sign, end } kind = Kind::end;
+  std::size_t offset = 0;
+  std::string_view text = {};
+  double number = 0;
+};
+
+std::string quoted(std::string_view text) { return "'" + std::string(text.substr(0, 40)) + (text.size() > 40 ? "...'" : "'"); }
+
+std::string found(const Token& token) {
+  return "found " + (token.kind == Token::Kind::end ? "the end of the text" : quoted(token.text));
+}
+
+class Lexer {
+ public:
+  explicit Lexer(std::string_view text) : text_(text) {}
+
+  Token next() {
+    while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+    if (at_ == text_.size()) return {Token::Kind::end, at_};
+    const char c = text_[at_];
+    const bool point = c == '.' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1]);
+    if (is_digit(c) || point) return number();
+    if (is_letter(c) || c == '_') return name();
+    return sign();
+  }
+
+ private:
+  std::size_t digits(std::size_t at) const {
+    while (at < text_.size() && is_digit(text_[at])) ++at;
+    return at;
+  }
+
+  Token number() {
+    const std::size_t begin = at_;
+    std::size_t end = digits(begin);
+    if (end - begin > 1 && text_[begin] == '0') {
+      throw EquationFault{begin,
+                          "found " + quoted(text_.substr(begin, end - begin)) + "; expected a number without a leading zero"};
+    }
+    if (end < text_.size() && text_[end] == '.') end = digits(end + 1);
+    if (end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
+      const bool sign = end + 1 < text_.size() && (text_[end + 1] == '+' || text_[end + 1] == '-');
+      const std::size_t exponent = end + (sign ? 2 : 1);
+      if (digits(exponent) > exponent) end = digits(exponent);  // else a name that sticks to the number: refused next
+    }
+    at_ = end;
+    Token token{Token::Kind::number, begin, text_.substr(begin, end - begin)};
+    const auto [last, failure] = std::from_chars(token.text.data(), token.text.data() + token.text.size(), token.number);
+    const bool zero = token.text.find_first_of("123456789") >= std::min(token.text.find_first_of("eE"), token.text.size());
+    // Both are checked: whether from_chars reports an underflow differs between library versions.
+    if (failure != std::errc() || !std::isfinite(token.number) || (token.number == 0 && !zero)) {
+      throw EquationFault{begin, "found " + quoted(token.text) + "; expected a number that fits a double"};
+    }
+    return token;
+  }
+
+  Token name() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]) || text_[at_] == '_')) ++at_;
+    return {Token::Kind::name, begin, text_.substr(begin, at_ - begin)};
+  }
+
+  Token sign() {
+    const std::size_t begin = at_;
+    for (const std::string_view two : {"<=", ">=", "==", "!="}) {
+      if (text_.substr(begin, 2) == two) at_ += 2;
+    }
+    if (at_ == begin && std::string_view("+-*/^()[],<>").find(text_[begin]) != std::string_view::npos) ++at_;
+    if (at_ > begin) return {Token::Kind::sign, begin, text_.substr(begin, at_ - begin)};
+    if (text_[begin] == '=') throw EquationFault{begin, "found '='; compare with '=='"};
+    do ++at_;
+    while (at_ < text_.size() && (static_cast<unsigned char>(text_[at_]) & 0xC0U) == 0x80);  // the rest of a UTF-8 character
+    throw EquationFault{begin, "found " + quoted(text_.substr(begin, at_ - begin)) + ", which has no meaning here"};
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+class Parser {
+ public:
+  explicit Parser(std::string_view text) : lexer_(text) { advance(); }
+
+  Term whole() {
+    Term term = expression();
+    if (token_.kind != Token::Kind::end) refuse("an operator or the end of the text");
+    return term;
+  }
+
+ private:
+  /// A level further in, for as long as it lives.
+  class Level {
+   public:
+    explicit Level(Parser& parser) : parser_(parser) {
+      if (++parser.levels_ > kMostEquationLevels) {
+        throw EquationFault{parser.token_.offset, "nested deeper than " + std::to_string(kMostEquationLevels) + " levels"};
+      }
+    }
+    ~Level() { --parser_.levels_; }
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+
+   private:
+    Parser& parser_;
+  };
+
+  [[noreturn]] void refuse(const std::string& expected) const {
+    throw EquationFault{token_.offset, found(token_) + "; expected " + expected};
+  }
+
+  [[nodiscard]] bool at(std::string_view text) const { return token_.kind != Token::Kind::end && token_.text == text; }
+  void advance() { token_ = lexer_.next(); }
+  void take(std::string_view text, const std::string& expected) {
+    if (!at(text)) refuse(expected);
+    advance();
+  }
+
+  Term node(Term term) {
+    if (++terms_ > kMostEquationTerms) {
+      throw EquationFault{term.offset, "more than " + std::to_string(kMostEquationTerms) + " numbers, names and operators"};
+    }
+    return term;
+  }
+
+  Term call(std::string_view name, std::size_t offset, Term a) {
+    Term term{Term::Kind::call, offset, std::string(name)};
+    term.arguments.push_back(std::move(a));
+    return node(std::move(term));
+  }
+  Term call(std::string_view name, std::size_t offset, Term a, Term b) {
+    Term term = call(name, offset, std::move(a));
+    term.arguments.push_back(std::move(b));
+    return term;
+  }
+
+  /// A chain of operators of one rank, from the left.
+  template <class Operand>
+  Term chain(std::initializer_list<std::string_view> signs, Operand operand) {
+    Term left = operand();
+    while (true) {
+      const Token sign = token_;
+      bool here = false;
+      for (const std::string_view one : signs) here = here || at(one);
+      if (!here) return left;
+      advance();
+      Term right = operand();
+      left = call(sign.text, sign.offset, std::move(left), std::move(right));
+    }
+  }
+
+  Term expression() {
+    return chain({"or"}, [this] { return chain({"and"}, [this] { return negation(); }); });
+  }
+
+  Term negation() {
+    if (!at("not")) return comparison();
+    const Level level(*this);
+    const std::size_t offset = token_.offset;
+    advance();
+    return call("not", offset, negation());
+  }
+
+  [[nodiscard]] bool compares() const {
+    for (const std::string_view sign : {"<", "<=", ">", ">=", "==", "!="}) {
+      if (at(sign)) return true;
+    }
+    return false;
+  }
+
+  Term comparison() {
+    Term left = addition();
+    if (!compares()) return left;
+    const Token sign = token_;
+    advance();
+    Term right = addition();
+    if (compares()) throw EquationFault{token_.offset, found(token_) + " after a comparison; write a < b and b < c"};
+    return call(sign.text, sign.offset, std::move(left), std::move(right));
+  }
+
+  Term addition() {
+    return chain({"+", "-"}, [this] { return chain({"*", "/"}, [this] { return factor(); }); });
+  }
+
+  Term factor() {
+    const Level level(*this);
+    const Token sign = token_;
+    if (at("+")) {
+      advance();
+      return factor();
+    }
+    if (at("-")) {
+      advance();
+      return call("~", sign.offset, factor());
+    }
+    Term base = primary();
+    const std::size_t power = token_.offset;
+    if (!at("^")) return base;
+    advance();
+    return call("^", power, std::move(base), factor());
+  }
+
+  Term primary() {
+    const Token token = token_;
+    if (token.kind == Token::Kind::number) {
+      advance();
+      Term term{Term::Kind::number, token.offset};
+      term.number = token.number;
+      return node(std::move(term));
+    }
+    const bool word = at("and") || at("or") || at("not") || at("in");
+    if (token.kind == Token::Kind::name && !word) return named();
+    if (!at("(")) refuse("a number, a name or '('");
+    advance();
+    Term inner = expression();
+    take(")", "an operator or ')'");
+    return inner;
+  }
+
+  Term named() {
+    const Token name = token_;
+    advance();
+    Term term{Term::Kind::name, name.offset, std::string(name.text)};
+    if (at("[")) {
+      advance();
+      term.index = index();
+    } else if (at("(")) {
+      advance();
+      term.kind = Term::Kind::call;
+      if (name.text == "sum") {
+        term.kind = Term::Kind::sum;
+        take("j", "'j': sum(j in neighbours, TERM)");
+        take("in", "'in': sum(j in neighbours, TERM)");
+        take("neighbours", "'neighbours': sum(j in neighbours, TERM)");
+        take(",", "',': sum(j in neighbours, TERM)");
+      }
+      if (at(")")) refuse("a number, a name or '('");
+      term.arguments.push_back(expression());
+      while (term.kind == Term::Kind::call && at(",")) {
+        advance();
+        term.arguments.push_back(expression());
+      }
+      take(")", term.kind == Term::Kind::sum ? "an operator or ')'" : "an operator, ',' or ')'");
+    }
+    return node(std::move(term));
+  }
+
+  Term::Index index() {
+    const bool first = at("i");
+    if (!first && !at("j")) refuse("i or j");
+    advance();
+    if (first && at(",")) {
+      advance();
+      take("j", "j");
+      take("]", "']'");
+      return Term::Index::ij;
+    }
+    take("]", "']'");
+    return first ? Term::Index::i : Term::Index::j;
+  }
+
+  Lexer lexer_;
+  Token token_;
+  std::size_t terms_ = 0, levels_ = 0;
+};
+
+}  // namespace
+
+Term parse_equation(const std::string& text) {
+  if (text.size() > kMostEquationText) {
+    throw EquationFault{kMostEquationText, "longer than " + std::to_string(kMostEquationText) + " characters"};
+  }
+  return Parser(text).whole();
+}
+
+}  // namespace gaitlab

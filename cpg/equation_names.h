@@ -1,0 +1,92 @@
+// What the texts of `equations` may name, and where.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/plugin/oscillators.h"
+#include "cpg/equation_expression.h"
+
+namespace gaitlab {
+
+/// A function or operator by its name in the tree.
+struct EquationFunction {
+  enum class Op {
+    neg,
+    no,
+    add,
+    sub,
+    mul,
+    div,
+    pow,
+    lt,
+    le,
+    gt,
+    ge,
+    eq,
+    ne,
+    both,
+    either,
+    sin,
+    cos,
+    tan,
+    tanh,
+    exp,
+    log,
+    sqrt,
+    abs,
+    sign,
+    min,
+    max,
+    clamp,
+    choose
+  };
+  const char* name;
+  std::size_t arguments;
+  Op op;
+};
+const EquationFunction* find_equation_function(const std::string& name);
+
+/// How a message on an unknown name ends: the nearest name, or all.
+std::string offer_name(const std::string& found, const std::vector<std::string>& known, const std::string& kind);
+
+/// Values per joint that are there without being declared: the common keys and the joint's place in the robot's tree.
+struct GivenValue {
+  const char* name;
+  double (*value)(const RobotInfo&, const OscillatorKeys&, const std::vector<double>& phases, std::size_t joint);
+};
+std::span<const GivenValue> given_values();
+
+class EquationNames {
+ public:
+  /// What a text belongs to. parameter: it may name those declared above it.
+  enum class Where { parameter, initial, derivative, output };
+  enum class Kind { pi, time, given, parameter, state, angle, speed, torque, touching, weight, lag };
+  struct Entry {
+    std::string name;
+    Kind kind;
+    std::size_t slot = 0;  ///< given, parameter, state: number among its kind
+  };
+
+  EquationNames();
+  /// What is wrong with a new name (its offset: npos), or nothing after declaring it.
+  [[nodiscard]] std::string declare(const std::string& name, Kind kind, std::size_t slot);
+
+  [[nodiscard]] const Entry* find(const std::string& name) const;
+  /// Adds what is wrong with a tree that belongs to `where`. `slot`: of the parameter itself.
+  void check(const Term& term, Where where, std::size_t slot, std::vector<EquationFault>& faults) const;
+
+ private:
+  struct Place {
+    Where where;
+    std::size_t slot;
+    bool in_sum;
+  };
+  void check(const Term& term, const Place& place, std::vector<EquationFault>& faults) const;
+  void check_name(const Term& term, const Place& place, std::vector<EquationFault>& faults) const;
+  [[nodiscard]] static bool may_name(const Entry& entry, const Place& place);
+  [[nodiscard]] std::string unknown(const std::string& name, const Place& place) const;
+
+  std::vector<Entry> entries_;
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,282 @@
+#include "cpg/equation_program.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/math/functions.h"
+
+namespace gaitlab {
+namespace {
+
+using Op = EquationFunction::Op;
+using Kind = EquationNames::Kind;
+
+template <class F>
+void each(std::size_t n, double* out, const double* a, F f) {
+  for (std::size_t k = 0; k < n; ++k) out[k] = f(a[k]);
+}
+
+template <class F>
+void each(std::size_t n, double* out, const double* a, const double* b, F f) {
+  for (std::size_t k = 0; k < n; ++k) out[k] = f(a[k], b[k]);
+}
+
+double truth(bool value) { return value ? 1 : 0; }
+
+// NaN goes through min, max and sign: a model that left the numbers must not look well.
+double smaller(double x, double y) { return y < x || std::isnan(y) ? y : x; }
+double larger(double x, double y) { return y > x || std::isnan(y) ? y : x; }
+double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : x; }
+
+void calculate(Op op, std::size_t n, double* out, const double* a, const double* b, const double* c) {
+  switch (op) {
+    case Op::neg:
+      return each(n, out, a, [](double x) { return -x; });
+    case Op::no:
+      return each(n, out, a, [](double x) { return truth(x == 0); });
+    case Op::add:
+      return each(n, out, a, b, [](double x, double y) { return x + y; });
+    case Op::sub:
+      return each(n, out, a, b, [](double x, double y) { return x - y; });
+    case Op::mul:
+      return each(n, out, a, b, [](double x, double y) { return x * y; });
+    case Op::div:
+      return each(n, out, a, b, [](double x, double y) { return x / y; });
+    case Op::pow:
+      return each(n, out, a, b, [](double x, double y) { return math::pow(x, y); });
+    case Op::lt:
+      return each(n, out, a, b, [](double x, double y) { return truth(x < y); });
+    case Op::le:
+      return each(n, out, a, b, [](double x, double y) { return truth(x <= y); });
+    case Op::gt:
+      return each(n, out, a, b, [](double x, double y) { return truth(x > y); });
+    case Op::ge:
+      return each(n, out, a, b, [](double x, double y) { return truth(x >= y); });
+    case Op::eq:
+      return each(n, out, a, b, [](double x, double y) { return truth(x == y); });
+    case Op::ne:
+      return each(n, out, a, b, [](double x, double y) { return truth(x != y); });
+    case Op::both:
+      return each(n, out, a, b, [](double x, double y) { return truth(x != 0 && y != 0); });
+    case Op::either:
+      return each(n, out, a, b, [](double x, double y) { return truth(x != 0 || y != 0); });
+    case Op::sin:
+      return each(n, out, a, [](double x) { return math::sin(x); });
+    case Op::cos:
+      return each(n, out, a, [](double x) { return math::cos(x); });
+    case Op::tan:
+      return each(n, out, a, [](double x) { return math::tan(x); });
+    case Op::tanh:
+      return each(n, out, a, [](double x) { return math::tanh(x); });
+    case Op::exp:
+      return each(n, out, a, [](double x) { return math::exp(x); });
+    case Op::log:
+      return each(n, out, a, [](double x) { return math::log(x); });
+    case Op::sqrt:
+      return each(n, out, a, [](double x) { return std::sqrt(x); });
+    case Op::abs:
+      return each(n, out, a, [](double x) { return std::abs(x); });
+    case Op::sign:
+      return each(n, out, a, sign);
+    case Op::min:
+      return each(n, out, a, b, smaller);
+    case Op::max:
+      return each(n, out, a, b, larger);
+    case Op::clamp:
+      for (std::size_t k = 0; k < n; ++k) out[k] = smaller(larger(a[k], b[k]), c[k]);
+      return;
+    case Op::choose:
+      for (std::size_t k = 0; k < n; ++k) out[k] = a[k] != 0 ? b[k] : c[k];
+      return;
+  }
+}
+
+}  // namespace
+
+EquationProgram::EquationProgram(const EquationNames& names, const EquationTables& tables, std::span<const Term> texts)
+    : joints_(tables.joints), module_(tables.module), names_(&names), tables_(&tables) {
+  for (const Coupling& c : tables.couplings) {
+    from_.push_back(static_cast<std::size_t>(c.from));
+    to_.push_back(static_cast<std::size_t>(c.to));
+  }
+  width_ = std::max(joints_, from_.size());
+  for (std::size_t k = 0; k < texts.size(); ++k) put_out(compile(texts[k], Over::joints), k);
+  scratch_.assign(blocks_ * width_, 0.0);
+  names_ = nullptr;
+  tables_ = nullptr;
+}
+
+EquationProgram::Block EquationProgram::keep(const std::vector<double>& values) {
+  const std::size_t offset = fixed_.size();
+  fixed_.insert(fixed_.end(), values.begin(), values.end());
+  return {Base::fixed, offset};
+}
+
+EquationProgram::Block EquationProgram::constant(double value, Over over) {
+  return keep(std::vector<double>(count(over), value));
+}
+
+EquationProgram::Block EquationProgram::take_scratch() {
+  if (free_.empty()) free_.push_back(blocks_++);
+  const std::size_t block = free_.back();
+  free_.pop_back();
+  return {Base::scratch, block * width_};
+}
+
+void EquationProgram::give_back(const Block& block) {
+  if (block.base != Base::scratch) return;
+  const std::size_t number = block.offset / width_;
+  if (std::ranges::find(free_, number) == free_.end()) free_.push_back(number);  // x^2 has one operand twice
+}
+
+/// Adds an instruction, or carries it out where all it needs is fixed.
+EquationProgram::Block EquationProgram::emit(Instruction instruction, Over over) {
+  instruction.count = count(over);
+  bool fixed = instruction.move != Move::time;
+  for (const Block& in : instruction.in) fixed = fixed && in.base == Base::fixed;
+  if (fixed) {
+    std::vector<double> values(instruction.count);
+    Bases bases{};
+    bases[static_cast<std::size_t>(Base::fixed)] = fixed_.data();
+    execute(instruction, bases, 0, values.data());
+    return keep(values);
+  }
+  instruction.out = take_scratch();  // before its operands are free: no instruction works in place
+  for (const Block& in : instruction.in) give_back(in);
+  instructions_.push_back(instruction);
+  return instruction.out;
+}
+
+EquationProgram::Block EquationProgram::compile(const Term& term, Over over) {
+  switch (term.kind) {
+    case Term::Kind::number:
+      return constant(term.number, over);
+    case Term::Kind::name:
+      return compile_name(term, over);
+    case Term::Kind::call:
+      return compile_call(term, over);
+    case Term::Kind::sum:
+      break;
+  }
+  Instruction sum{Move::sum};
+  sum.in[0] = compile(term.arguments[0], Over::couplings);
+  return emit(sum, Over::joints);
+}
+
+EquationProgram::Block EquationProgram::compile_name(const Term& term, Over over) {
+  const EquationNames::Entry& entry = *names_->find(term.name);
+  Block value;
+  switch (entry.kind) {
+    case Kind::pi:
+      return constant(std::numbers::pi, over);
+    case Kind::time:
+      return emit({Move::time}, over);
+    case Kind::weight:
+    case Kind::lag: {
+      std::vector<double> values;
+      for (const Coupling& c : tables_->couplings) values.push_back(entry.kind == Kind::weight ? c.weight : -c.phase_lag);
+      return keep(values);
+    }
+    case Kind::given:
+      value = keep(tables_->given[entry.slot]);
+      break;
+    case Kind::parameter:
+      value = keep(tables_->parameters[entry.slot]);
+      break;
+    case Kind::state:
+      value = {Base::state, entry.slot * joints_};
+      break;
+    case Kind::angle:
+      value.base = Base::angle;
+      break;
+    case Kind::speed:
+      value.base = Base::speed;
+      break;
+    case Kind::torque:
+      value.base = Base::torque;
+      break;
+    case Kind::touching: {
+      Instruction gather{Move::gather_module};
+      gather.in[0].base = Base::touching;
+      value = emit(gather, Over::joints);
+      break;
+    }
+  }
+  if (over == Over::joints) return value;
+  Instruction gather{term.index == Term::Index::j ? Move::gather_from : Move::gather_to};
+  gather.in[0] = value;
+  return emit(gather, over);
+}
+
+EquationProgram::Block EquationProgram::compile_call(const Term& term, Over over) {
+  Instruction call;
+  call.op = find_equation_function(term.name)->op;
+  const std::vector<Term>& arguments = term.arguments;
+  // A square is a product: cheaper, and right for every sign.
+  const bool square = call.op == Op::pow && arguments[1].kind == Term::Kind::number && arguments[1].number == 2;
+  call.in[0] = compile(arguments[0], over);
+  if (square) {
+    call.op = Op::mul;
+    call.in[1] = call.in[0];
+    return emit(call, over);
+  }
+  for (std::size_t k = 1; k < arguments.size(); ++k) call.in[k] = compile(arguments[k], over);
+  return emit(call, over);
+}
+
+void EquationProgram::put_out(const Block& value, std::size_t text) {
+  const Block out{Base::result, text * joints_};
+  if (value.base == Base::scratch) {  // what the last instruction made
+    instructions_.back().out = out;
+  } else {
+    Instruction copy{Move::copy};
+    copy.in[0] = value;
+    copy.out = out;
+    copy.count = joints_;
+    instructions_.push_back(copy);
+  }
+  give_back(value);
+}
+
+void EquationProgram::execute(const Instruction& instruction, const Bases& bases, double t, double* out) const {
+  const auto block = [&](std::size_t k) {
+    return bases[static_cast<std::size_t>(instruction.in[k].base)] + instruction.in[k].offset;
+  };
+  const double* a = block(0);
+  const std::size_t n = instruction.count;
+  switch (instruction.move) {
+    case Move::none:
+      return calculate(instruction.op, n, out, a, block(1), block(2));
+    case Move::copy:
+      std::copy_n(a, n, out);
+      return;
+    case Move::time:
+      std::fill_n(out, n, t);
+      return;
+    case Move::gather_from:
+      for (std::size_t k = 0; k < n; ++k) out[k] = a[from_[k]];
+      return;
+    case Move::gather_to:
+      for (std::size_t k = 0; k < n; ++k) out[k] = a[to_[k]];
+      return;
+    case Move::gather_module:
+      for (std::size_t k = 0; k < n; ++k) out[k] = a[module_[k]];
+      return;
+    case Move::sum:
+      std::fill_n(out, n, 0.0);
+      for (std::size_t k = 0; k < to_.size(); ++k) out[to_[k]] += a[k];
+      return;
+  }
+}
+
+void EquationProgram::run(const EquationInputs& inputs, Out result) const {
+  const Bases bases{fixed_.data(),       scratch_.data(),      inputs.state.data(),    inputs.angle.data(),
+                    inputs.speed.data(), inputs.torque.data(), inputs.touching.data(), result.data()};
+  for (const Instruction& instruction : instructions_) {
+    double* base = instruction.out.base == Base::result ? result.data() : scratch_.data();
+    execute(instruction, bases, inputs.t, base + instruction.out.offset);
+  }
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,79 @@
+// Checked trees of `equations` as one compact program over all joints at once.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "cpg/equation_names.h"
+
+namespace gaitlab {
+
+/// What is known when a program is made; one value a joint unless said otherwise.
+struct EquationTables {
+  std::size_t joints = 0;
+  std::vector<std::vector<double>> given, parameters;  ///< by slot
+  std::vector<Coupling> couplings;
+  std::vector<std::size_t> module;  ///< a joint's
+};
+
+/// What is known when it runs. Spans that no text names may be empty.
+struct EquationInputs {
+  double t = 0;
+  In state, angle, speed, torque;  ///< state: slot * joints + joint
+  In touching;                     ///< one a module
+};
+
+/// Every instruction is a loop over all joints or, within a neighbour sum, over all couplings (then added up by their target).
+/// What depends on no input is computed once, when the program is made. One object serves one rollout: running it writes to
+/// scratch that it owns, and allocates nothing. Cost: about a nanosecond an instruction and joint, and its functions.
+class EquationProgram {
+ public:
+  EquationProgram() = default;
+  /// The trees must have passed EquationNames::check.
+  EquationProgram(const EquationNames& names, const EquationTables& tables, std::span<const Term> texts);
+  /// result: text * joints + joint.
+  void run(const EquationInputs& inputs, Out result) const;
+
+ private:
+  enum class Base : std::uint8_t { fixed, scratch, state, angle, speed, torque, touching, result };
+  /// A block of numbers, one a joint or one a coupling.
+  struct Block {
+    Base base = Base::fixed;
+    std::size_t offset = 0;
+  };
+  enum class Move : std::uint8_t { none, copy, time, gather_from, gather_to, gather_module, sum };
+  struct Instruction {
+    Move move = Move::none;  ///< none: `op`
+    EquationFunction::Op op = {};
+    std::array<Block, 3> in = {};
+    Block out = {};
+    std::size_t count = 0;
+  };
+  using Bases = std::array<const double*, 8>;
+
+  /// A place in a text: over joints, or over couplings within a sum.
+  enum class Over { joints, couplings };
+  Block compile(const Term& term, Over over);
+  Block compile_name(const Term& term, Over over);
+  Block compile_call(const Term& term, Over over);
+  Block emit(Instruction instruction, Over over);
+  Block constant(double value, Over over);
+  Block keep(const std::vector<double>& values);
+  Block take_scratch();
+  void give_back(const Block& block);
+  void put_out(const Block& value, std::size_t text);
+  void execute(const Instruction& instruction, const Bases& bases, double t, double* out) const;
+  [[nodiscard]] std::size_t count(Over over) const { return over == Over::joints ? joints_ : from_.size(); }
+
+  std::size_t joints_ = 0;
+  std::vector<std::size_t> from_, to_, module_;
+  std::vector<Instruction> instructions_;
+  std::vector<double> fixed_;
+  mutable std::vector<double> scratch_;
+  // Only while it is made:
+  const EquationNames* names_ = nullptr;
+  const EquationTables* tables_ = nullptr;
+  std::vector<std::size_t> free_;
+  std::size_t blocks_ = 0, width_ = 0;
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,48 @@
+// CPG `equations`: a model given by its equations in the scenario file.
+#pragma once
+#include "core/plugin/registry.h"
+#include "cpg/equation_program.h"
+
+namespace gaitlab {
+
+class Equations final : public Cpg {
+ public:
+  /// Texts by the grammar of equation_expression.h. The defaults are the model of `phase_oscillator`.
+  struct Model {
+    double coupling = 1;
+    std::vector<Named> states{{"phi", "omega + sum(j in neighbours, w[i,j]*sin(phi[j] - phi[i] - psi[i,j]))"},
+                              {"r", "2*(amplitude - r)"},
+                              {"x", "2*(offset - x)"}};
+    std::vector<Named> parameters;
+    std::vector<Named> initial{{"phi", "phase"}, {"x", "offset"}};
+    std::string output = "x + r*sin(phi)";
+    void fields(Fields& f);
+  };
+  struct Settings : OscillatorKeys {
+    Model model;
+    void fields(Fields& f) {
+      OscillatorKeys::fields(f);
+      f.group("model", model, "Keys of this model alone.");
+    }
+  };
+  static const char* const kManual;
+  static constexpr std::size_t kMostStates = 32, kMostParameters = 64;
+
+  /// Throws std::invalid_argument where a text is wrong, or a parameter or initial value is not finite for this robot.
+  Equations(const RobotInfo& robot, const Settings& settings);
+  /// One block a state, in their order.
+  [[nodiscard]] std::size_t states() const override { return states_.size() * joints_; }
+  [[nodiscard]] std::string state_name(std::size_t index) const override;
+  void start(Out state) const override;
+  void derivative(const Measured& measured, In state, Out rate) const override;
+  void output(double t, In state, Out setpoint) const override;
+  [[nodiscard]] std::string note() const override { return network_.note(); }
+
+ private:
+  std::size_t joints_;
+  OscillatorNetwork network_;
+  std::vector<std::string> states_;
+  EquationProgram initial_, derivative_, output_;
+};
+
+}  // namespace gaitlab
