@@ -69,7 +69,8 @@ const char* text_of(Where where) {
 }  // namespace
 
 std::string offer_name(const std::string& found, const std::vector<std::string>& known, const std::string& kind) {
-  const std::string near = found.size() > 200 ? std::string() : nearest(found, known);
+  // To one letter every other is near; a name far too long is near to none, and its edit distance costs time.
+  const std::string near = found.size() < 2 || found.size() > 200 ? std::string() : nearest(found, known);
   if (!near.empty()) return "; did you mean '" + near + "'?";
   std::string all;
   for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;

@@ -33,7 +33,8 @@ angle rad, speed rad/s, torque N m, touching (1 while the joint's module touches
 From loose to tight: or, and, not, comparison, + -, * /, sign, ^ (from the right: -2^2 = -4). Limits: 32 states, 64 parameters,
 4000 characters and 500 numbers, names and operators a text, 64 levels. There are no loops, no other calls, no random
 numbers. A state or set point that is not finite (1/0, log(-1)) ends the run and is named. Stable as far as RK4 is with
-cpg.step. A text over several lines stands after |; one that begins with a character that YAML wants (* - [ and so on), in quotes.
+cpg.step. A text of several lines stands after |, one that YAML would take for something else in quotes. The default in texts:
+scenarios/caterpillar-equations.yaml.
 Reference: Chariot, Filippi, Verlinden 2012, eq. 7-10 (the default); their outlook asks for equations in the input.
 
     cpg:
@@ -71,8 +72,9 @@ struct Parsed {
   std::vector<Fault> faults;
 
   explicit Parsed(const Equations::Model& model) {
-    declare("parameters", model.parameters, Kind::parameter, Equations::kMostParameters);
     declare("states", model.states, Kind::state, Equations::kMostStates);
+    declare("parameters", model.parameters, Kind::parameter, Equations::kMostParameters);
+    if (model.states.size() > Equations::kMostStates || model.parameters.size() > Equations::kMostParameters) return;
     for (std::size_t k = 0; k < model.parameters.size(); ++k) {
       parameters.push_back(tree("parameters", model.parameters[k].name, model.parameters[k].text, Where::parameter, k));
     }

@@ -63,8 +63,35 @@ TEST_P(WalkUnder, TheCaterpillarTravelsAndTurnsBackWithTheLagsSign) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Walk, WalkUnder,
-                         ::testing::Values("phase_oscillator", "kuramoto_amplitude", "hopf", "matsuoka", "van_der_pol"),
+                         ::testing::Values("phase_oscillator", "kuramoto_amplitude", "hopf", "matsuoka", "van_der_pol",
+                                           "equations"),
                          [](const auto& param) { return std::string(param.param); });
+
+/// How a run of one module under these equations ends.
+std::string end_of_run(const std::string& model) {
+  const Scenario s =
+      scenario("gaitlab: 1\nrobot: {modules: mtran}\nduration: 0.1\ncpg:\n  type: equations\n  model:\n" + model);
+  try {
+    run(s);
+  } catch (const SimulationError& error) {
+    return error.where + " | " + error.what();
+  }
+  return "no error";
+}
+
+TEST(EquationRuns, ThatLeaveTheNumbersNameJointAndState) {
+  EXPECT_EQ(end_of_run("    states: {a: 0, y: \"if(index == 1 and t > 0.02, log(a - 1), 1)\"}\n    output: a\n"),
+            "m0/passive | diverged at step 600, t = 0.015 s: joint m0/passive: the CPG's state y is nan");
+  EXPECT_EQ(end_of_run("    states: {}\n    output: if(t < 0.04, 0, 1/(index - 1))\n"),
+            "m0/passive | diverged at step 1800, t = 0.045 s: joint m0/passive: the CPG's set point is inf");
+}
+
+TEST(EquationRuns, TheFileWithItsEquationsWalksAsTheNativeModel) {
+  const RunRecord native = run(shipped("caterpillar.yaml", {"duration=1"}));
+  const RunRecord written = run(shipped("caterpillar-equations.yaml", {"duration=1"}));
+  ASSERT_EQ(native.trace.rows(), 201U);
+  EXPECT_EQ(native.trace.values, written.trace.values);  // to the bit: the same operations in the same order
+}
 
 }  // namespace
 }  // namespace gaitlab::test
