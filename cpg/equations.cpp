@@ -71,7 +71,7 @@ struct Parsed {
   Term output;
   std::vector<Fault> faults;
 
-  explicit Parsed(const Equations::Model& model) {
+  explicit Parsed(const EquationsModel& model) {
     declare("states", model.states, Kind::state, Equations::kMostStates);
     declare("parameters", model.parameters, Kind::parameter, Equations::kMostParameters);
     if (model.states.size() > Equations::kMostStates || model.parameters.size() > Equations::kMostParameters) return;
@@ -152,7 +152,7 @@ EquationTables tables_of(const RobotInfo& robot, const OscillatorKeys& keys, con
 
 }  // namespace
 
-void Equations::Model::fields(Fields& f) {
+void EquationsModel::fields(Fields& f) {
   const std::vector<Named> before = states;
   f.number("coupling", coupling, {"1/s", 0, 1000, "Weight w of the couplings made by a rule."});
   f.named("states", states, NamedValues::texts, "States and their derivatives.");
@@ -169,7 +169,7 @@ void Equations::Model::fields(Fields& f) {
 
 Equations::Equations(const RobotInfo& robot, const Settings& settings)
     : joints_(robot.joints.size()), network_(robot, settings, settings.model.coupling) {
-  const Model& model = settings.model;
+  const EquationsModel& model = settings.model;
   const Parsed parsed(model);
   if (!parsed.faults.empty()) refuse(parsed.faults.front());
   if (model.output.empty()) refuse({"output", "", std::string::npos, kNoOutput});

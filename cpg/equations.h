@@ -5,26 +5,21 @@
 
 namespace gaitlab {
 
+/// Texts by the grammar of equation_expression.h. The defaults are the model of `phase_oscillator`.
+struct EquationsModel {
+  double coupling = 1;
+  std::vector<Named> states{{"phi", "omega + sum(j in neighbours, w[i,j]*sin(phi[j] - phi[i] - psi[i,j]))"},
+                            {"r", "2*(amplitude - r)"},
+                            {"x", "2*(offset - x)"}};
+  std::vector<Named> parameters;
+  std::vector<Named> initial{{"phi", "phase"}, {"x", "offset"}};
+  std::string output = "x + r*sin(phi)";
+  void fields(Fields& f);
+};
+
 class Equations final : public Cpg {
  public:
-  /// Texts by the grammar of equation_expression.h. The defaults are the model of `phase_oscillator`.
-  struct Model {
-    double coupling = 1;
-    std::vector<Named> states{{"phi", "omega + sum(j in neighbours, w[i,j]*sin(phi[j] - phi[i] - psi[i,j]))"},
-                              {"r", "2*(amplitude - r)"},
-                              {"x", "2*(offset - x)"}};
-    std::vector<Named> parameters;
-    std::vector<Named> initial{{"phi", "phase"}, {"x", "offset"}};
-    std::string output = "x + r*sin(phi)";
-    void fields(Fields& f);
-  };
-  struct Settings : OscillatorKeys {
-    Model model;
-    void fields(Fields& f) {
-      OscillatorKeys::fields(f);
-      f.group("model", model, "Keys of this model alone.");
-    }
-  };
+  using Settings = OscillatorSettings<EquationsModel>;
   static const char* const kManual;
   static constexpr std::size_t kMostStates = 32, kMostParameters = 64;
 
