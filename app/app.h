@@ -12,8 +12,8 @@
 
 namespace gaitlab::app {
 
-/// Everything built in.
-Catalog standard_catalog();
+/// Everything built in, and what these libraries register.
+Catalog standard_catalog(const std::vector<std::string>& plugins = {});
 
 /// Module types or robots (`kind`: module, robot) that come with the program: name -> file.
 std::map<std::string, std::string> shipped_files(const std::string& kind);
@@ -37,8 +37,12 @@ int run(const RunArguments& arguments);
 /// The same for a scenario that is already read.
 int run(const Scenario& scenario, const RunArguments& arguments);
 int check(const ScenarioArguments& arguments);
-int list(const std::string& kind);
-int explain(const std::string& kind, const std::string& name);
+struct ManualArguments {
+  std::string kind, name;            ///< empty: all kinds; the scenario file
+  std::vector<std::string> plugins;  ///< libraries to load first
+};
+int list(const ManualArguments& arguments);
+int explain(const ManualArguments& arguments);
 
 struct ConvergeArguments : ScenarioArguments {
   int halvings = 2;
@@ -99,6 +103,12 @@ struct TestArguments {
   int jobs = 1;                           ///< threads
 };
 int test_goldens(const TestArguments& arguments);
+
+struct NewPluginArguments {
+  std::string kind, name;          ///< cpg, controller or actuator; what the scenario will call it
+  std::optional<std::string> out;  ///< folder to make (default: the name)
+};
+int new_plugin(const NewPluginArguments& arguments);
 
 /// `version, build id, Bullet version and precision`
 std::string version();

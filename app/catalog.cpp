@@ -2,17 +2,19 @@
 #include "actuators/register.h"
 #include "app/app.h"
 #include "controllers/register.h"
+#include "core/scenario/plugin_files.h"
 #include "cpg/register.h"
 #include "physics_bullet/engine.h"
 
 namespace gaitlab::app {
 
-Catalog standard_catalog() {
+Catalog standard_catalog(const std::vector<std::string>& plugins) {
   Catalog catalog;
   register_bullet(catalog);
   register_actuators(catalog);
   register_controllers(catalog);
   register_cpgs(catalog);
+  for (const std::string& plugin : plugins) load_plugin_file(plugin, catalog);
   return catalog;
 }
 

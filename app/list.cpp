@@ -11,8 +11,7 @@ namespace gaitlab::app {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, Kind>, 3> kPluginKinds{
-    {{"cpg", Kind::cpg}, {"controller", Kind::controller}, {"actuator", Kind::actuator}}};
+constexpr std::array kPluginKinds{Kind::cpg, Kind::controller, Kind::actuator};
 
 std::vector<std::string> kinds() { return {"cpg", "controller", "actuator", "engine", "module", "robot"}; }
 
@@ -23,8 +22,8 @@ std::vector<std::string> kinds() { return {"cpg", "controller", "actuator", "eng
 }
 
 std::vector<std::string> names(const std::string& kind, const Catalog& catalog) {
-  for (const auto& [word, which] : kPluginKinds) {
-    if (kind == word) return catalog.names(which);
+  for (const Kind which : kPluginKinds) {
+    if (kind == word(which)) return catalog.names(which);
   }
   if (kind == "engine") return catalog.engines();
   std::vector<std::string> found;
@@ -35,11 +34,10 @@ std::vector<std::string> names(const std::string& kind, const Catalog& catalog) 
 std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
 
 std::string about(const std::string& kind, const std::string& name, const Catalog& catalog) {
-  for (const auto& [word, which] : kPluginKinds) {
-    if (kind != word) continue;
+  for (const Kind which : kPluginKinds) {
+    if (kind != word(which)) continue;
     const Entry& entry = *catalog.find(which, name);
-    const std::string& origin = catalog.origin(entry);
-    return first_line(entry.manual) + (origin == "built in" ? "" : " (" + origin + ")");
+    return first_line(entry.manual) + (entry.origin == kBuiltIn ? "" : fmt::format(" ({})", entry.origin));
   }
   if (kind == "engine") return first_line(catalog.engine(name)->manual);
   return shipped_files(kind).at(name);
@@ -47,8 +45,9 @@ std::string about(const std::string& kind, const std::string& name, const Catalo
 
 }  // namespace
 
-int list(const std::string& kind) {
-  const Catalog catalog = standard_catalog();
+int list(const ManualArguments& arguments) {
+  const Catalog catalog = standard_catalog(arguments.plugins);
+  const std::string& kind = arguments.kind;
   const std::vector<std::string> known = kinds();
   if (!kind.empty() && std::find(known.begin(), known.end(), kind) == known.end()) unknown("kind", kind, known);
   for (const std::string& one : known) {
@@ -59,8 +58,9 @@ int list(const std::string& kind) {
   return 0;
 }
 
-int explain(const std::string& kind, const std::string& name) {
-  const Catalog catalog = standard_catalog();
+int explain(const ManualArguments& arguments) {
+  const Catalog catalog = standard_catalog(arguments.plugins);
+  const auto& [kind, name, plugins] = arguments;
   if (kind.empty()) {
     fmt::print("{}", explain_scenario(catalog));
     return 0;
@@ -69,8 +69,8 @@ int explain(const std::string& kind, const std::string& name) {
   if (std::find(known.begin(), known.end(), kind) == known.end()) unknown("kind", kind, known);
   const std::vector<std::string> all = names(kind, catalog);
   if (std::find(all.begin(), all.end(), name) == all.end()) unknown(kind, name, all);
-  for (const auto& [word, which] : kPluginKinds) {
-    if (kind == word) fmt::print("{}", explain_plugin(*catalog.find(which, name)));
+  for (const Kind which : kPluginKinds) {
+    if (kind == word(which)) fmt::print("{}", explain_plugin(*catalog.find(which, name)));
   }
   if (kind == "engine") {
     const Engine& engine = *catalog.engine(name);

@@ -82,17 +82,24 @@ int program(int argc, char** argv) {
   add_scenario(*check_command, check_arguments);
   check_command->callback([&] { chosen = [&] { return check(check_arguments); }; });
 
-  std::string kind;
-  std::string name;
+  ManualArguments manual_arguments;
+  const auto add_plugins = [&](CLI::App& command) {
+    command.add_option("--plugin", manual_arguments.plugins, "load this library first")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  };
   CLI::App* list_command = app.add_subcommand("list", "what is registered: cpg, controller, actuator, engine, module, robot");
-  list_command->add_option("KIND", kind, "one of them alone");
-  list_command->callback([&] { chosen = [&] { return list(kind); }; });
+  list_command->add_option("KIND", manual_arguments.kind, "one of them alone");
+  add_plugins(*list_command);
+  list_command->callback([&] { chosen = [&] { return list(manual_arguments); }; });
 
   CLI::App* explain_command = app.add_subcommand("explain", "the manual of KIND NAME; without them, of the scenario file");
-  CLI::Option* kind_option = explain_command->add_option("KIND", kind, "cpg, controller, actuator, engine, module, robot");
-  CLI::Option* name_option = explain_command->add_option("NAME", name, "as `gaitlab list` prints it");
+  CLI::Option* kind_option =
+      explain_command->add_option("KIND", manual_arguments.kind, "cpg, controller, actuator, engine, module, robot");
+  CLI::Option* name_option = explain_command->add_option("NAME", manual_arguments.name, "as `gaitlab list` prints it");
   kind_option->needs(name_option);
-  explain_command->callback([&] { chosen = [&] { return explain(kind, name); }; });
+  add_plugins(*explain_command);
+  explain_command->callback([&] { chosen = [&] { return explain(manual_arguments); }; });
 
   ConvergeArguments converge_arguments;
   CLI::App* converge_command = app.add_subcommand(
@@ -183,6 +190,15 @@ int program(int argc, char** argv) {
   test_command->add_option("--out", test_arguments.out, "folder for figures of what failed (default runs/test)");
   test_command->add_flag("--strict", test_arguments.strict, "in a folder, too, a scenario without a golden is an error");
   test_command->callback([&] { chosen = [&] { return test_goldens(test_arguments); }; });
+
+  NewPluginArguments new_arguments;
+  CLI::App* new_command = app.add_subcommand("new", "start something of your own");
+  new_command->require_subcommand(1);
+  CLI::App* plugin_command = new_command->add_subcommand("plugin", "a folder with a working plugin, its scenario and its test");
+  plugin_command->add_option("KIND", new_arguments.kind, "cpg, controller or actuator")->required();
+  plugin_command->add_option("NAME", new_arguments.name, "what scenarios will call it")->required();
+  plugin_command->add_option("--out", new_arguments.out, "folder to make (default: NAME); must not exist");
+  plugin_command->callback([&] { chosen = [&] { return new_plugin(new_arguments); }; });
 
   try {
     app.parse(argc, argv);

@@ -5,6 +5,15 @@ install(DIRECTORY core/plugin DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gaitlab/co
   FILES_MATCHING PATTERN "*.h"
   PATTERN catalog.h EXCLUDE) # the program's own side
 
+# The compiler plugins need, as Debian calls it: g++-12, clang++-14.
+string(REGEX MATCH "^[0-9]+" major "${CMAKE_CXX_COMPILER_VERSION}")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(gaitlab_compiler_name g++-${major})
+else()
+  set(gaitlab_compiler_name clang++-${major})
+endif()
+install(DIRECTORY docs/tutorials DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/gaitlab)
 configure_package_config_file(cmake/gaitlabConfig.cmake.in ${CMAKE_BINARY_DIR}/generated/gaitlabConfig.cmake
   INSTALL_DESTINATION ${package}

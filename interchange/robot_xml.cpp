@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <memory>
 
 #include "core/laws/hinge_stop.h"
 #include "core/plugin/actuator.h"
+#include "core/scenario/plugin_instance.h"
 #include "core/scenario/value.h"
 
 namespace gaitlab::interchange {
@@ -70,10 +70,8 @@ std::string print(const tinyxml2::XMLDocument& document) {
 }
 
 std::vector<MotorLimits> motor_limits(const Scenario& scenario) {
-  if (scenario.actuator.entry == nullptr) return {};
-  const std::array<const void*, 1> settings{scenario.actuator.settings.get()};
-  const std::unique_ptr<Actuator> actuator(
-      static_cast<Actuator*>(scenario.actuator.entry->make(info(*scenario.robot), settings)));
+  const std::unique_ptr<Actuator> actuator = make_actuator(scenario.actuator, info(*scenario.robot));
+  if (actuator == nullptr) return {};
   const std::size_t joints = scenario.robot->joints.size();
   const std::vector<double> command(actuator->command_limit().begin(), actuator->command_limit().end());
   const std::vector<double> rest(joints, 0.0);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What docs/ci.md promises to users: installs the build into an empty prefix, then works from that alone: a user's project with
-# find_package(gaitlab), golden tests and a plugin, and the shell recipe.
+# What docs/ci.md and docs/tutorials promise to users: installs the build into an empty prefix, then works from that alone: a
+# user's project with find_package(gaitlab), golden tests and a plugin, the shell recipe, a new plugin of every kind, the tutorial.
 # usage: install.sh PROGRAM_BUILD_DIR (a finished build)
 set -euo pipefail
 
@@ -46,8 +46,7 @@ enable_testing()
 
 find_package(gaitlab 0.1 REQUIRED)
 enable_language(CXX) # for the plugin alone
-add_library(wave MODULE plugin/wave.cpp)
-target_link_libraries(wave PRIVATE gaitlab::plugin)
+gaitlab_add_plugin(wave plugin/wave.cpp)
 add_test(NAME walk.runs COMMAND gaitlab::gaitlab run ${CMAKE_CURRENT_SOURCE_DIR}/scenarios/walk.yaml --quiet)
 gaitlab_add_golden_test(walk scenarios/walk.yaml)
 gaitlab_add_golden_test(walk.elsewhere scenarios/walk.yaml GOLDEN goldens/walk)
@@ -74,7 +73,7 @@ check_installation() {
 
 use_plugin() {
   printf 'gaitlab: 1\nplugins: [%s]\nrobot: {modules: mtran}\nduration: 0.1\ncpg: {type: wave}\n' \
-    "$work/user-build/libwave.so" >"$work/with_plugin.yaml"
+    "$work/user-build/wave.so" >"$work/with_plugin.yaml"
   expect 0 "$program" run "$work/with_plugin.yaml" --quiet --out "$work/with-plugin"
   printf 'ok       a plugin built against the installed headers runs\n'
 }
@@ -110,9 +109,78 @@ shell_recipe() {
   printf 'ok       shell: test passes, and fails (4) for a changed gait\n'
 }
 
+# Another compiler is refused when the project is configured, with the name of the right one.
+other_compiler() {
+  local other
+  for other in clang++ g++; do
+    [[ $("$other" --version 2>/dev/null | head -n 1) != "$("$compiler" --version | head -n 1)" ]] || continue
+    command -v "$other" >/dev/null || continue
+    expect 1 cmake -S "$user" -B "$work/other-build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$other"
+    tr -s '\n ' ' ' <"$work/log" | grep -q "gaitlab_add_plugin(wave): this compiler is .* -DCMAKE_CXX_COMPILER=" ||
+      fail "no word about the compiler"
+    printf 'ok       gaitlab_add_plugin refuses %s\n' "$other"
+    return
+  done
+  printf 'left out gaitlab_add_plugin refuses another compiler: there is only one here\n'
+}
+
+# The three skeletons build without a warning, pass their tests, and fail them where the plugin does nothing.
+new_plugins() {
+  local kind folder
+  for kind in cpg controller actuator; do
+    folder=$work/new/my_$kind
+    expect 0 "$program" new plugin "$kind" "my_$kind" --out "$folder"
+    quietly cmake -S "$folder" -B "$folder/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
+      -DCMAKE_CXX_FLAGS="-Wall -Wextra -Wpedantic -Wconversion -Werror"
+    quietly cmake --build "$folder/build"
+    expect 0 ctest --test-dir "$folder/build" --output-on-failure --no-tests=error
+    expect 0 "$program" run "$folder/scenario.yaml" --set duration=0.3 --quiet --out "$folder/run" # finds build/NAME.so
+    case $kind in
+      cpg) sed -i 's/setpoint\[i\] = .*/setpoint[i] = 0 * phi[i];/' "$folder/my_$kind.cpp" ;;
+      controller) sed -i 's/command\[j\] = .*/command[j] = 0 * (setpoint[j] - m.angle[j]);/' "$folder/my_$kind.cpp" ;;
+      actuator) sed -i 's/torque\[i\] = .*/torque[i] = 0 * command[i] * speed[i];/' "$folder/my_$kind.cpp" ;;
+    esac
+    quietly cmake --build "$folder/build"
+    expect 8 ctest --test-dir "$folder/build" --output-on-failure
+    grep -q 'it does not' "$work/log" || fail "the test of my_$kind fails without saying what"
+  done
+  printf 'ok       gaitlab new plugin: three kinds build, pass their tests, fail them when they do nothing\n'
+}
+
+# tutorial PAGE: writes and runs the page's blocks in an empty folder, exactly as they stand. ```LANGUAGE FILE: a file;
+# ```sh: commands; ```sh exit=N: commands of which the last exits with N; ```text: what these commands said.
+tutorial() {
+  local page=$here/../docs/tutorials/$1 name=${1%.md}
+  mkdir -p "$work/$name"
+  awk '
+    /^```sh exit=/ { sub(/.*=/, ""); code = $0; print "("; inside = 1; next }
+    /^```sh$/ { inside = 1; next }
+    /^```text$/ { print "cat >said <<\047END_OF_FILE\047"; inside = 1; said = 1; next }
+    /^```[a-z]+ / { print "cat >" $2 " <<\047END_OF_FILE\047"; inside = 1; file = 1; next }
+    /^```$/ && inside {
+      if (code != "") print ") 2>stderr && code=0 || code=$?\ncat stderr\n[[ $code == " code " ]]"
+      if (file || said) print "END_OF_FILE"
+      if (said) print "diff said stderr"
+      inside = 0; file = 0; said = 0; code = ""; next
+    }
+    inside { print }' "$page" >"$work/$name.sh"
+  (cd -- "$work/$name" && GAITLAB=$prefix CXX=$compiler quietly bash -e "$work/$name.sh") || exit 1
+  printf 'ok       docs/tutorials/%s, exactly as it stands\n' "$1"
+}
+at_most() {
+  local lines
+  lines=$(wc -l <"$2")
+  ((lines <= $1)) || fail "$2 has $lines lines, more than $1"
+}
+
 quietly cmake --install "$build" --prefix "$prefix"
 check_installation
 write_project
 cmake_way
 use_plugin
+other_compiler
 shell_recipe
+new_plugins
+tutorial write-a-cpg.md
+at_most 40 "$work/write-a-cpg/lash.cpp"
+at_most 4 "$work/write-a-cpg/CMakeLists.txt"

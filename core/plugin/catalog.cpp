@@ -3,6 +3,9 @@
 #include <dlfcn.h>
 
 #include <cfenv>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <stdexcept>
 
 #include "core/plugin/plugin.h"
@@ -10,6 +13,45 @@
 namespace gaitlab {
 
 namespace {
+
+std::string last_dl_error() {
+  const char* text = dlerror();
+  return text == nullptr ? "unknown reason" : text;
+}
+
+/// A library's code may change how the processor rounds or flushes (one linked with -ffast-math does): put back at the end.
+class FloatingPointEnvironment {
+ public:
+  FloatingPointEnvironment() { std::fegetenv(&environment_); }
+  ~FloatingPointEnvironment() { std::fesetenv(&environment_); }
+  FloatingPointEnvironment(const FloatingPointEnvironment&) = delete;
+  FloatingPointEnvironment& operator=(const FloatingPointEnvironment&) = delete;
+
+ private:
+  std::fenv_t environment_ = {};
+};
+
+/// While it lives, an exception of a library's static object ends the program with a sentence: none passes through dlopen.
+class NamedTermination {
+ public:
+  explicit NamedTermination(const std::string& path) { path_ = path.c_str(); }
+  ~NamedTermination() { std::set_terminate(before_); }
+  NamedTermination(const NamedTermination&) = delete;
+  NamedTermination& operator=(const NamedTermination&) = delete;
+
+ private:
+  [[noreturn]] static void end() {
+    for (const char* text : {path_, ": error: a static object of this plugin threw an exception when it was loaded\n"}) {
+      (void)std::fputs(text, stderr);
+    }
+    std::_Exit(2);  // bad input; nothing was written yet
+  }
+
+  static inline const char* path_ = "";
+  std::terminate_handler before_ = std::set_terminate(end);
+};
+
+}  // namespace
 
 const char* word(Kind kind) {
   switch (kind) {
@@ -23,13 +65,6 @@ const char* word(Kind kind) {
   return "";
 }
 
-std::string last_dl_error() {
-  const char* text = dlerror();
-  return text == nullptr ? "unknown reason" : text;
-}
-
-}  // namespace
-
 void Catalog::add(const Entry& entry) {
   const std::string name(entry.name);
   for (const Registered& known : entries_) {
@@ -39,6 +74,7 @@ void Catalog::add(const Entry& entry) {
     }
   }
   entries_.push_back({name, origin_, entry});
+  entries_.back().entry.origin = entries_.back().origin;
 }
 
 void Catalog::add(const Engine& engine) {
@@ -74,22 +110,15 @@ std::vector<std::string> Catalog::engines() const {
   return names;
 }
 
-const std::string& Catalog::origin(const Entry& entry) const {
-  static const std::string unknown = "unknown";
-  for (const Registered& known : entries_) {
-    if (&known.entry == &entry) return known.origin;
-  }
-  return unknown;
-}
-
 void load_plugin(const std::string& path, Catalog& catalog) {
   if (catalog.loaded(path)) return;
-  // A library's constructors may change how the processor rounds or flushes (one linked with -ffast-math does).
-  std::fenv_t environment;
-  std::fegetenv(&environment);
+  const FloatingPointEnvironment restored;
   dlerror();
-  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  std::fesetenv(&environment);
+  void* library = nullptr;
+  {
+    const NamedTermination named(path);
+    library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  }
   if (library == nullptr) throw std::runtime_error("cannot load " + path + ": " + last_dl_error());
   const auto abi = reinterpret_cast<const char* (*)()>(dlsym(library, "gaitlab_abi"));
   const auto enter = reinterpret_cast<void (*)(Registry&)>(dlsym(library, "gaitlab_register"));
@@ -105,10 +134,13 @@ void load_plugin(const std::string& path, Catalog& catalog) {
   try {
     enter(catalog);
   } catch (const std::exception& error) {
-    catalog.set_origin("built in");
+    catalog.set_origin(std::string(kBuiltIn));
     throw std::runtime_error(path + ": " + error.what());
+  } catch (...) {
+    catalog.set_origin(std::string(kBuiltIn));
+    throw std::runtime_error(path + ": gaitlab_register threw something that is no std::exception");
   }
-  catalog.set_origin("built in");
+  catalog.set_origin(std::string(kBuiltIn));
   catalog.set_loaded(path);
 }
 

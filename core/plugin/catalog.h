@@ -23,12 +23,19 @@ struct Engine {
   std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
 };
 
+inline constexpr std::string_view kBuiltIn = "built in";  ///< an origin
+
+/// `cpg`, `controller` or `actuator`: also the scenario's section.
+const char* word(Kind kind);
+
 class Catalog final : public Registry {
  public:
+  Catalog() = default;
+  Catalog(Catalog&&) = default;  // no copy: entries point to their origins
   /// Names are unique within a kind: a second one throws std::invalid_argument naming both origins.
   void add(const Entry& entry) override;
   void add(const Engine& engine);
-  /// Where the entries added from now on come from: "built in" or the path of a library.
+  /// Where the entries added from now on come from: kBuiltIn or the path of a library.
   void set_origin(std::string origin) { origin_ = std::move(origin); }
   void set_loaded(const std::string& path) { loaded_.insert(path); }
   [[nodiscard]] bool loaded(const std::string& path) const { return loaded_.contains(path); }
@@ -37,7 +44,6 @@ class Catalog final : public Registry {
   [[nodiscard]] const Engine* engine(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> names(Kind kind) const;
   [[nodiscard]] std::vector<std::string> engines() const;
-  [[nodiscard]] const std::string& origin(const Entry& entry) const;
 
  private:
   struct Registered {
@@ -47,12 +53,13 @@ class Catalog final : public Registry {
   std::deque<Registered> entries_;
   std::deque<Engine> engines_;
   std::set<std::string> loaded_;
-  std::string origin_ = "built in";
+  std::string origin_{kBuiltIn};
 };
 
 /// Loads a plugin library into the catalog: canonical path, RTLD_NOW | RTLD_LOCAL, ABI string first, floating-point control
 /// register restored, never closed. Loading the same file again does nothing.
-/// Throws std::runtime_error: cannot be opened (why), no gaitlab_abi (what it is not), another ABI (both), duplicate name.
+/// Throws std::runtime_error: cannot be opened (why), no gaitlab_abi (what it is not), another ABI (both), duplicate name,
+/// and whatever its own code threw.
 void load_plugin(const std::string& canonical_path, Catalog& catalog);
 
 }  // namespace gaitlab

@@ -19,6 +19,7 @@ struct Entry {
   void (*fields)(void* settings, Fields&);
   /// A new Cpg, Controller or Actuator. An actuator gets one settings pointer a lane, the others exactly one.
   void* (*make)(const RobotInfo&, std::span<const void* const> settings);
+  std::string_view origin = {};  ///< where it comes from: filled in by the program
 };
 
 class Registry {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/scenario/explainer.h"
+#include "core/scenario/plugin_instance.h"
 #include "core/scenario/value.h"
 
 namespace gaitlab {
@@ -136,7 +137,7 @@ std::optional<Retyped> retype(const Node& root, const Setting& setting) {
 
 std::vector<std::string> known_keys(const Entry& entry) {
   Explainer explainer;
-  entry.fields(entry.settings().get(), explainer);
+  visit_settings(entry, default_settings(entry).get(), explainer);
   std::vector<std::string> keys = explainer.keys();
   keys.insert(keys.end(), {"type", "period", "step"});
   return keys;

@@ -50,7 +50,7 @@ void load(const PluginEntry& entry, const Place& place, const std::string& folde
   const fs::path canonical = fs::canonical(path, failure);
   if (failure || !fs::is_regular_file(canonical, failure)) {
     const std::string why = failure ? failure.message() : "not a regular file";
-    problems.add(place, fmt::format("plugin '{}' cannot be loaded: {} (looked at '{}')", clipped(entry.path), why,
+    problems.add(place, fmt::format("plugin '{}' cannot be loaded: {} (tried '{}')", clipped(entry.path), why,
                                     fs::absolute(path).lexically_normal().string()));
     return;
   }
@@ -100,6 +100,13 @@ std::vector<PluginFile> read_plugins(const Node& node, const std::string& folder
     if (read_entry(item, entry, place, problems)) load(entry, place, folder, catalog, files, problems);
   }
   return files;
+}
+
+void load_plugin_file(const std::string& path, Catalog& catalog) {
+  Problems problems;
+  std::vector<PluginFile> files;
+  load({path, {}}, Place{path}, ".", catalog, files, problems);
+  problems.raise();
 }
 
 }  // namespace gaitlab

@@ -329,6 +329,7 @@ void Reader::read_named_numbers(const Node& node, const std::string& what, PerJo
 }
 
 void Reader::problem(const char* key, std::string_view what) {
+  tolerant_ = tolerant_ || std::string_view(key) == "type";  // as for a type that is unknown
   const Node* node = map_->find(key);
   problems_.add(node != nullptr ? node->place : map_->place, std::string(what));
 }

@@ -3,6 +3,7 @@
 
 #include "core/scenario/explainer.h"
 #include "core/scenario/overlay.h"
+#include "core/scenario/plugin_instance.h"
 #include "core/scenario/robot_section.h"
 #include "core/scenario/scenario.h"
 #include "core/scenario/sections.h"
@@ -83,7 +84,7 @@ std::string explain_scenario(const Catalog& catalog) {
 
 std::string explain_plugin(const Entry& entry) {
   Explainer explainer;
-  entry.fields(entry.settings().get(), explainer);
+  visit_settings(entry, default_settings(entry).get(), explainer);
   std::string text(entry.manual);
   if (!text.ends_with('\n')) text += '\n';
   return explainer.rows().empty() ? text : text + "\n" + table(explainer.rows());

@@ -10,6 +10,7 @@
 #include "core/scenario/overlay.h"
 #include "core/scenario/periods.h"
 #include "core/scenario/plugin_files.h"
+#include "core/scenario/plugin_instance.h"
 #include "core/scenario/reader.h"
 #include "core/scenario/robot_section.h"
 #include "core/scenario/sections.h"
@@ -105,7 +106,7 @@ class ScenarioReader {
       scenario_.plugins = read_plugins(*plugins, folder_, catalog_, problems_);
       raise();  // what a library would have registered would be reported as unknown
     }
-    scenario_.notes = drop_old_keys(root_, retyped, catalog_);
+    attempt([&] { scenario_.notes = drop_old_keys(root_, retyped, catalog_); });
     read_name(head);
     read_body();
     read_sections();
@@ -168,7 +169,7 @@ class ScenarioReader {
       Reader preset(*motor.map, "actuator", problems_, joints);
       preset.take("type");
       preset.take("source");
-      entry.fields(settings, preset);
+      visit_settings(entry, settings, preset);
       preset.finish();
     };
     sections.fields(reader);
@@ -277,31 +278,38 @@ class ScenarioReader {
     }
   }
 
-  /// A plugin's instance, or nullptr with a problem; what its constructor refuses is bad input like any other.
-  template <class T>
-  std::unique_ptr<T> make(const PluginFields& section, const RobotInfo& robot, const std::string& key) {
-    if (!section.sound || section.choice.entry == nullptr) return {};
-    const void* const settings = section.choice.settings.get();
-    std::string why = "unknown exception";
+  /// Uses a plugin; what it throws is bad input like any other.
+  template <class Use>
+  void attempt(Use use) {
     try {
-      return std::unique_ptr<T>(static_cast<T*>(section.choice.entry->make(robot, {&settings, 1})));
-    } catch (const std::exception& e) {
-      why = e.what();
-    } catch (...) {  // a plugin may throw anything
+      use();
+    } catch (const PluginError& error) {
+      problems_.add(place_of(root_, word(error.kind), "type"), error.what());
     }
-    problems_.add(place_of(root_, key, "type"), fmt::format("{} '{}': {}", key, section.choice.entry->name, why));
-    return {};
   }
 
   void make_plugins(const SectionFields& sections) {
     if (!scenario_.robot) return;
     const RobotInfo robot = info(*scenario_.robot);
-    const auto actuator = make<Actuator>(sections.actuator, robot, "actuator");
-    const auto controller = sections.actuator.none ? nullptr : make<Controller>(sections.controller, robot, "controller");
-    const auto cpg = sections.has_cpg ? make<Cpg>(sections.cpg, robot, "cpg") : nullptr;
-    if (actuator && controller) check_units(*actuator, *controller);
-    if (actuator) check_rotors(*actuator);
-    if (cpg && !cpg->note().empty()) scenario_.notes.push_back("cpg: " + cpg->note());
+    std::unique_ptr<Actuator> actuator;
+    std::unique_ptr<Controller> controller;
+    attempt([&] {
+      if (sections.actuator.sound) actuator = make_actuator(scenario_.actuator, robot);
+    });
+    attempt([&] {
+      if (sections.controller.sound && !sections.actuator.none) controller = make_controller(scenario_.controller, robot);
+    });
+    attempt([&] {
+      if (!sections.has_cpg || !sections.cpg.sound) return;
+      const auto cpg = make_cpg(scenario_.cpg, robot);
+      if (cpg && !cpg->note().empty()) scenario_.notes.push_back("cpg: " + cpg->note());
+    });
+    attempt([&] {
+      if (actuator && controller) check_units(*actuator, *controller);
+    });
+    attempt([&] {
+      if (actuator) check_rotors(*actuator);
+    });
   }
 
   void check_units(const Actuator& actuator, const Controller& controller) {

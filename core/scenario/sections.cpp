@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/scenario/overlay.h"
+#include "core/scenario/plugin_instance.h"
 #include "core/scenario/value.h"
 
 namespace gaitlab {
@@ -123,17 +124,21 @@ void PluginFields::choose(Fields& f) {
   none = kind == Kind::actuator && name == "none";
   if (none || catalog == nullptr) return;
   choice.entry = catalog->find(kind, name);
-  choice.settings = choice.entry->settings();
+  choice.settings = default_settings(*choice.entry);
   if (presets) presets(*choice.entry, choice.settings.get());
 }
 
 void PluginFields::fields(Fields& f) {
   const std::size_t before = count(problems);
-  choose(f);
-  if (host) host(f);
-  sound = count(problems) == before;
-  if (!sound || choice.entry == nullptr || !own_keys) return;
-  choice.entry->fields(choice.settings.get(), f);
+  try {
+    choose(f);
+    if (host) host(f);
+    sound = count(problems) == before;
+    if (sound && choice.entry != nullptr && own_keys) visit_settings(*choice.entry, choice.settings.get(), f);
+  } catch (const PluginError& error) {
+    if (problems == nullptr) throw;  // nobody would see it
+    f.problem("type", error.what());
+  }
   sound = count(problems) == before;
 }
 

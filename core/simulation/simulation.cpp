@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/laws/hinge_stop.h"
+#include "core/scenario/plugin_instance.h"
 #include "core/simulation/cpg_check.h"
 #include "core/simulation/start.h"
 #include "core/simulation/start_check.h"
@@ -19,12 +19,6 @@ namespace {
 // Beyond this no joint is a joint any more; a run stops here rather than at the overflow a few steps later.
 constexpr double kLargestSpeed = 1e5;  // rad/s
 
-template <class T>
-std::unique_ptr<T> make(const Choice& choice, const RobotInfo& info) {
-  const std::array<const void*, 1> settings{choice.settings.get()};
-  return std::unique_ptr<T>(choice.entry == nullptr ? nullptr : static_cast<T*>(choice.entry->make(info, settings)));
-}
-
 }  // namespace
 
 std::int64_t whole(double period, double step) { return std::llround(period / step); }
@@ -36,8 +30,8 @@ SimulationError::SimulationError(std::int64_t at_step, double at_time, std::stri
 struct Simulation::Lane {
   Lane(const Scenario& s, const RobotInfo& info, std::size_t contacts)
       : scenario(s),
-        cpg(make<Cpg>(s.cpg, info)),
-        controller(make<Controller>(s.controller, info)),
+        cpg(make_cpg(s.cpg, info)),
+        controller(make_controller(s.controller, info)),
         sample(*s.robot, contacts, cpg == nullptr ? 0 : cpg->states()) {
     const std::size_t n = info.joints.size();
     for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit}) values->assign(n, 0.0);
@@ -77,7 +71,7 @@ struct Simulation::Lane {
   RunRecord record;
 };
 
-Simulation::Simulation(std::span<const Scenario> lanes)
+Simulation::Simulation(std::span<const Scenario> lanes) try
     : scenarios_(lanes.begin(), lanes.end()),
       robot_(*scenarios_.at(0).robot),
       h_(scenarios_[0].physics.step),
@@ -93,11 +87,9 @@ Simulation::Simulation(std::span<const Scenario> lanes)
                                             first.physics.engine->max_lanes, scenarios_.size()));
   }
   const RobotInfo about = info(robot_);
-  if (first.actuator.entry != nullptr) {
-    std::vector<const void*> settings;
-    for (const Scenario& lane : scenarios_) settings.push_back(lane.actuator.settings.get());
-    actuator_.reset(static_cast<Actuator*>(first.actuator.entry->make(about, settings)));
-  }
+  std::vector<const Choice*> actuators;
+  for (const Scenario& lane : scenarios_) actuators.push_back(&lane.actuator);
+  actuator_ = make_actuator(actuators, about);
   PlantSettings settings{first.robot,     first.base,        first.physics.gravity,
                          first.ground,    contacts_,         first.contact.penalty,
                          actuator_.get(), scenarios_.size(), first.physics.integrator};
@@ -109,6 +101,8 @@ Simulation::Simulation(std::span<const Scenario> lanes)
   cut_state();
   set_start();
   check_standing();
+} catch (const PluginError& error) {
+  throw InputError(lanes[0].place(std::string(word(error.kind)) + ".type"), error.what());
 }
 
 Simulation::~Simulation() = default;
@@ -192,7 +186,7 @@ void Simulation::step() {
   check();
 }
 
-bool Simulation::run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
+bool Simulation::run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) try {
   const std::int64_t report_every = std::max<std::int64_t>(1, steps_ / 200);
   while (!done()) {
     step();
@@ -202,6 +196,9 @@ bool Simulation::run(const std::function<void(double)>& progress, const std::ato
   }
   record();  // t = duration is a row even where it is no multiple of the trace period
   return true;
+} catch (const PluginError& error) {
+  throw SimulationError(step_number(), time(), word(error.kind),
+                        fmt::format("stopped at step {}, t = {:.6g} s: {}", step_number(), time(), error.what()));
 }
 
 /// The actuator law at the present state under the commands in force.

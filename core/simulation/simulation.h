@@ -16,13 +16,13 @@
 
 namespace gaitlab {
 
-/// A run that left the numbers: step, time and joint are in what().
+/// A run that left the numbers, or whose plugin threw: step, time and joint or plugin are in what().
 class SimulationError : public RunError {
  public:
   SimulationError(std::int64_t step, double time, std::string where, const std::string& what);
   std::int64_t step;
   double time;
-  std::string where;  ///< a joint's name, or "base"
+  std::string where;  ///< a joint's name, "base", or the kind of the plugin
 };
 
 /// How one lane ran: what the summary is made from.

@@ -263,7 +263,7 @@ TEST_F(ScenarioTest, PlacesOfGivenKeys) {
 
 TEST_F(ScenarioTest, Plugins) {
   EXPECT_EQ(error(kShort + "plugins: [./libnone.so]\n"),
-            "DIR/s.yaml:3:11: error: plugin './libnone.so' cannot be loaded: No such file or directory (looked at "
+            "DIR/s.yaml:3:11: error: plugin './libnone.so' cannot be loaded: No such file or directory (tried "
             "'DIR/libnone.so')");
   folder_.write("libx.so", "not a library");
   EXPECT_EQ(file_hash(folder_.path() + "/libx.so"), "4f13f3f320fa745a");

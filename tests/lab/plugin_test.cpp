@@ -1,4 +1,6 @@
 // Out-of-tree plugins through the scenario's `plugins:`.
+#include <xmmintrin.h>
+
 #include "fixture.h"
 
 namespace gaitlab::test {
@@ -50,6 +52,107 @@ TEST_F(Plugins, ANameThatIsTakenNamesBothOrigins) {
   const std::string text = error(with("sine_again.so", "sine"));
   EXPECT_NE(text.find("cpg 'sine' is registered twice: by built in and by " + kPlugins + "sine_again.so"), std::string::npos)
       << text;
+}
+
+TEST_F(Plugins, TwoLibrariesWithOneNameAreBothNamed) {
+  std::filesystem::copy_file(kPlugins + "wave.so", folder / "copy.so");
+  const std::string copy = std::filesystem::canonical(folder / "copy.so").string();
+  EXPECT_EQ(error("gaitlab: 1\nplugins:\n  - " + kPlugins + "wave.so\n  - ./copy.so\nrobot: {}\nduration: 1\n"),
+            "s.yaml:4:5: error: plugin './copy.so' cannot be loaded: " + copy + ": cpg 'wave' is registered twice: by " +
+                kPlugins + "wave.so and by " + copy + "\n");
+}
+
+TEST_F(Plugins, AFileThatIsNotThereNamesWhatWasTried) {
+  const std::string text = error("gaitlab: 1\nplugins: [lib/wave.so]\nrobot: {}\nduration: 1\n");
+  EXPECT_EQ(text, "s.yaml:2:11: error: plugin 'lib/wave.so' cannot be loaded: No such file or directory (tried '" +
+                      std::filesystem::canonical(folder / "").string() + "/lib/wave.so')\n");
+}
+
+TEST_F(Plugins, AStaticObjectThatThrowsIsAnError) {
+  EXPECT_EQ(error(with("throws_at_load.so", "sine")),
+            kPlugins + "throws_at_load.so: error: a static object of this plugin threw an exception when it was loaded\n");
+}
+
+TEST_F(Plugins, LoadingLeavesTheRoundingOfTheProcessorAsItWas) {
+  const unsigned before = _mm_getcsr();
+  Catalog all = app::standard_catalog();
+  load_plugin(kPlugins + "flushes.so", all);
+  EXPECT_EQ(_mm_getcsr() & 0xFFC0U, before & 0xFFC0U);  // all but the flags of past operations
+}
+
+/// The scenario whose `kind` throws from `where`.
+std::string throwing(const std::string& kind, const std::string& where) {
+  const std::string text =
+      "gaitlab: 1\nplugins: [" + kPlugins +
+      "throws.so]\nrobot: {modules: mtran, base: fixed}\nground: {type: none}\ncontact: {on: none}\nduration: "
+      "0.3\n";
+  return text + kind + ": {type: throws, where: " + where + "}\n";
+}
+
+TEST_F(Plugins, WhatOneThrowsBeforeTheRunIsAnErrorOfTheScenario) {
+  const std::vector<std::array<std::string, 3>> cases{
+      {"cpg", "constructor", "no luck"},
+      {"cpg", "fields", "fields threw: no luck"},
+      {"cpg", "note", "note threw: no luck"},
+      {"cpg", "start", "start threw: no luck"},
+      {"controller", "constructor", "no luck"},
+      {"controller", "command_unit", "command_unit threw: no luck"},
+      {"actuator", "constructor", "no luck"},
+      {"actuator", "fields", "fields threw: no luck"},
+      {"actuator", "effort", "effort threw: no luck"},
+      {"actuator", "size", "command_limit has 3 numbers; expected 2, one a joint and lane"}};
+  for (const auto& [kind, where, what] : cases) {
+    const std::string text = error(throwing(kind, where));
+    const std::string place = "s.yaml:7:" + std::to_string(kind.size() + 10) + ": error: ";
+    EXPECT_EQ(text, place + kind + " 'throws' (" + kPlugins + "throws.so): " + what + "\n");
+    EXPECT_EQ(gaitlab("run s.yaml --quiet --out run", folder / "").code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "run")) << kind << ' ' << where;
+  }
+}
+
+TEST_F(Plugins, WhatOneThrowsInTheRunEndsItAndKeepsWhatWasSimulated) {
+  const std::vector<std::array<std::string, 3>> cases{
+      {"cpg", "output", "output threw: no luck"},         {"cpg", "int", "output threw: something that is no std::exception"},
+      {"cpg", "derivative", "derivative threw: no luck"}, {"cpg", "event", "event threw: no luck"},
+      {"controller", "update", "update threw: no luck"},  {"actuator", "report", "report threw: no luck"}};
+  for (const auto& [kind, where, what] : cases) {
+    folder.write("s.yaml", throwing(kind, where));
+    const Result result = gaitlab("run s.yaml --quiet --out " + kind + where, folder / "");
+    EXPECT_EQ(result.code, 1);
+    EXPECT_NE(result.err.find(kind + " 'throws' (" + kPlugins + "throws.so): " + what +
+                              "; what was simulated until then is in " + kind + where + "\n"),
+              std::string::npos)
+        << result.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / (kind + where + "/summary.json")));
+  }
+}
+
+TEST_F(Plugins, ANewOneIsWrittenOnce) {
+  EXPECT_EQ(gaitlab("new plugin cpg ripple", folder / "").code, 0);
+  const std::string code = read(folder / "ripple/ripple.cpp");
+  EXPECT_NE(code.find("gaitlab::add_cpg<RippleCpg>(registry, \"ripple\", kManual);"), std::string::npos) << code;
+  EXPECT_EQ(code.find('@'), std::string::npos);
+  const Result again = gaitlab("new plugin actuator ripple", folder / "");
+  EXPECT_EQ(again.code, 2);
+  EXPECT_EQ(again.err, "ripple: error: exists; nothing was written\n");
+  EXPECT_EQ(read(folder / "ripple/ripple.cpp"), code);
+}
+
+TEST_F(Plugins, ANewOneNeedsANameThatCanBeOne) {
+  const auto refused = [&](const std::string& arguments) {
+    const Result result = gaitlab("new plugin " + arguments + " --out made", folder / "");
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_FALSE(std::filesystem::exists(folder / "made")) << arguments;
+    return result.err;
+  };
+  const std::string rule = " is not allowed; expected letters, digits and _, a letter first\n";
+  EXPECT_EQ(refused("cpg 3legs"), "gaitlab new plugin cpg: error: name '3legs'" + rule);
+  EXPECT_EQ(refused("cpg ../up"), "gaitlab new plugin cpg: error: name '../up'" + rule);
+  EXPECT_EQ(refused("cpg test"), "gaitlab new plugin cpg: error: name 'test' is one of CMake's own targets; choose another\n");
+  EXPECT_EQ(refused("cpg sine"),
+            "gaitlab new plugin cpg: error: cpg 'sine' is built in, and a name can be registered once; choose another\n");
+  EXPECT_EQ(refused("engine fast"),
+            "gaitlab new plugin: error: unknown kind 'engine'; known kinds: cpg, controller, actuator\n");
 }
 
 }  // namespace

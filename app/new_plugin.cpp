@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+
+#include "app/app.h"
+#include "app/skeletons.h"
+#include "core/scenario/value.h"
+#include "core/trace/atomic_file.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const Skeleton& skeleton(const std::string& kind) {
+  for (const Skeleton& one : kSkeletons) {
+    if (kind == word(one.kind)) return one;
+  }
+  throw InputError(Place{"gaitlab new plugin"},
+                   "unknown kind " + in_quotes(kind) + offer(kind, {"cpg", "controller", "actuator"}, "kinds"));
+}
+
+/// The name becomes a file, a CMake target and part of a class's name.
+void check_name(const Skeleton& skeleton, const std::string& name) {
+  constexpr std::array kTargets{"all", "clean", "depend", "help", "install", "package", "test"};  // CMake's own
+  const Place place{fmt::format("gaitlab new plugin {}", word(skeleton.kind))};
+  if (!is_name(name, "_") || name[0] == '_' || std::isdigit(static_cast<unsigned char>(name[0])) != 0) {
+    throw InputError(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits and _, a letter first");
+  }
+  if (std::find(kTargets.begin(), kTargets.end(), name) != kTargets.end()) {
+    throw InputError(place, fmt::format("name '{}' is one of CMake's own targets; choose another", name));
+  }
+  if (standard_catalog().find(skeleton.kind, name) != nullptr) {
+    throw InputError(place, fmt::format("{} '{}' is built in, and a name can be registered once; choose another",
+                                        word(skeleton.kind), name));
+  }
+}
+
+/// `my_wave`, `cpg` -> `MyWaveCpg`.
+std::string class_name(const std::string& name, const std::string& kind) {
+  std::string out;
+  bool capital = true;
+  for (const char c : name + "_" + kind) {
+    if (c != '_') out += capital ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+    capital = c == '_';
+  }
+  return out;
+}
+
+std::string filled(std::string text, const std::string& mark, const std::string& value) {
+  for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size())) {
+    text.replace(at, mark.size(), value);
+  }
+  return text;
+}
+
+fs::path new_folder(const std::string& name) {
+  const fs::path folder = fs::path(name).lexically_normal();
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(folder, error))) throw InputError(Place{name}, "exists; nothing was written");
+  fs::create_directories(folder, error);
+  if (error) throw InputError(Place{name}, "cannot be made: " + error.message());
+  return folder;
+}
+
+/// Where this program is installed, if it is.
+std::string prefix() {
+  std::error_code none;
+  const fs::path prefix = fs::read_symlink("/proc/self/exe", none).parent_path().parent_path();
+  return fs::is_directory(prefix / "include" / "gaitlab", none) ? prefix.string() : "PREFIX";
+}
+
+}  // namespace
+
+int new_plugin(const NewPluginArguments& arguments) {
+  const Skeleton& text = skeleton(arguments.kind);
+  const std::string& name = arguments.name;
+  check_name(text, name);
+  const fs::path folder = new_folder(arguments.out.value_or(name));
+  const auto write = [&](const std::string& file, const std::string& content) {
+    write_file(folder / file, filled(filled(content, "@NAME@", name), "@CLASS@", class_name(name, arguments.kind)));
+  };
+  try {
+    write("CMakeLists.txt", kSkeletonBuild);
+    write(name + ".cpp", text.code);
+    write("scenario.yaml", text.scenario);
+    write("test.cmake", filled(kSkeletonTest, "@TEST@", text.test));
+  } catch (...) {
+    std::error_code none;
+    fs::remove_all(folder, none);
+    throw;
+  }
+  fmt::print("{0}: CMakeLists.txt, {1}.cpp, scenario.yaml, test.cmake; next:\n  cd {0}\n", folder.string(), name);
+  fmt::print("  cmake -B build -DCMAKE_PREFIX_PATH={}{}\n", prefix(),
+             prefix() == "PREFIX" ? "      # where gaitlab is installed: cmake --install build/release --prefix PREFIX" : "");
+  fmt::print("  cmake --build build\n  ctest --test-dir build\n  gaitlab run scenario.yaml\n");
+  return 0;
+}
+
+}  // namespace gaitlab::app

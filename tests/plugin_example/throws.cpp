@@ -1,0 +1,68 @@
+// Plugins of every kind that throw from the function that their setting `where` names.
+#include <stdexcept>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+using namespace gaitlab;
+
+struct Settings {
+  std::string where;
+  void fields(Fields& f) {
+    f.text("where", where, "Name of the function that throws.");
+    at("fields");
+  }
+  void at(std::string_view function) const {
+    if (where == function) throw std::invalid_argument("no luck");
+    if (where == "int" && function == "output") throw 42;
+  }
+};
+
+struct ThrowingCpg final : Cpg {
+  using Settings = ::Settings;
+  ThrowingCpg(const RobotInfo&, const Settings& settings) : s(settings) { s.at("constructor"); }
+  std::size_t states() const override { return 1; }
+  void start(Out) const override { s.at("start"); }
+  void derivative(const Measured&, In, Out) const override { s.at("derivative"); }
+  void event(const Measured&, Out) const override { s.at("event"); }
+  void output(double t, In, Out) const override {
+    if (t > 0.1) s.at("output");
+  }
+  std::string note() const override {
+    s.at("note");
+    return {};
+  }
+  Settings s;
+};
+
+struct ThrowingController final : Controller {
+  using Settings = ::Settings;
+  ThrowingController(const RobotInfo&, const Settings& settings) : s(settings) { s.at("constructor"); }
+  std::string_view command_unit() const override {
+    s.at("command_unit");
+    return "V";
+  }
+  void update(const Measured&, In, In, Out, Out) const override { s.at("update"); }
+  Settings s;
+};
+
+struct ThrowingActuator final : Actuator {
+  using Settings = ::Settings;
+  ThrowingActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes)
+      : limit(robot.joints.size() + (lanes[0]->where == "size" ? 1 : 0), 1.0), s(*lanes[0]) {
+    s.at("constructor");
+  }
+  std::string_view command_unit() const override { return "V"; }
+  In command_limit() const override { return limit; }
+  void effort(In, In, Out, Out) const override { s.at("effort"); }
+  void report(In, In, Report) const override { s.at("report"); }
+  std::vector<double> limit;
+  Settings s;
+};
+}  // namespace
+
+GAITLAB_PLUGIN(registry) {
+  add_cpg<ThrowingCpg>(registry, "throws", "");
+  add_controller<ThrowingController>(registry, "throws", "");
+  add_actuator<ThrowingActuator>(registry, "throws", "");
+}
