@@ -43,6 +43,10 @@ struct ManualArguments {
 };
 int list(const ManualArguments& arguments);
 int explain(const ManualArguments& arguments);
+/// The JSON Schema of scenario files.
+int schema(const ManualArguments& arguments);
+/// A page of docs/reference: `kind` is scenario or plugins.
+int reference(const ManualArguments& arguments);
 
 struct ConvergeArguments : ScenarioArguments {
   int halvings = 2;

@@ -5,6 +5,8 @@
 #include <map>
 
 #include "app/app.h"
+#include "core/scenario/manual.h"
+#include "core/scenario/schema.h"
 #include "core/scenario/text_file.h"
 
 namespace gaitlab::app {
@@ -78,6 +80,17 @@ int explain(const ManualArguments& arguments) {
                engine.integrators.front(), engine.step);
   }
   if (kind == "module" || kind == "robot") fmt::print("{}", read_text(shipped_files(kind).at(name)));
+  return 0;
+}
+
+int schema(const ManualArguments& arguments) {
+  fmt::print("{}", scenario_schema(standard_catalog(arguments.plugins)));
+  return 0;
+}
+
+int reference(const ManualArguments& arguments) {
+  const Catalog catalog = standard_catalog();
+  fmt::print("{}", arguments.kind == "scenario" ? scenario_page(catalog) : plugins_page(catalog));
   return 0;
 }
 

@@ -101,6 +101,16 @@ int program(int argc, char** argv) {
   add_plugins(*explain_command);
   explain_command->callback([&] { chosen = [&] { return explain(manual_arguments); }; });
 
+  CLI::App* schema_command = app.add_subcommand("schema", "JSON Schema of the scenario file, for editors");
+  add_plugins(*schema_command);
+  schema_command->callback([&] { chosen = [&] { return schema(manual_arguments); }; });
+
+  CLI::App* reference_command = app.add_subcommand("reference", "a page of docs/reference")->group("");  // not in the help
+  reference_command->add_option("PAGE", manual_arguments.kind, "scenario or plugins")
+      ->required()
+      ->check(CLI::IsMember({"scenario", "plugins"}));
+  reference_command->callback([&] { chosen = [&] { return reference(manual_arguments); }; });
+
   ConvergeArguments converge_arguments;
   CLI::App* converge_command = app.add_subcommand(
       "converge", "halve the step: errors against the finest one, their order, the step that is good for 1 %");

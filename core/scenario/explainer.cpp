@@ -48,6 +48,34 @@ std::string table(const std::vector<KeyRow>& rows) {
   return out;
 }
 
+std::string markdown_table(const std::vector<KeyRow>& rows) {
+  const auto code = [](const std::string& text) {
+    std::string out;
+    for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
+    return out.empty() ? out : "`" + out + "`";
+  };
+  const auto plain = [](const std::string& text) {
+    std::string out;
+    bool in_code = false;
+    for (const char c : text) {
+      in_code = in_code != (c == '`');
+      if (std::string(in_code ? "|" : "|<>*_").find(c) != std::string::npos) out += '\\';
+      out += c;
+    }
+    return out;
+  };
+  std::string out = "| key | unit | default | range | meaning |\n|---|---|---|---|---|\n";
+  for (const KeyRow& row : rows) {
+    // Spaces at the left show depth, which a table of Markdown would swallow.
+    const std::size_t depth = std::min(row.key.find_first_not_of(' '), row.key.size());
+    std::string key;
+    for (std::size_t i = 0; i < depth; ++i) key += "&nbsp;";
+    out += "| " + key + code(row.key.substr(depth)) + " | " + plain(row.unit) + " | " + code(row.preset) + " | " +
+           plain(row.range) + " | " + plain(row.about) + " |\n";
+  }
+  return out;
+}
+
 void Explainer::row(const std::string& key, const std::string& unit, const std::string& preset, const std::string& range,
                     const std::string& about) {
   rows_.push_back({prefix_ + key, unit, preset, range, about});

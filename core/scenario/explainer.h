@@ -14,6 +14,8 @@ struct KeyRow {
 
 /// The rows as aligned plain text.
 std::string table(const std::vector<KeyRow>& rows);
+/// The same as a table of Markdown.
+std::string markdown_table(const std::vector<KeyRow>& rows);
 
 /// Visit fields, then read rows(). Groups are indented; the keys of a list's elements are shown as `couplings[].from`.
 class Explainer final : public Fields {

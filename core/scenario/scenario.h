@@ -90,12 +90,6 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
 /// Reading it again and resolving that gives the same bytes.
 std::string resolved(const Scenario& scenario);
 
-/// Every key of a scenario file with unit, default, range and sentence: what `gaitlab explain` prints.
-std::string explain_scenario(const Catalog& catalog);
-
-/// A plugin's manual: its text, then a table of its fields.
-std::string explain_plugin(const Entry& entry);
-
 /// Reads a module type file.
 struct ModuleFile {
   ModuleType type;

@@ -1,6 +1,7 @@
 // resolved and the manuals.
 #include <gtest/gtest.h>
 
+#include "core/scenario/manual.h"
 #include "core/scenario/scenario.h"
 #include "scenario_fixture.h"
 

@@ -1,0 +1,95 @@
+#include "core/scenario/manual.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "core/scenario/explainer.h"
+#include "core/scenario/overlay.h"
+#include "core/scenario/plugin_instance.h"
+#include "core/scenario/robot_section.h"
+#include "core/scenario/sections.h"
+#include "core/scenario/value.h"
+
+namespace gaitlab {
+namespace {
+
+constexpr const char* kRenewed =
+    "<!-- Written by `tests/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n";
+
+std::vector<KeyRow> scenario_keys(const Catalog& catalog) {
+  Explainer explainer;
+  explainer.row("gaitlab", "", "1", "1", "Format version.");
+  explainer.row("name", "", "the file's name", "text", "Name of the run folder.");
+  explainer.row("plugins", "", "[]", "list of paths", "Plugin libraries, relative to this file, or {path, hash}.");
+  explainer.row("robot:", "", "", "", "The robot; required.");
+  explainer.row("  modules", "", kDefaultType, "name | file | map",
+                "Module type, or {0: mtran, 5: ./foot.yaml, default: mtran}.");
+  explainer.row("  types", "", "{}", "map", "Module types defined here, by name.");
+  explainer.row("  build", "", "", "file", "Build file, rows child_face child_module parent_face parent_module orientation.");
+  explainer.row("  docks", "", "[]", "list", "The same rows here; neither: one module.");
+  Scenario scenario;
+  Explainer base;
+  BaseFields{scenario}.fields(base);
+  for (const KeyRow& row : base.rows()) explainer.row("  " + row.key, row.unit, row.preset, row.range, row.about);
+  SectionFields sections(scenario, &catalog, nullptr, default_type("actuator"));
+  for (PluginFields* plugin : {&sections.actuator, &sections.controller, &sections.cpg}) plugin->own_keys = false;
+  sections.fields(explainer);
+  explainer.row("sensors", "", "[]", "[]", "There are no sensor types yet.");
+  std::vector<KeyRow> rows = explainer.rows();
+  for (KeyRow& row : rows) {
+    if (row.key == "duration") row.preset.clear();
+  }
+  return rows;
+}
+
+std::vector<KeyRow> plugin_keys(const Entry& entry) {
+  Explainer explainer;
+  visit_settings(entry, default_settings(entry).get(), explainer);
+  return explainer.rows();
+}
+
+/// As it is printed: equations keep their lines.
+std::string fenced(const std::string& text) { return "```text\n" + text + (text.ends_with('\n') ? "" : "\n") + "```\n"; }
+
+}  // namespace
+
+std::string explain_scenario(const Catalog& catalog) { return table(scenario_keys(catalog)); }
+
+std::string explain_plugin(const Entry& entry) {
+  std::string text(entry.manual);
+  if (!text.ends_with('\n')) text += '\n';
+  const std::vector<KeyRow> keys = plugin_keys(entry);
+  return keys.empty() ? text : text + "\n" + table(keys);
+}
+
+std::string scenario_page(const Catalog& catalog) {
+  return "# The scenario file\n\n" + std::string(kRenewed) +
+         "Every key, as `gaitlab explain` prints it. The keys of a CPG, controller or actuator are on their own page,\n"
+         "[plugins.md](plugins.md). A value per joint is a number, a list, or `{default: x, m3/passive: y}`. For editors: the\n"
+         "JSON Schema `scenarios/gaitlab.schema.json`, by `gaitlab schema`.\n\n" +
+         markdown_table(scenario_keys(catalog));
+}
+
+std::string plugins_page(const Catalog& catalog) {
+  std::string page = "# CPGs, controllers, actuators and engines\n\n" + std::string(kRenewed) +
+                     "The manuals of what is built in, as `gaitlab explain KIND NAME` prints them. One of your own:\n"
+                     "[write a CPG](../tutorials/write-a-cpg.md).\n";
+  for (const Kind kind : {Kind::cpg, Kind::controller, Kind::actuator}) {
+    for (const std::string& name : catalog.names(kind)) {
+      const Entry& entry = *catalog.find(kind, name);
+      page += fmt::format("\n## {} `{}`\n\n{}", word(kind), name, fenced(std::string(entry.manual)));
+      const std::vector<KeyRow> keys = plugin_keys(entry);
+      if (!keys.empty()) page += "\n" + markdown_table(keys);
+    }
+  }
+  for (const std::string& name : catalog.engines()) {
+    const Engine& engine = *catalog.engine(name);
+    page +=
+        fmt::format("\n## engine `{}`\n\n{}\nIntegrators: {} (default {}). Default step: {} s.\n", name, fenced(engine.manual),
+                    fmt::join(engine.integrators, ", "), engine.integrators.front(), number_text(engine.step));
+  }
+  return page;
+}
+
+}  // namespace gaitlab

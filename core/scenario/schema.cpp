@@ -1,0 +1,193 @@
+#include "core/scenario/schema.h"
+
+#include "core/scenario/overlay.h"
+#include "core/scenario/schema_fields.h"
+#include "core/scenario/sections.h"
+
+namespace gaitlab {
+namespace {
+
+// What is read piece by piece rather than through Fields: the robot's parts and the head of the file.
+constexpr const char* kParts = R"json({
+  "vector": {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3},
+  "source": {"type": ["string", "number", "boolean"], "description": "Where the values come from."},
+  "dock": {"anyOf": [
+    {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 5, "maxItems": 5,
+     "description": "child_face, child_module, parent_face, parent_module, orientation"},
+    {"type": "object", "additionalProperties": false,
+     "required": ["child_face", "child_module", "parent_face", "parent_module", "orientation"], "properties": {
+      "child_face": {"type": "integer", "minimum": 0, "description": "Face of the child."},
+      "child_module": {"type": "integer", "minimum": 0, "description": "Module that is docked."},
+      "parent_face": {"type": "integer", "minimum": 0, "description": "Face of the parent."},
+      "parent_module": {"type": "integer", "minimum": 0, "description": "Module it is docked to."},
+      "orientation": {"type": "integer", "minimum": 0, "description": "Quarter turns about the child's face normal, 0 to 3."}}}]},
+  "shape": {"type": "object", "additionalProperties": false, "properties": {
+    "box": {"$ref": "#/definitions/vector"},
+    "cylinder": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2},
+    "half_cylinder": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2},
+    "sphere": {"type": "number"},
+    "origin": {"$ref": "#/definitions/vector"}, "rpy": {"$ref": "#/definitions/vector"},
+    "source": {"$ref": "#/definitions/source"}}},
+  "contact": {"type": "object", "additionalProperties": false, "required": ["body"], "properties": {
+    "body": {"type": "string"}, "point": {"$ref": "#/definitions/vector"}, "sphere": {"$ref": "#/definitions/vector"},
+    "radius": {"type": "number"}, "source": {"$ref": "#/definitions/source"}}},
+  "module_type": {"type": "object", "additionalProperties": false, "required": ["name", "bodies"], "properties": {
+    "gaitlab_module": {"const": 1, "description": "Format version."},
+    "name": {"type": ["string", "number", "boolean"], "description": "Name of the type."},
+    "lattice": {"type": "boolean", "description": "Bodies with faces fill cells of a cubic lattice."},
+    "source": {"$ref": "#/definitions/source"},
+    "bodies": {"type": "object", "minProperties": 1, "additionalProperties": {
+      "type": "object", "additionalProperties": false, "properties": {
+        "mass": {"type": "number", "minimum": 0, "description": "Mass; 0 only for a body between two hinges. [kg]"},
+        "com": {"$ref": "#/definitions/vector"},
+        "inertia": {"type": "array", "items": {"type": "number"}, "minItems": 6, "maxItems": 6,
+                    "description": "xx, yy, zz, xy, xz, yz about the COM, body axes. [kg m^2]"},
+        "shape": {"type": "array", "items": {"$ref": "#/definitions/shape"}},
+        "source": {"$ref": "#/definitions/source"}}}},
+    "hinges": {"type": "array", "items": {
+      "type": "object", "additionalProperties": false, "required": ["name", "parent", "child", "axis", "range"], "properties": {
+        "name": {"type": ["string", "number", "boolean"]}, "parent": {"type": "string"}, "child": {"type": "string"},
+        "origin": {"$ref": "#/definitions/vector"}, "rpy": {"$ref": "#/definitions/vector"},
+        "axis": {"$ref": "#/definitions/vector"},
+        "range": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2,
+                  "description": "Smallest and largest angle. [rad]"},
+        "source": {"$ref": "#/definitions/source"}}}},
+    "faces": {"type": "array", "items": {
+      "type": "object", "additionalProperties": false,
+      "required": ["id", "body", "gender", "origin", "normal", "reference"], "properties": {
+        "id": {"type": "integer", "minimum": 0, "maximum": 1000, "description": "Number of the face in build files."},
+        "body": {"type": "string"}, "gender": {"enum": ["active", "passive"]},
+        "origin": {"$ref": "#/definitions/vector"}, "normal": {"$ref": "#/definitions/vector"},
+        "reference": {"$ref": "#/definitions/vector"}, "source": {"$ref": "#/definitions/source"}}}},
+    "contacts": {"type": "object", "additionalProperties": false, "properties": {
+      "feet": {"type": "array", "items": {"$ref": "#/definitions/contact"}},
+      "all": {"type": "array", "items": {"$ref": "#/definitions/contact"}},
+      "source": {"$ref": "#/definitions/source"}}},
+    "actuator": {"type": "object", "description": "The default motor."}}},
+  "module_choice": {"anyOf": [{"type": "string"}, {"$ref": "#/definitions/module_type"}]}
+})json";
+
+constexpr const char* kRobot = R"json({
+  "modules": {"description": "Module type (a name, a file, or the type itself), or {0: mtran, 5: ./foot.yaml, default: mtran}.",
+    "default": "mtran", "anyOf": [{"$ref": "#/definitions/module_choice"},
+      {"type": "object", "additionalProperties": false, "properties": {"default": {"$ref": "#/definitions/module_choice"}},
+       "patternProperties": {"^(0|[1-9][0-9]*)$": {"$ref": "#/definitions/module_choice"}}}]},
+  "types": {"type": "object", "additionalProperties": {"$ref": "#/definitions/module_type"},
+    "description": "Module types defined here, by name."},
+  "build": {"type": "string",
+    "description": "Build file, rows child_face child_module parent_face parent_module orientation."},
+  "docks": {"type": "array", "items": {"$ref": "#/definitions/dock"},
+    "description": "The rows of a build file here; without both: one module."}
+})json";
+
+constexpr const char* kHead = R"json({
+  "gaitlab": {"const": 1, "description": "Format version."},
+  "name": {"type": ["string", "number", "boolean"], "description": "Name of the run folder; default: the file's name."},
+  "plugins": {"type": "array", "default": [], "description": "Plugin libraries, relative to this file.", "items": {"anyOf": [
+    {"type": "string"},
+    {"type": "object", "additionalProperties": false, "required": ["path"], "properties": {
+      "path": {"type": "string", "description": "The library."},
+      "hash": {"type": ["string", "number"], "description": "FNV-1a of the file; another file is refused."}}}]}}
+})json";
+
+std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
+
+/// A section whose keys depend on the value of one of them.
+class Alternatives {
+ public:
+  /// `head`: the section's schema, of which only the choosing key is kept. `preset`: the value of an absent key; empty: any.
+  Alternatives(const Json& head, std::string key, std::string preset) : key_(std::move(key)), preset_(std::move(preset)) {
+    json_ = {{"type", "object"}, {"description", head["description"]}};
+    json_["properties"][key_] = head["properties"][key_];
+    json_["allOf"] = Json::array();
+  }
+
+  void add(const std::string& name, Json properties, const std::string& about) {
+    properties[key_] = {{"const", name}};
+    Json when{{"properties", {{key_, {{"const", name}}}}}};
+    if (name != preset_) when["required"] = Json::array({key_});
+    Json then{{"properties", std::move(properties)}, {"additionalProperties", false}};
+    if (!about.empty()) then["description"] = about;
+    any_.push_back(then);
+    json_["allOf"].push_back({{"if", std::move(when)}, {"then", std::move(then)}});
+  }
+
+  Json take() {
+    if (preset_.empty())
+      json_["allOf"].push_back({{"if", {{"not", {{"required", Json::array({key_})}}}}}, {"then", {{"anyOf", any_}}}});
+    return std::move(json_);
+  }
+
+ private:
+  std::string key_, preset_;
+  Json json_, any_ = Json::array();
+};
+
+Json plugin_section(const PluginFields& section, const Json& head, const Catalog& catalog, const std::string& preset) {
+  Alternatives all(head, "type", preset);
+  for (const std::string& name : catalog.names(section.kind)) {
+    Choice choice;
+    PluginFields one{section.kind, choice, name, &catalog, section.host};
+    SchemaFields fields;
+    one.fields(fields);
+    all.add(name, std::move(fields.properties()), first_line(choice.entry->manual));
+  }
+  if (section.kind == Kind::actuator) all.add("none", Json::object(), "No motor: the joints are free.");
+  return all.take();
+}
+
+Json physics_section(const Json& head, const Catalog& catalog) {
+  Alternatives all(head, "engine", "bullet");
+  for (const std::string& name : catalog.engines()) {
+    Physics physics;
+    physics.engine = catalog.engine(name);
+    PhysicsFields one{physics, &catalog};
+    SchemaFields fields;
+    one.fields(fields);
+    all.add(name, std::move(fields.properties()), first_line(physics.engine->manual));
+  }
+  return all.take();
+}
+
+Json robot_section() {
+  Scenario scenario;
+  SchemaFields base;
+  BaseFields{scenario}.fields(base);
+  Json properties = Json::parse(kRobot);
+  properties.update(base.properties());
+  Json robot = object_schema(std::move(properties));
+  robot["description"] = "The robot; required.";
+  return robot;
+}
+
+}  // namespace
+
+std::string scenario_schema(const Catalog& catalog) {
+  Scenario scenario;
+  SectionFields sections(scenario, &catalog, nullptr, default_type("actuator"));
+  for (PluginFields* plugin : {&sections.actuator, &sections.controller, &sections.cpg}) plugin->own_keys = false;
+  SchemaFields fields;
+  sections.fields(fields);
+  const Json& heads = fields.properties();
+
+  Json properties = Json::parse(kHead);
+  properties["robot"] = robot_section();
+  for (const auto& [key, value] : heads.items()) properties[key] = value;
+  properties["physics"] = physics_section(heads["physics"], catalog);
+  // The module type may name another motor than the default's, so that without a type the keys may be any motor's.
+  properties["actuator"] = plugin_section(sections.actuator, heads["actuator"], catalog, "");
+  properties["controller"] = plugin_section(sections.controller, heads["controller"], catalog, default_type("controller"));
+  properties["cpg"] = plugin_section(sections.cpg, heads["cpg"], catalog, default_type("cpg"));
+  properties["duration"].erase("default");
+  properties["sensors"] = {{"type", "array"}, {"maxItems", 0}, {"description", "There are no sensor types yet."}};
+
+  Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
+              {"title", "gaitlab scenario"},
+              {"description", "Written by `gaitlab schema`."}};
+  schema.update(object_schema(std::move(properties)));
+  schema["required"] = Json::array({"robot", "duration"});
+  schema["definitions"] = Json::parse(kParts);
+  return schema.dump(1) + "\n";
+}
+
+}  // namespace gaitlab

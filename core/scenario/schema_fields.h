@@ -1,0 +1,44 @@
+// The fields of a Settings struct as properties of a JSON Schema.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/plugin/fields.h"
+
+namespace gaitlab {
+
+using Json = nlohmann::ordered_json;
+
+/// A map with these keys and no other.
+Json object_schema(Json properties);
+
+/// Visit fields, then take properties().
+class SchemaFields final : public Fields {
+ public:
+  void number(const char* key, double& value, Spec spec) override;
+  void integer(const char* key, std::int64_t& value, Spec spec) override;
+  void flag(const char* key, bool& value, const char* about) override;
+  void text(const char* key, std::string& value, const char* about) override;
+  void file(const char* key, std::string& value, const char* about) override;
+  void choice(const char* key, int& value, std::span<const char* const> names, const char* about) override;
+  void per_joint(const char* key, PerJoint& value, Spec spec) override;
+  void joint(const char* key, std::int64_t& value, const char* about) override;
+  void vector(const char* key, std::span<double> value, Spec spec) override;
+  void numbers(const char* key, std::vector<double>& value, Spec spec) override;
+  void texts(const char* key, std::vector<std::string>& value, const char* about) override;
+  void problem(const char*, std::string_view) override {}
+  using Fields::group;
+  using Fields::list;
+  using Fields::rule_or_list;
+
+  Json& properties() { return properties_; }
+
+ private:
+  void list(const char* key, const char* about, List list) override;
+  void rule_or_list(const char* key, int& rule, std::span<const char* const> names, const char* about, List list) override;
+  void group(const char* key, const char* about, Group group) override;
+
+  Json properties_ = Json::object();
+};
+
+}  // namespace gaitlab

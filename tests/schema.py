@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+"""The schema that `gaitlab schema` prints, against the program: what ships is valid, and of wrong scenarios both say the same.
+usage: schema.py PROGRAM SCENARIOS_FOLDER PUBLISHED_FOLDER
+77 where python3-jsonschema or python3-yaml is missing."""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+try:
+    import jsonschema
+    import yaml
+except ImportError as error:
+    print(f"left out: {error} (Debian: python3-jsonschema, python3-yaml)")
+    sys.exit(77)
+
+PROGRAM, SCENARIOS, PUBLISHED = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
+
+
+class Loader(yaml.SafeLoader):
+    """YAML 1.2's numbers and words, as editors and gaitlab read them: 1e-4 is a number, `on` is a text."""
+
+
+Loader.yaml_implicit_resolvers = {}
+Loader.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile(r"^(true|false)$"), "tf")
+Loader.add_implicit_resolver("tag:yaml.org,2002:int", re.compile(r"^[-+]?[0-9]+$"), "-+0123456789")
+Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float", re.compile(r"^[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$"), "-+.0123456789")
+Loader.add_implicit_resolver("tag:yaml.org,2002:null", re.compile(r"^(~|null|)$"), ["~", "n", ""])
+
+
+def named(value):
+    """Keys are texts in JSON: {0: mtran} has the key "0"."""
+    if isinstance(value, dict):
+        return {str(key): named(inner) for key, inner in value.items()}
+    return [named(inner) for inner in value] if isinstance(value, list) else value
+
+
+def load(text):
+    return named(yaml.load(text, Loader))
+
+
+schema = json.loads(subprocess.run([PROGRAM, "schema"], check=True, capture_output=True, text=True).stdout)
+jsonschema.Draft7Validator.check_schema(schema)
+validator = jsonschema.Draft7Validator(schema)
+# A module type in a file of its own is the same as one within a scenario.
+module_validator = jsonschema.Draft7Validator({"$ref": "#/definitions/module_type", "definitions": schema["definitions"]})
+failures = []
+
+
+def expect_valid(name, text, by=validator):
+    errors = [f"{'.'.join(map(str, error.path))}: {error.message}" for error in by.iter_errors(load(text))]
+    if errors:
+        failures.append(f"{name}: {'; '.join(errors)[:500]}")
+
+
+def program_accepts(text):
+    with tempfile.TemporaryDirectory() as folder:
+        for shared in ("modules", "robots"):
+            (pathlib.Path(folder) / shared).symlink_to(SCENARIOS / shared)
+        (pathlib.Path(folder) / "s.yaml").write_text(text)
+        code = subprocess.run([PROGRAM, "check", "s.yaml"], cwd=folder, capture_output=True).returncode
+        if code not in (0, 2):
+            failures.append(f"gaitlab check ends with {code}: {text}")
+        return code == 0
+
+
+def expect_agreement(text, right):
+    by_schema, by_program = validator.is_valid(load(text)), program_accepts(text)
+    if by_schema != right or by_program != right:
+        verdict = {True: "accepts", False: "refuses"}
+        failures.append(f"the schema {verdict[by_schema]}, the program {verdict[by_program]}: {text!r}")
+
+
+def resolved(path):
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([PROGRAM, "run", path, "--quiet", "--set", "duration=0.005", "--out", "run"], cwd=folder, check=True)
+        return (pathlib.Path(folder) / "run/scenario.resolved.yaml").read_text()
+
+
+shipped = sorted(SCENARIOS.glob("*.yaml"))
+for path in shipped:
+    expect_valid(path.name, path.read_text())
+    expect_valid(f"{path.name}, resolved", resolved(path))
+    first = path.read_text().split("\n", 1)[0]
+    if first != "# yaml-language-server: $schema=gaitlab.schema.json":
+        failures.append(f"{path.name}: its first line does not name the schema")
+for path in sorted(SCENARIOS.glob("modules/*.yaml")):
+    expect_valid(path.name, path.read_text(), module_validator)
+for path in sorted(PUBLISHED.glob("*.yaml")):
+    text = path.read_text()
+    expect_valid(path.name, text, module_validator if "gaitlab_module:" in text else validator)
+
+HEAD = "gaitlab: 1\nrobot: {modules: mtran}\n"
+SHORT = HEAD + "duration: 1\n"
+RIGHT = [
+    SHORT,
+    "robot: {}\nduration: 0.1\n",
+    SHORT + "name: 8\n",
+    SHORT + "cpg: {}\n",
+    SHORT + "cpg: {amplitude: 0.3, model: {coupling: 2}}\n",
+    SHORT + "cpg: {type: sine, amplitude: [0.3, 0.2], model: {ramp: 1}}\n",
+    SHORT + "cpg: {type: sine, amplitude: {default: 0.3, m0/passive: 0.2}, couplings: mirror}\n",
+    SHORT + "cpg: {type: hopf, couplings: [{from: 0, to: m0/passive, weight: 2, phase_lag: 1}]}\n",
+    SHORT + "actuator: {i_max: 0.8}\n",
+    SHORT + "actuator: {type: torque, limit: 2}\ncontroller: {type: pid, unit: N m, Kp: 5, Kd: 0.05}\n",
+    SHORT + "actuator: {type: none}\n",
+    SHORT + "controller: {type: hold, command: 1, period: 0.005}\n",
+    SHORT + "physics: {engine: bullet, integrator: rk4, step: 1e-5}\n",
+    SHORT + "trace: {period: 0.005, columns: [joint.*]}\nsensors: []\nplugins: []\n",
+    "robot: {modules: {0: mtran, default: mtran}, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.1\n",
+    "robot: {modules: {name: one, bodies: {b: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}}}\ncontact: {on: none}\nduration: 0.1\n"
+    "trace: {columns: [base.*]}\n",
+]
+WRONG = [
+    HEAD,
+    "gaitlab: 1\nduration: 1\n",
+    "gaitlab: 2\nrobot: {}\nduration: 1\n",
+    SHORT + "colour: red\n",
+    HEAD + "duration: 0\n",
+    HEAD + "duration: long\n",
+    HEAD + "duration: '1'\n",
+    SHORT + "seed: 1.5\n",
+    SHORT + "cpg: {type: sin}\n",
+    SHORT + "cpg: {frequncy: 1}\n",
+    SHORT + "cpg: {frequency: 21}\n",
+    SHORT + "cpg: {frequency: {default: fast}}\n",
+    SHORT + "cpg: {type: sine, model: {coupling: 2}}\n",
+    SHORT + "cpg: {type: hopf, couplings: [{from: 0, too: 1}]}\n",
+    SHORT + "cpg: {couplings: chains}\n",
+    SHORT + "cpg: []\n",
+    SHORT + "actuator: {type: torque, i_max: 2}\ncontroller: {unit: N m}\n",
+    SHORT + "actuator: {Rr: 2}\n",
+    SHORT + "actuator: {type: none, i_max: 1}\n",
+    SHORT + "actuator: {efficiency_model: papr}\n",
+    SHORT + "controller: {type: hold, Kp: 1}\n",
+    SHORT + "physics: {engine: bulet}\n",
+    SHORT + "physics: {integrator: euler}\n",
+    SHORT + "physics: {gravity: [0, 0]}\n",
+    SHORT + "ground: {type: plane, friction: -1}\n",
+    SHORT + "contact: {slip_speed: 0}\n",
+    SHORT + "contact: {on: foot}\n",
+    SHORT + "initial: {angles: high}\n",
+    SHORT + "trace: {columns: joint.*}\n",
+    SHORT + "sensors: [imu]\n",
+    SHORT + "plugins: ./a.so\n",
+    "robot: {modules: mtran, on_ground: 1}\nduration: 1\n",
+    "robot: {modules: mtran, docks: [[1, 1, 4, 0]]}\nduration: 1\n",
+    "robot: {modules: {zero: mtran}}\nduration: 1\n",
+    "robot: {modules: {name: one, bodies: {b: {mas: 1}}}}\nduration: 1\n",
+]
+for text in RIGHT:
+    expect_agreement(text, True)
+for text in WRONG:
+    expect_agreement(text, False)
+
+print(f"{len(shipped)} shipped scenarios and their resolved form, {len(RIGHT)} right and {len(WRONG)} wrong ones")
+for failure in failures:
+    print("FAILED", failure)
+sys.exit(1 if failures else 0)
