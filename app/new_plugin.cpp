@@ -44,7 +44,7 @@ void check_name(const Skeleton& skeleton, const std::string& name) {
 std::string class_name(const std::string& name, const std::string& kind) {
   std::string out;
   bool capital = true;
-  for (const char c : name + "_" + kind) {
+  for (const char c : fmt::format("{}_{}", name, kind)) {
     if (c != '_') out += capital ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
     capital = c == '_';
   }
@@ -59,7 +59,7 @@ std::string filled(std::string text, const std::string& mark, const std::string&
 }
 
 fs::path new_folder(const std::string& name) {
-  const fs::path folder = fs::path(name).lexically_normal();
+  fs::path folder = fs::path(name).lexically_normal();
   std::error_code error;
   if (fs::exists(fs::symlink_status(folder, error))) throw InputError(Place{name}, "exists; nothing was written");
   fs::create_directories(folder, error);

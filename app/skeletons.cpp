@@ -24,14 +24,8 @@ class @CLASS@ final : public gaitlab::Cpg {
       f.number("coupling", coupling, {"1/s", 0, 1000, "How hard a joint is pulled to its lag."});
     }
   };
-  // OscillatorKeys: the keys that all oscillators share, frequency, amplitude, offset, phase_lag and couplings.
-  struct Settings : gaitlab::OscillatorKeys {
-    Model model;
-    void fields(gaitlab::Fields& f) {
-      OscillatorKeys::fields(f);
-      f.group("model", model, "Keys of this model alone.");
-    }
-  };
+  // The keys that all oscillators share, frequency, amplitude, offset, phase_lag and couplings, and under `model` those above.
+  using Settings = gaitlab::OscillatorSettings<Model>;
 
   // Once a run. Where the settings do not fit the robot, throw std::invalid_argument: it is reported as an error of the scenario.
   @CLASS@(const gaitlab::RobotInfo& robot, const Settings& settings)

@@ -17,7 +17,8 @@
 /// Number of the interface, compiler, standard library: a plugin is loaded only where all three are the program's.
 #define GAITLAB_ABI "gaitlab-3, " GAITLAB_ABI_COMPILER ", " GAITLAB_ABI_LIBRARY
 
-// NOLINTNEXTLINE(bugprone-macro-parentheses): a parameter's name cannot stand in parentheses
+// NOLINTBEGIN(bugprone-macro-parentheses): a parameter's name cannot stand in parentheses
 #define GAITLAB_PLUGIN(registry)                               \
   extern "C" const char* gaitlab_abi() { return GAITLAB_ABI; } \
   extern "C" void gaitlab_register(gaitlab::Registry& registry)
+// NOLINTEND(bugprone-macro-parentheses)
