@@ -100,6 +100,22 @@ void SchemaFields::texts(const char* key, std::vector<std::string>& value, const
   properties_[key] = preset(described({{"type", "array"}, {"items", scalar()}}, about), value);
 }
 
+void SchemaFields::named(const char* key, std::vector<Named>& values, NamedValues kind, const char* about) {
+  Json one = scalar();
+  if (kind == NamedValues::texts_or_numbers) {  // a number may be one a joint
+    one["type"] = {"string", "number", "boolean", "array", "object"};
+    one["items"] = {{"type", "number"}};
+    one["additionalProperties"] = {{"type", "number"}};
+  }
+  Json map = Json::object();
+  for (const Named& value : values) map[value.name] = value.text.empty() ? Json(value.number.common) : Json(value.text);
+  properties_[key] = preset(described({{"type", "object"},
+                                       {"propertyNames", {{"pattern", "^[A-Za-z][A-Za-z0-9_]*$"}}},
+                                       {"additionalProperties", std::move(one)}},
+                                      about),
+                            std::move(map));
+}
+
 void SchemaFields::list(const char* key, const char* about, List list) {
   const std::size_t size = list.size(list.self);
   if (size == 0) list.resize(list.self, 1);  // an element with its defaults, to look at

@@ -26,7 +26,9 @@ class SchemaFields final : public Fields {
   void vector(const char* key, std::span<double> value, Spec spec) override;
   void numbers(const char* key, std::vector<double>& value, Spec spec) override;
   void texts(const char* key, std::vector<std::string>& value, const char* about) override;
+  void named(const char* key, std::vector<Named>& values, NamedValues kind, const char* about) override;
   void problem(const char*, std::string_view) override {}
+  void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
   using Fields::group;
   using Fields::list;
   using Fields::rule_or_list;
