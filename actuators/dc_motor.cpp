@@ -65,6 +65,14 @@ void DcMotorActuator::effort(In command, In speed, Out torque, Out slope) const 
   }
 }
 
+void DcMotorActuator::unlimited(In command, In speed, Out torque, Out slope) const {
+  for (std::size_t i = 0; i < motors_.size(); ++i) {
+    const DcMotor::Effort e = motors_[i].unlimited(command[i], speed[i]);
+    torque[i] = e.torque;
+    slope[i] = e.slope;
+  }
+}
+
 void DcMotorActuator::report(In command, In speed, Report out) const {
   for (std::size_t i = 0; i < motors_.size(); ++i) {
     const DcMotor::Effort e = motors_[i](command[i], speed[i]);

@@ -21,6 +21,7 @@ class DcMotorActuator final : public Actuator {
   [[nodiscard]] In reflected_inertia() const override { return inertia_; }
   void effort(In command, In speed, Out torque, Out slope) const override;
   void report(In command, In speed, Report out) const override;
+  void unlimited(In command, In speed, Out torque, Out slope) const override;
 
  private:
   std::vector<DcMotor> motors_;

@@ -4,6 +4,7 @@
 #include "controllers/register.h"
 #include "core/scenario/plugin_files.h"
 #include "cpg/register.h"
+#include "physics_articulated/engine.h"
 #include "physics_bullet/engine.h"
 
 namespace gaitlab::app {
@@ -11,6 +12,7 @@ namespace gaitlab::app {
 Catalog standard_catalog(const std::vector<std::string>& plugins) {
   Catalog catalog;
   register_bullet(catalog);
+  register_articulated(catalog);
   register_actuators(catalog);
   register_controllers(catalog);
   register_cpgs(catalog);

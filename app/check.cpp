@@ -20,9 +20,11 @@ int check(const ScenarioArguments& arguments) {
   fmt::print("{}: fine\n", s.name);
   fmt::print("  {} modules, {} bodies (moving as {}), {} degrees of freedom, {:.3f} kg\n", robot.modules.size(),
              robot.bodies.size(), robot.links.size(), robot.dof(s.base), robot.mass);
-  fmt::print("  engine {} ({}), step {} s: h lambda = {:.2f} standing (at most 1)\n", s.physics.engine->name,
+  const double rate = simulation.standing().rate;
+  fmt::print("  engine {} ({}), step {} s: {}\n", s.physics.engine->name,
              s.physics.engine->integrators[static_cast<std::size_t>(s.physics.integrator)], s.physics.step,
-             s.physics.step * simulation.standing().rate);
+             rate > 0 ? fmt::format("h lambda = {:.2f} standing (at most 1)", s.physics.step * rate)
+                      : "no limit on the step: nothing damps, or implicitly");
   fmt::print("  cpg {}, controller {}, actuator {}, {} contact elements\n", name_of(s.cpg), name_of(s.controller),
              name_of(s.actuator), contacts.size());
   for (const PluginFile& plugin : s.plugins) fmt::print("  plugin {} ({})\n", plugin.path, plugin.hash);

@@ -9,7 +9,6 @@
 #include "core/errors.h"
 #include "core/laws/hinge_stop.h"
 #include "core/simulation/stability.h"
-#include "core/simulation/support.h"
 #include "physics_bullet/multibody.h"
 
 namespace gaitlab {
@@ -37,6 +36,7 @@ class BulletPlant final : public Plant, private InverseMass {
     slope_.resize(n);
     applied_.resize(n);
     at_rest_.resize(n);
+    start_speed_.resize(n);
     monitor_.contacts.reserve(s.contacts.size());
     const In inertia = s.actuator == nullptr ? In() : s.actuator->reflected_inertia();
     if (std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; })) {
@@ -49,6 +49,7 @@ class BulletPlant final : public Plant, private InverseMass {
 
   void advance(In command, double h) override {
     layout_.read(numbers_, 0, state_);
+    start_speed_ = state_.qd;
     std::fill(applied_.begin(), applied_.end(), 0.0);
     work_ = {};
     integrator_.step(state_, h, [&](const RobotState& state, double weight, Acceleration& out) {
@@ -67,7 +68,7 @@ class BulletPlant final : public Plant, private InverseMass {
   }
 
   [[nodiscard]] Applied applied() const override {
-    return {applied_, In(work_).subspan(0, 1), In(work_).subspan(1, 1), In(work_).subspan(2, 1)};
+    return {applied_, start_speed_, In(work_).subspan(0, 1), In(work_).subspan(1, 1), In(work_).subspan(2, 1)};
   }
 
   void accelerate(const RobotState& state, In torque, std::span<const BodyWrench> wrenches, Acceleration& out) override {
@@ -101,7 +102,7 @@ class BulletPlant final : public Plant, private InverseMass {
     }
     monitor_.contacts.clear();
     if (standing && settings_.base != Base::fixed) {
-      stand();
+      stand(settings_, kinematics_, monitor_.contacts);
     } else {
       for_each_contact([&](const Contact& c) {
         monitor_.contacts.push_back({c.element, c.link, c.touch.point, c.touch.normal,
@@ -140,7 +141,7 @@ class BulletPlant final : public Plant, private InverseMass {
     double vn;    ///< normal velocity, positive when separating, m/s
     Vec3 vt;      ///< tangential velocity, m/s
     double slip;  ///< |vt|
-    PenaltyContact::Force force;
+    PenaltyContact::Force<double> force;
     [[nodiscard]] Vec3 world() const { return force.fn * touch.normal - force.friction_slope * vt; }
   };
 
@@ -173,30 +174,6 @@ class BulletPlant final : public Plant, private InverseMass {
     if (settings_.actuator != nullptr) settings_.actuator->effort(command, state.qd, torque_, slope_);
   }
 
-  /// Slopes of a robot that stands: the weight in equal parts on its support, at the penetration that carries it.
-  void stand() {
-    if (settings_.ground.kind == Ground::Kind::none) return;
-    std::vector<Support> elements;
-    std::vector<std::size_t> links(settings_.contacts.size());
-    body_.for_each_element(kinematics_, [&](std::size_t element, std::size_t link, const Vec3& centre, double radius) {
-      const Ground::Touch touch = settings_.ground.query(centre, radius);
-      elements.push_back({element, -touch.penetration, touch.point});
-      links[element] = link;
-    });
-    for (const Support& s : standing_on(std::move(elements), sums(robot_, kinematics_, settings_.gravity).com)) {
-      const Ground::Touch touch = settings_.ground.query(s.point, 0);
-      monitor_.contacts.push_back({s.element, links[s.element], s.point, touch.normal, Vec3::Zero(), touch.friction, 0});
-    }
-    if (monitor_.contacts.empty()) return;
-    const double load = robot_.mass * settings_.gravity.norm() / static_cast<double>(monitor_.contacts.size());
-    const double sink = load / settings_.law.kn;  // k = 1; for other exponents an estimate, monitored from the first tick on
-    for (ContactSlope& contact : monitor_.contacts) {
-      const double friction = contact.tangential;
-      contact.along_normal = settings_.law(sink, 0, 0, friction).normal_slope;
-      contact.tangential = friction * load / settings_.law.v_lim;
-    }
-  }
-
   PlantSettings settings_;
   const Robot& robot_;
   StateLayout layout_;
@@ -207,7 +184,7 @@ class BulletPlant final : public Plant, private InverseMass {
   std::optional<RotorInertia> rotors_;  ///< Bullet's algorithm has no place for them
   ExplicitIntegrator integrator_;
   Acceleration acceleration_;
-  std::vector<double> torque_, slope_, applied_, at_rest_;
+  std::vector<double> torque_, slope_, applied_, at_rest_, start_speed_;
   std::array<double, 2> power_ = {};  ///< given to the ground along its normal and along it, W
   std::array<double, 3> work_ = {};   ///< of the last step: contact, friction, stops
   RateMonitor monitor_;

@@ -225,7 +225,7 @@ std::string to_text(const Summary& s, const Scenario& scenario, const RunRecord&
     }
   }
   text += line("stability", s.stability_source.empty()
-                                ? std::string("nothing damps: the step has no such limit")
+                                ? std::string("no limit on the step: nothing damps, or implicitly")
                                 : fmt::format("h lambda at most {:.2f} at t = {:.2f} s ({}); above 1 in {} of the ticks",
                                               s.stability_max, r.worst_time, s.stability_source, percent(s.stability_share)));
   return text;

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/math/functions.h"
 
@@ -26,11 +27,18 @@ struct DcMotor {
     int saturation;  ///< 0 none, 1 voltage, 2 current
   };
 
-  [[nodiscard]] Effort operator()(double command, double speed) const {
+  [[nodiscard]] Effort operator()(double command, double speed) const { return at(command, speed, i_max); }
+  /// Whatever current that takes.
+  [[nodiscard]] Effort unlimited(double command, double speed) const {
+    return at(command, speed, std::numeric_limits<double>::infinity());
+  }
+
+ private:
+  [[nodiscard]] Effort at(double command, double speed, double largest) const {
     const double u = std::clamp(command, -u_max, u_max);
     const double emf = Ks * gear * speed;
     const double wanted = (u - emf) / R;
-    const double current = std::clamp(wanted, -i_max, i_max);
+    const double current = std::clamp(wanted, -largest, largest);
     const bool limited = current != wanted;
     const double steep = limited ? 0.0 : Kt * Ks * gear * gear / R;
     const Share share = gear_share(current, speed);
@@ -41,7 +49,6 @@ struct DcMotor {
                            : 0};
   }
 
- private:
   struct Share {
     double eta;    ///< T / (Kt i n)
     double slope;  ///< -d eta / d(w sign(i)), s/rad

@@ -9,16 +9,21 @@ struct Ground {
   enum class Kind { none, plane } kind = Kind::plane;
   double friction = 0.8;  ///< Coulomb coefficient f
 
-  struct Touch {
-    double penetration = 0;  ///< m; negative: the gap
-    Vec3 normal = Vec3::UnitZ();
-    Vec3 point = Vec3::Zero();  ///< where the force acts: the deepest point of the element
-    double friction = 0;
+  template <class T>
+  struct BasicTouch {
+    using Vector = Eigen::Matrix<T, 3, 1>;
+    T penetration;  ///< m; negative: the gap
+    Vector normal;
+    Vector point;  ///< where the force acts: the deepest point of the element
+    double friction;
   };
+  using Touch = BasicTouch<double>;
 
-  /// A sphere of `radius` (0: a point) centred at `centre`, world.
-  [[nodiscard]] Touch query(const Vec3& centre, double radius) const {
-    return {radius - centre.z(), Vec3::UnitZ(), {centre.x(), centre.y(), centre.z() - radius}, friction};
+  /// A sphere of `radius` (0: a point) centred at `centre`, world. T: double or lanes.
+  template <class T>
+  [[nodiscard]] BasicTouch<T> query(const Eigen::Matrix<T, 3, 1>& centre, double radius) const {
+    const T lowest = centre.z() - radius;
+    return {-lowest, {T(0.0), T(0.0), T(1.0)}, {centre.x(), centre.y(), lowest}, friction};
   }
 };
 

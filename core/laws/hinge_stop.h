@@ -1,25 +1,30 @@
 // The stop of a hinge outside its range: a spring and damper that only ever opposes, with its slopes.
 #pragma once
+#include "core/math/lanes.h"
 
 namespace gaitlab {
 
 /// torque = -ks (q - q_lim) - cs qd outside [lo, hi], cut off where it would pull back into the stop.  (chosen:
-/// docs/equations.md, 2) q rad, qd rad/s, torque N m on the joint.
-struct HingeStop {
+/// docs/equations.md, 2) q rad, qd rad/s, torque N m on the joint. T: double or lanes.
+template <class T>
+struct BasicHingeStop {
   static constexpr double kStiffness = 50;  ///< ks, N m/rad
   static constexpr double kDamping = 0.5;   ///< cs, N m s/rad
 
-  double torque = 0;
-  double damping = 0;    ///< -d(torque)/d(qd), N m s/rad
-  double stiffness = 0;  ///< -d(torque)/d(q), N m/rad
+  T torque = 0.0;
+  T damping = 0.0;    ///< -d(torque)/d(qd), N m s/rad
+  T stiffness = 0.0;  ///< -d(torque)/d(q), N m/rad
 
-  static HingeStop at(double q, double qd, double lo, double hi) {
-    const double excess = q > hi ? q - hi : q < lo ? q - lo : 0;
-    if (excess == 0) return {};
-    const double torque = -kStiffness * excess - kDamping * qd;
-    if (torque * excess >= 0) return {};
-    return {torque, kDamping, kStiffness};
+  static BasicHingeStop at(T q, T qd, double lo, double hi) {
+    using math::select;
+    const T zero = 0.0;
+    const T excess = select(q > hi, q - hi, select(q < lo, q - lo, zero));
+    const T torque = -kStiffness * excess - kDamping * qd;
+    const math::Mask<T> rests = torque * excess >= 0.0;
+    return {select(rests, zero, torque), select(rests, zero, T(kDamping)), select(rests, zero, T(kStiffness))};
   }
 };
+
+using HingeStop = BasicHingeStop<double>;
 
 }  // namespace gaitlab

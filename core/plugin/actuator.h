@@ -19,6 +19,10 @@ class Actuator {
     Out voltage, current, saturation, power_in, copper, gear;
   };
   virtual void report(In command, In speed, Report) const = 0;  ///< for trace and ledger only
+  /// effort as it would be without the limit that depends on the speed (a motor's largest current); the same bits where that
+  /// does not bind. An implicit step starts from it, for the limit may bind at its end and not at its start, or the other way
+  /// round. Without such a limit: effort.
+  virtual void unlimited(In command, In speed, Out torque, Out slope) const { effort(command, speed, torque, slope); }
 };
 
 }  // namespace gaitlab

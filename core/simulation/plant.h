@@ -46,6 +46,7 @@ struct ContactSample {
 /// with the integrator's weight.
 struct Applied {
   In torque;                    ///< mean motor torque, N m (joint * lanes + lane)
+  In speed;                     ///< joint speeds at which the motors gave it, rad/s: where their power is to be asked
   In contact, friction, stops;  ///< work on the ground along its normal, along it, and on the hinge stops
 };
 

@@ -201,11 +201,10 @@ bool Simulation::run(const std::function<void(double)>& progress, const std::ato
                         fmt::format("stopped at step {}, t = {:.6g} s: {}", step_number(), time(), error.what()));
 }
 
-/// The actuator law at the present state under the commands in force.
-void Simulation::report() {
+/// The actuator law at these speeds under the commands in force.
+void Simulation::report(In speeds) {
   if (actuator_ == nullptr) return;
-  actuator_->report(command_, plant_state_.subspan(layout_.speeds(), command_.size()),
-                    {voltage_, current_, saturation_, power_in_, copper_, gear_});
+  actuator_->report(command_, speeds, {voltage_, current_, saturation_, power_in_, copper_, gear_});
 }
 
 /// Kinetic and potential, rotors included, J.
@@ -241,7 +240,7 @@ Sample& Simulation::take_sample(Lane& lane, std::size_t l) {
 }
 
 void Simulation::record() {
-  report();
+  report(plant_state_.subspan(layout_.speeds(), command_.size()));
   if (actuator_ != nullptr) {
     actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
   }
@@ -331,11 +330,11 @@ void Simulation::watch_stability() {
 }
 
 void Simulation::advance() {
-  report();
   const auto part = [&](std::size_t at) { return plant_state_.subspan(at, command_.size()); };
   std::ranges::copy(part(layout_.angles()), angle_.begin());
   std::ranges::copy(part(layout_.speeds()), speed_.begin());
   plant_->advance(command_, h_);
+  report(plant_->applied().speed);
   meter_.add(angle_, speed_, setpoint_, plant_->applied().torque, {voltage_, current_, saturation_, power_in_, copper_, gear_},
              h_);
   keep_ledger();

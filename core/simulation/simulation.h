@@ -84,7 +84,7 @@ class Simulation {
   void set_start();
   void check_standing();
   void watch_stability();
-  void report();
+  void report(In speeds);
   void keep_ledger();
   [[nodiscard]] double energy(const Sample& sample, std::size_t lane) const;
   Sample& take_sample(Lane& lane, std::size_t index);

@@ -2,7 +2,31 @@
 
 #include <cmath>
 
+#include "core/simulation/support.h"
+
 namespace gaitlab {
+
+void stand(const PlantSettings& s, const Kinematics& k, std::vector<ContactSlope>& out) {
+  out.clear();
+  if (s.ground.kind == Ground::Kind::none) return;
+  std::vector<Support> elements;
+  for (std::size_t e = 0; e < s.contacts.size(); ++e) {
+    const Ground::Touch touch = s.ground.query(k.point(s.contacts[e].link, s.contacts[e].centre), s.contacts[e].radius);
+    elements.push_back({e, -touch.penetration, touch.point});
+  }
+  for (const Support& on : standing_on(std::move(elements), sums(*s.robot, k, s.gravity).com)) {
+    const Ground::Touch touch = s.ground.query(on.point, 0);
+    out.push_back({on.element, s.contacts[on.element].link, on.point, touch.normal, Vec3::Zero(), touch.friction, 0});
+  }
+  if (out.empty()) return;
+  const double load = s.robot->mass * s.gravity.norm() / static_cast<double>(out.size());
+  const double sink = load / s.law.kn;  // k = 1; for other exponents an estimate, monitored from the first tick on
+  for (ContactSlope& contact : out) {
+    const double friction = contact.tangential;
+    contact.along_normal = s.law(sink, 0.0, 0.0, friction).normal_slope;
+    contact.tangential = friction * load / s.law.v_lim;
+  }
+}
 
 RateMonitor::RateMonitor(const Robot& robot)
     : motor(robot.joints.size(), 0.0),

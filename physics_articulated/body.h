@@ -1,0 +1,217 @@
+// The articulated-body recursion over a scalar T, a double or lanes, with resistances of joints and points inside it.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "core/math/functions.h"
+#include "core/simulation/plant.h"
+#include "physics_articulated/cholesky.h"
+#include "physics_articulated/spatial.h"
+#include "physics_articulated/tree.h"
+
+namespace gaitlab::articulated {
+
+/// Solves (M + K) v' = f - c for v' = (acceleration of the base frame's origin, angular acceleration, joint accelerations),
+/// with K = diagonal + sum J^T G J, in O(links): a resistance acts on one joint or on one body against the world, so that each
+/// fits into the recursion (Featherstone, Rigid Body Dynamics Algorithms, 2008, 7.3, here in world axes about the origin of the
+/// base frame: a child's inertia and force are added to the parent's as they are). Forces are those at the start; weight is a
+/// force on each link and not an acceleration of the base, so that what resists sees true velocities.
+///     place, add_force and add_resistance as often as there are, solve; respond as often as wanted.
+/// State: entries as in StateLayout, SI; the quaternion may have any length but 0. No allocation but in the constructor.
+template <class T>
+class Body {
+ public:
+  Body(const Tree& tree, const Vec3& gravity) : tree_(tree), gravity_(vec(gravity)), links_(tree.links.size()) {}
+
+  /// Poses and velocities from the state; inertias, weight, centrifugal and gyroscopic forces.
+  void place(std::span<const T> state) {
+    place_base(state);
+    for (std::size_t i = 1; i < links_.size(); ++i) place_link(i, state);
+    clear();
+  }
+  /// Back to what place left: solve has used it up, and nothing added stays.
+  void clear() {
+    for (std::size_t i = 0; i < links_.size(); ++i) weigh(i);
+  }
+
+  /// On a link, at a point from the base frame's origin, world axes; N, N m.
+  void add_force(std::size_t link, const Vec<T>& x, const Vec<T>& force) { links_[link].p -= force_at(x, force); }
+  void add_moment(std::size_t link, const Vec<T>& moment) { links_[link].p.n -= moment; }
+  /// Force -G J v' on the point: G has the unit of a mass.
+  void add_resistance(std::size_t link, const Vec<T>& x, const Sym<T>& G) {
+    Link& l = links_[link];
+    l.I += resistance(x, G);
+    // J v' is what v' makes of the point's acceleration: the rest, `bias`, is there without it.
+    add_force(link, x, G * l.bias.at(x));
+  }
+
+  /// `torque` and `diagonal`: a joint, N m and kg m^2. out: 6 + joints.
+  void solve(std::span<const T> torque, std::span<const T> diagonal, std::span<T> out) {
+    for (std::size_t i = links_.size(); i-- > 1;) {
+      Link& l = links_[i];
+      const std::size_t j = tree_.links[i].joint;
+      l.U = l.I * l.S;
+      l.inverse = 1.0 / (dot(l.S, l.U) + diagonal[j]);
+      l.u = torque[j] - dot(l.S, l.p);
+      Link& parent = links_[tree_.links[i].parent];
+      l.I.add_square(-l.inverse, l.U);
+      parent.I += l.I;
+      parent.p += l.p;
+      parent.p += l.I * l.c;
+      add_scaled(parent.p, l.inverse * l.u, l.U);
+    }
+    factor_base();
+    spread(base_acceleration(), true, out);
+    // A spatial acceleration is not d/dt of the origin's velocity.
+    const Vec<T> turning = cross(links_[0].V.w, links_[0].V.v);
+    out[0] = out[0] + turning.x;
+    out[1] = out[1] + turning.y;
+    out[2] = out[2] + turning.z;
+  }
+
+  /// v' = (M + K)^-1 f of the last solve's matrix; f and out: 6 + joints, force on the base frame's origin first.
+  void respond(std::span<const T> f, std::span<T> out) {
+    for (Link& l : links_) l.p = {};
+    links_[0].p = {{-f[3], -f[4], -f[5]}, {-f[0], -f[1], -f[2]}};
+    for (std::size_t i = links_.size(); i-- > 1;) {
+      Link& l = links_[i];
+      l.u = f[6 + tree_.links[i].joint] - dot(l.S, l.p);
+      Force<T>& parent = links_[tree_.links[i].parent].p;
+      parent += l.p;
+      add_scaled(parent, l.inverse * l.u, l.U);
+    }
+    spread(base_acceleration(), false, out);
+  }
+
+  [[nodiscard]] const Vec<T>& origin() const { return origin_; }  ///< of the base frame, world, m
+  /// Of a point fixed to a link, from the base frame's origin.
+  [[nodiscard]] Vec<T> point(std::size_t link, const Vec<double>& in_link) const {
+    return links_[link].r + links_[link].R * in_link;
+  }
+  [[nodiscard]] Vec<T> velocity(std::size_t link, const Vec<T>& x) const { return links_[link].V.at(x); }
+  /// J v' of a point after solve.
+  [[nodiscard]] Vec<T> change(std::size_t link, const Vec<T>& x) const {
+    return links_[link].A.at(x) - links_[link].bias.at(x);
+  }
+
+ private:
+  struct Link {
+    Mat<T> R;        ///< own axes in the world
+    Vec<T> r;        ///< own origin, from the base frame's
+    Motion<T> S;     ///< what one unit of the joint's speed does
+    Motion<T> V;     ///< velocity
+    Motion<T> c;     ///< acceleration that the joint's turning axis makes
+    Motion<T> bias;  ///< acceleration where v' = 0
+    Inertia<T> I;    ///< rigid, then articulated, then what is left of it with the joint free
+    Force<T> p;      ///< force that holds it without acceleration
+    Force<T> U;      ///< I S
+    T inverse, u;    ///< 1 / (S^T I S + diagonal); what accelerates the joint
+    Motion<T> A;     ///< acceleration
+  };
+
+  static void add_scaled(Force<T>& to, const T& s, const Force<T>& U) {
+    to.n += s * U.n;
+    to.f += s * U.f;
+  }
+
+  void place_base(std::span<const T> s) {
+    Link& base = links_[0];
+    origin_ = {s[0], s[1], s[2]};
+    constexpr std::size_t o = StateLayout::kOrientation;
+    base.R = rotation(s[o], s[o + 1], s[o + 2], s[o + 3]);
+    constexpr std::size_t v = StateLayout::kVelocity;
+    constexpr std::size_t w = StateLayout::kAngularVelocity;
+    base.V = {{s[w], s[w + 1], s[w + 2]}, {s[v], s[v + 1], s[v + 2]}};
+    base.bias = {{}, -cross(base.V.w, base.V.v)};
+  }
+
+  void place_link(std::size_t i, std::span<const T> state) {
+    const TreeLink& constant = tree_.links[i];
+    const Link& parent = links_[constant.parent];
+    Link& l = links_[i];
+    const T& q = state[StateLayout::kAngles + constant.joint];
+    const T& qd = state[StateLayout::kAngles + tree_.lo.size() + constant.joint];
+    const auto [sin, cos] = math::sincos(q);
+    l.r = parent.r + parent.R * constant.origin;
+    const Mat<T> at_zero = parent.R * constant.at_zero;
+    l.R = {cos * at_zero.x + sin * at_zero.y, cos * at_zero.y - sin * at_zero.x, at_zero.z};
+    l.S = {l.R.z, cross(l.r, l.R.z)};
+    l.c = qd * cross(parent.V, l.S);
+    l.V = parent.V + qd * l.S;
+    l.bias = parent.bias + l.c;
+  }
+
+  void weigh(std::size_t i) {
+    const TreeLink& constant = tree_.links[i];
+    Link& l = links_[i];
+    const T mass = constant.mass;
+    const Vec<T> c = l.r + l.R * constant.com;
+    const Vec<T> h = mass * c;
+    l.I = rigid(constant.mass, h, c, turned(l.R, constant.inertia));
+    const Vec<T> weight = mass * gravity_;
+    const Vec<T> momentum = mass * l.V.v + cross(l.V.w, h);
+    const Vec<T> angular = l.I.A * l.V.w + cross(h, l.V.v);
+    l.p.n = cross(l.V.w, angular) + cross(l.V.v, momentum) - cross(c, weight);
+    l.p.f = cross(l.V.w, momentum) - weight;
+  }
+
+  /// Outwards. `moving`: with the accelerations that velocities make.
+  void spread(const Motion<T>& base, bool moving, std::span<T> out) {
+    links_[0].A = base;
+    const Motion<T>& a = base;
+    out[0] = a.v.x;
+    out[1] = a.v.y;
+    out[2] = a.v.z;
+    out[3] = a.w.x;
+    out[4] = a.w.y;
+    out[5] = a.w.z;
+    for (std::size_t i = 1; i < links_.size(); ++i) {
+      Link& l = links_[i];
+      const Motion<T>& parent = links_[tree_.links[i].parent].A;
+      const Motion<T> carried = moving ? parent + l.c : parent;
+      const T qdd = l.inverse * (l.u - dot(carried, l.U));
+      out[6 + tree_.links[i].joint] = qdd;
+      l.A = carried + qdd * l.S;
+    }
+  }
+
+  void factor_base() {
+    const Inertia<T>& I = links_[0].I;
+    if (tree_.base == Base::floating) {
+      free_.m = {{{I.A.xx},
+                  {I.A.xy, I.A.yy},
+                  {I.A.xz, I.A.yz, I.A.zz},
+                  {I.B.x.x, I.B.x.y, I.B.x.z, I.C.xx},
+                  {I.B.y.x, I.B.y.y, I.B.y.z, I.C.xy, I.C.yy},
+                  {I.B.z.x, I.B.z.y, I.B.z.z, I.C.xz, I.C.yz, I.C.zz}}};
+      free_.factor();
+    } else if (tree_.base == Base::planar) {
+      planar_.m = {{{I.A.yy}, {I.B.x.y, I.C.xx}, {I.B.z.y, I.C.xz, I.C.zz}}};
+      planar_.factor();
+    }
+  }
+
+  [[nodiscard]] Motion<T> base_acceleration() const {
+    const Force<T>& p = links_[0].p;
+    if (tree_.base == Base::floating) {
+      std::array<T, 6> a{-p.n.x, -p.n.y, -p.n.z, -p.f.x, -p.f.y, -p.f.z};
+      free_.solve(a);
+      return {{a[0], a[1], a[2]}, {a[3], a[4], a[5]}};
+    }
+    if (tree_.base == Base::planar) {
+      std::array<T, 3> a{-p.n.y, -p.f.x, -p.f.z};
+      planar_.solve(a);
+      return {{T(0.0), a[0], T(0.0)}, {a[1], T(0.0), a[2]}};
+    }
+    return {};
+  }
+
+  const Tree& tree_;
+  Vec<T> gravity_;
+  Vec<T> origin_;
+  std::vector<Link> links_;
+  Cholesky<T, 6> free_;    // of the base's articulated inertia: angular, then linear
+  Cholesky<T, 3> planar_;  // the same for the turn about y, x and z
+};
+
+}  // namespace gaitlab::articulated
