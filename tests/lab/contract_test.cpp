@@ -224,6 +224,33 @@ TEST_P(Contract, SameBitsTwiceAndStatesGoRound) {
   EXPECT_TRUE(std::equal(a.state().begin(), a.state().end(), later.state().begin()));
 }
 
+TEST_P(Contract, WithoutItsLimitTheLawIsTheSameOrMore) {
+  if (GetParam().kind != Kind::actuator) GTEST_SKIP() << "no actuator";
+  for (const char* model : {"", ", efficiency_model: directional"}) {
+    const bool motor = GetParam().name == "dc_motor";
+    const Scenario s = motor ? scenario(text("actuator: {type: dc_motor" + std::string(model) + "}\n")) : scenario(plain());
+    const void* settings = s.actuator.settings.get();
+    const std::unique_ptr<Actuator> actuator(static_cast<Actuator*>(s.actuator.entry->make(info(*s.robot), {&settings, 1})));
+    int limited = 0;
+    for (double command = -9; command <= 9; command += 0.75) {
+      for (double speed = -6; speed <= 6; speed += 0.5) {
+        const std::vector<double> u(2, command), w(2, speed);
+        std::vector<double> torque(2), slope(2), more(2), steeper(2);
+        actuator->effort(u, w, torque, slope);
+        actuator->unlimited(u, w, more, steeper);
+        EXPECT_GE(std::abs(more[0]), std::abs(torque[0])) << command << " V at " << speed;
+        EXPECT_GE(torque[0] * more[0], 0);
+        EXPECT_GE(steeper[0], slope[0]);
+        if (more[0] == torque[0]) {
+          EXPECT_EQ(steeper[0], slope[0]);
+        }
+        limited += more[0] != torque[0] ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(limited > 0, motor);
+  }
+}
+
 TEST_P(Contract, AllocatesNothing) {
   const Scenario s = scenario(plain());
   if (GetParam().kind == Kind::cpg) {

@@ -4,7 +4,7 @@
 #include "allocations.h"
 #include "core/scenario/scenario.h"
 #include "core/trace/trace.h"
-#include "fixture.h"
+#include "engines.h"
 
 namespace gaitlab::test {
 namespace {
@@ -59,9 +59,12 @@ struct Feeling final : Cpg {
   std::size_t n;
 };
 
-TEST(Determinism, SnapshotGoesOnInAnotherWorldWhateverTheCpgMeasures) {
-  add_cpg<Feeling>(catalog(), "feeling", "a test's");
-  const Scenario s = shipped("caterpillar.yaml", {"duration=0.2", "cpg.type=feeling"});
+class DeterminismOf : public EveryEngine {};
+INSTANTIATE_TEST_SUITE_P(Engine, DeterminismOf, engines(), engine_name);
+
+TEST_P(DeterminismOf, SnapshotGoesOnInAnotherWorldWhateverTheCpgMeasures) {
+  if (catalog().find(Kind::cpg, "feeling") == nullptr) add_cpg<Feeling>(catalog(), "feeling", "a test's");
+  const Scenario s = shipped("caterpillar.yaml", {"duration=2.1", "cpg.type=feeling", set()});
   const auto go = [](Simulation& simulation, int steps) {
     for (int i = 0; i < steps; ++i) simulation.step();
     return std::vector<double>(simulation.state().begin(), simulation.state().end());
@@ -93,8 +96,8 @@ TEST(Simulation, CpgStatesAreIntegratedToFourthOrder) {
   EXPECT_NEAR(Table(record.trace)(0.6, "cpg.0"), 0.5 * math::sin(1.2), 2e-10);
 }
 
-TEST(Determinism, SnapshotGoesOnAsIfNothingHadHappened) {
-  const Scenario s = shipped("caterpillar.yaml", {"duration=0.1"});
+TEST_P(DeterminismOf, SnapshotGoesOnAsIfNothingHadHappened) {
+  const Scenario s = shipped("caterpillar.yaml", {"duration=1", set()});
   Simulation simulation({&s, 1});
   for (int i = 0; i < 1000; ++i) simulation.step();
   const std::vector<double> snapshot(simulation.state().begin(), simulation.state().end());
@@ -105,8 +108,8 @@ TEST(Determinism, SnapshotGoesOnAsIfNothingHadHappened) {
   EXPECT_TRUE(std::equal(first.begin(), first.end(), simulation.state().begin()));
 }
 
-TEST(SteadyState, AllocatesNothing) {
-  const Scenario s = shipped("caterpillar.yaml", {"duration=0.1"});
+TEST_P(DeterminismOf, AllocatesNothingInTheSteadyState) {
+  const Scenario s = shipped("caterpillar.yaml", {"duration=1", set()});
   Simulation simulation({&s, 1});
   for (int i = 0; i < 1000; ++i) simulation.step();  // first ticks size Bullet's scratch
   const Allocations allocations;

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/dynamics/mass_matrix.h"
-#include "fixture.h"
+#include "engines.h"
 #include "tests/random_robots.h"
 #include "tests/validation.h"
 
@@ -147,7 +147,10 @@ Acceleration accelerate(const std::string& engine, const std::shared_ptr<const R
   return out;
 }
 
-TEST(Dynamics, EngineAgreesWithTheInverseDynamicsAtRandomStates) {
+class Dynamics : public EveryEngine {};
+INSTANTIATE_TEST_SUITE_P(Of, Dynamics, engines(), engine_name);
+
+TEST_P(Dynamics, AgreeWithTheInverseDynamicsAtRandomStates) {
   RandomRobots random(11);
   double worst = 0;
   for (int i = 0; i < 100; ++i) {
@@ -159,7 +162,7 @@ TEST(Dynamics, EngineAgreesWithTheInverseDynamicsAtRandomStates) {
     const std::vector<BodyWrench> wrenches{
         {random.below(robot->bodies.size()), random.vector(1), random.vector(5), random.vector(1)}};
     const Vec3 gravity = random.vector(10);
-    const Acceleration a = accelerate("bullet", robot, base, state, tau, wrenches, gravity);
+    const Acceleration a = accelerate(GetParam(), robot, base, state, tau, wrenches, gravity);
     Kinematics k(*robot);
     k.update(*robot, state);
     InverseDynamics dynamics(*robot);
@@ -176,7 +179,7 @@ TEST(Dynamics, EngineAgreesWithTheInverseDynamicsAtRandomStates) {
   }
   validate_below(
       {"property.inverse-of-forward", "M^-1 (RNEA(ABA(tau)) - tau) over the largest acceleration, 100 random assemblies",
-       "recursive Newton-Euler, independent of Bullet's articulated-body algorithm", ""},
+       "recursive Newton-Euler, independent of the engines' articulated-body algorithms", ""},
       worst, 1e-9, "required by the issue; rounding times the condition of M, 1e-16 * 1e5");
 }
 

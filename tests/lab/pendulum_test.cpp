@@ -3,15 +3,18 @@
 
 #include <cmath>
 
-#include "fixture.h"
+#include "engines.h"
 #include "tests/oracles/double_pendulum.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
 namespace {
 
-TEST(Pendulum, SwingsAsTheEllipticFunctionsSay) {
-  const RunRecord record = run(shipped("pendulum.yaml", {"duration=4"}));
+class Pendulum : public EveryEngine {};
+INSTANTIATE_TEST_SUITE_P(Of, Pendulum, engines(), engine_name);
+
+TEST_P(Pendulum, SwingsAsTheEllipticFunctionsSay) {
+  const RunRecord record = run(shipped("pendulum.yaml", {"duration=4", set()}));
   const oracle::Pendulum rod(std::sqrt(1.5 * 9.81), 1);
   const Table table(record.trace);
   double angle = 0;
@@ -38,7 +41,7 @@ TEST(Pendulum, SwingsAsTheEllipticFunctionsSay) {
 }
 
 /// Two rods of 1 kg and 1 m, hinge axis y; angles of the hinges are theta1 and theta2 - theta1.
-RunRecord two_rods(const std::string& integrator, double step, double duration) {
+RunRecord two_rods(const std::string& engine, const std::string& integrator, double step, double duration) {
   return run(scenario(fmt::format(R"(
 gaitlab: 1
 robot:
@@ -57,11 +60,11 @@ initial: {{angles: [1, 0.5], speeds: [0.3, -2]}}
 ground: {{type: none}}
 contact: {{on: none}}
 actuator: {{type: none}}
-physics: {{integrator: {}, step: {}}}
+physics: {{engine: {}, integrator: {}, step: {}}}
 duration: {}
 trace: {{period: 0.1, columns: [joint.*, energy.*]}}
 )",
-                                  integrator, step, duration)));
+                                  engine, integrator, step, duration)));
 }
 
 /// Largest error of the two angles from the vertical at the end.
@@ -74,8 +77,11 @@ double error(const RunRecord& record, double duration) {
   return std::max(std::abs(upper - end[0]), std::abs(both - end[1]));
 }
 
-TEST(DoublePendulum, SwingsAsLagrangesEquationsSay) {
-  const RunRecord record = two_rods("rk4", 2.5e-4, 2);
+class DoublePendulum : public EveryEngine {};
+INSTANTIATE_TEST_SUITE_P(Of, DoublePendulum, engines(), engine_name);
+
+TEST_P(DoublePendulum, SwingsAsLagrangesEquationsSay) {
+  const RunRecord record = two_rods(GetParam(), "rk4", 2.5e-4, 2);
   const Table table(record.trace);
   const auto total = [&](std::size_t row) { return table.at(row, "energy.kinetic") + table.at(row, "energy.potential"); };
   double energy = 0;
@@ -92,14 +98,18 @@ TEST(DoublePendulum, SwingsAsLagrangesEquationsSay) {
       1e-11, "as the angle");
 }
 
-TEST(Integrator, HasTheOrderItIsSaidToHave) {
-  const double semi_implicit =
-      std::log2(error(two_rods("semi_implicit", 1e-3, 1), 1) / error(two_rods("semi_implicit", 5e-4, 1), 1));
-  const double rk4 = std::log2(error(two_rods("rk4", 5e-3, 1), 1) / error(two_rods("rk4", 2.5e-3, 1), 1));
+class Integrator : public EveryEngine {};
+INSTANTIATE_TEST_SUITE_P(Of, Integrator, engines(), engine_name);
+
+TEST_P(Integrator, HasTheOrderItIsSaidToHave) {
+  const auto order = [](const std::string& integrator, double step) {
+    return std::log2(error(two_rods(GetParam(), integrator, step, 1), 1) /
+                     error(two_rods(GetParam(), integrator, step / 2, 1), 1));
+  };
   const std::string source = "docs/equations.md, 7; error against Lagrange's equations";
-  validate({"order.semi_implicit", "two rods, 1 s, 1 ms and 0.5 ms: log2 of the errors' ratio", source, ""}, semi_implicit, 1,
-           0.1, "the next order is smaller by the step times the rates, a few per cent");
-  validate({"order.rk4", "two rods, 1 s, 5 ms and 2.5 ms: log2 of the errors' ratio", source, ""}, rk4, 4, 0.4,
+  validate({"order." + first_order(), "two rods, 1 s, 1 ms and 0.5 ms: log2 of the errors' ratio", source, ""},
+           order(first_order(), 1e-3), 1, 0.1, "the next order is smaller by the step times the rates, a few per cent");
+  validate({"order.rk4", "two rods, 1 s, 5 ms and 2.5 ms: log2 of the errors' ratio", source, ""}, order("rk4", 5e-3), 4, 0.4,
            "the next order is smaller by the step times the rates, 5 ms * 10/s, on either side");
 }
 
