@@ -21,7 +21,8 @@ namespace gaitlab::articulated {
 template <class T>
 class Body {
  public:
-  Body(const Tree& tree, const Vec3& gravity) : tree_(tree), gravity_(vec(gravity)), links_(tree.links.size()) {}
+  Body(const Tree& tree, const Vec3& gravity)
+      : tree_(tree), gravity_{gravity.x(), gravity.y(), gravity.z()}, links_(tree.links.size()) {}
 
   /// Poses and velocities from the state; inertias, weight, centrifugal and gyroscopic forces.
   void place(std::span<const T> state) {

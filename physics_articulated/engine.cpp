@@ -10,7 +10,6 @@ namespace gaitlab {
 namespace {
 
 using articulated::Contact;
-using articulated::Vec;
 using articulated::vec;
 using articulated::vec3;
 

@@ -12,11 +12,8 @@
 namespace gaitlab::test {
 namespace {
 
-using articulated::Sym;
 using articulated::Tree;
-using articulated::Vec;
 using articulated::vec;
-using articulated::vec3;
 
 /// The generalised numbers that `base` has, of 6 + joints.
 Eigen::VectorXd kept(const std::vector<double>& all, Base base) {
