@@ -17,10 +17,12 @@ constexpr std::array kPluginKinds{Kind::cpg, Kind::controller, Kind::actuator};
 
 std::vector<std::string> kinds() { return {"cpg", "controller", "actuator", "engine", "module", "robot"}; }
 
-[[noreturn]] void unknown(const std::string& what, const std::string& found, const std::vector<std::string>& known) {
+[[noreturn]] void unknown(const std::string& what, const std::string& found, const std::vector<std::string>& known,
+                          const std::string& hint = "") {
   const std::string near = nearest(found, known);
-  throw InputError(Place{"gaitlab"}, fmt::format("unknown {} '{}'{}; known are {}", what, found,
-                                                 near.empty() ? "" : "; did you mean '" + near + "'?", fmt::join(known, ", ")));
+  throw InputError(Place{"gaitlab"},
+                   fmt::format("unknown {} '{}'{}; known are {}{}", what, found,
+                               near.empty() ? "" : "; did you mean '" + near + "'?", fmt::join(known, ", "), hint));
 }
 
 std::vector<std::string> names(const std::string& kind, const Catalog& catalog) {
@@ -70,7 +72,10 @@ int explain(const ManualArguments& arguments) {
   const std::vector<std::string> known = kinds();
   if (std::find(known.begin(), known.end(), kind) == known.end()) unknown("kind", kind, known);
   const std::vector<std::string> all = names(kind, catalog);
-  if (std::find(all.begin(), all.end(), name) == all.end()) unknown(kind, name, all);
+  if (std::find(all.begin(), all.end(), name) == all.end()) {
+    const bool plugin = std::any_of(kPluginKinds.begin(), kPluginKinds.end(), [&](Kind which) { return kind == word(which); });
+    unknown(kind, name, all, plugin && plugins.empty() ? "; one of your own needs --plugin LIBRARY" : "");
+  }
   for (const Kind which : kPluginKinds) {
     if (kind == word(which)) fmt::print("{}", explain_plugin(*catalog.find(which, name)));
   }

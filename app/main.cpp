@@ -84,7 +84,7 @@ int program(int argc, char** argv) {
 
   ManualArguments manual_arguments;
   const auto add_plugins = [&](CLI::App& command) {
-    command.add_option("--plugin", manual_arguments.plugins, "load this library first")
+    command.add_option("--plugin", manual_arguments.plugins, "load this library first; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   };

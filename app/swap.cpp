@@ -27,10 +27,19 @@ struct Swapped {
   Summary summary = {};
 };
 
+/// The CPG that the scenario has, which keeps what --set says of its model.
+std::string own_cpg(const SwapArguments& arguments, Catalog& catalog) {
+  ScenarioArguments quiet = arguments;
+  quiet.quiet = true;
+  const Scenario scenario = read(quiet, catalog);
+  return scenario.cpg.entry == nullptr ? "" : std::string(scenario.cpg.entry->name);
+}
+
 /// The scenario under each CPG; what is wrong with any of them is told of all at once.
 std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) {
   std::vector<Swapped> all;
   std::vector<Problem> problems;
+  const std::string own = own_cpg(arguments, catalog);
   for (const std::string& cpg : arguments.cpgs) {
     const auto same = [&](const Swapped& other) { return other.cpg == cpg; };
     if (std::any_of(all.begin(), all.end(), same)) {
@@ -39,7 +48,14 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
     }
     Swapped swapped{cpg};
     ScenarioArguments with = arguments;
-    with.sets.push_back("cpg.type=" + cpg);
+    if (cpg != own) {
+      const auto of_model = [](const std::string& set) { return set.starts_with("cpg.model"); };
+      for (const std::string& set : with.sets) {
+        if (of_model(set) && !arguments.quiet) fmt::print(stderr, "{}: note: {}: dropped --set {}\n", arguments.file, cpg, set);
+      }
+      std::erase_if(with.sets, of_model);
+      with.sets.push_back("cpg.type=" + cpg);
+    }
     try {
       swapped.scenario = read(with, catalog);
     } catch (const InputError& error) {

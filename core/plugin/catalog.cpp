@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cfenv>
 #include <cstdio>
 #include <cstdlib>
@@ -51,6 +52,13 @@ class NamedTermination {
   std::terminate_handler before_ = std::set_terminate(end);
 };
 
+/// What scenarios, --set and lists with commas can hold.
+bool is_name(const std::string& text) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto inside = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
+  return !text.empty() && letter(text.front()) && std::all_of(text.begin(), text.end(), inside);
+}
+
 }  // namespace
 
 const char* word(Kind kind) {
@@ -67,6 +75,10 @@ const char* word(Kind kind) {
 
 void Catalog::add(const Entry& entry) {
   const std::string name(entry.name);
+  if (!is_name(name)) {
+    throw std::invalid_argument(std::string(word(entry.kind)) + " '" + name + "' of " + origin_ +
+                                " has no name: a letter first, then letters, digits, _ and -");
+  }
   for (const Registered& known : entries_) {
     if (known.entry.kind == entry.kind && known.name == name) {
       throw std::invalid_argument(std::string(word(entry.kind)) + " '" + name + "' is registered twice: by " + known.origin +

@@ -32,7 +32,8 @@ class Catalog final : public Registry {
  public:
   Catalog() = default;
   Catalog(Catalog&&) = default;  // no copy: entries point to their origins
-  /// Names are unique within a kind: a second one throws std::invalid_argument naming both origins.
+  /// Names are unique within a kind: a second one throws std::invalid_argument naming both origins; so does one that is no
+  /// name (a letter, then letters, digits, _ and -).
   void add(const Entry& entry) override;
   void add(const Engine& engine);
   /// Where the entries added from now on come from: kBuiltIn or the path of a library.

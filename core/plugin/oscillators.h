@@ -70,8 +70,9 @@ struct OscillatorNetwork {
 };
 
 /// A CPG with one oscillator a joint, whose states stand in blocks, one number a joint: derive, and give start, derivative and
-/// output.
+/// output. The model's `coupling` is the weight of the couplings that a rule makes.
 template <class Model>
+requires requires(Model model) { model.coupling + 1.0; }
 class OscillatorCpg : public Cpg {
  public:
   using Settings = OscillatorSettings<Model>;

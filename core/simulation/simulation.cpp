@@ -298,6 +298,7 @@ void Simulation::command() {
     const Measured measured = lane.measured(time());
     if (lane.cpg != nullptr) {
       lane.cpg->event(measured, lane.cpg_state);
+      std::fill(lane.setpoint.begin(), lane.setpoint.end(), NAN);  // one that is not written is found below
       lane.cpg->output(time(), lane.cpg_state, lane.setpoint);
     } else {
       for (std::size_t j = 0; j < lane.setpoint.size(); ++j) lane.setpoint[j] = lane.scenario.initial.angles[j];

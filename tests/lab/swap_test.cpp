@@ -40,6 +40,13 @@ TEST_F(Swap, OneRowACpgAndAFigure) {
   EXPECT_EQ(read(folder / "again/overlay.svg"), figure);
 }
 
+TEST_F(Swap, WhatIsSetOfTheModelIsForItsOwnTypeAlone) {
+  const Result result = call("--cpg sine,phase_oscillator --set cpg.model.amplitude_rate=3");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("creep.yaml: note: sine: dropped --set cpg.model.amplitude_rate=3\n"), std::string::npos)
+      << result.err;
+}
+
 TEST_F(Swap, TheNumbersAreThoseOfARun) {
   const Result table = call("--cpg sine --quiet");
   EXPECT_EQ(table.err, "");
