@@ -14,8 +14,9 @@ struct Gait {
 /// Over one period of 4 s after 3.5 s, when amplitudes have grown.
 Gait walk_under(const std::string& type, double lag) {
   constexpr double kFrom = 3.5, kUntil = 8;
-  const RunRecord record =
-      run(shipped("caterpillar.yaml", {"cpg.type=" + type, fmt::format("cpg.phase_lag={}", lag), "duration=8"}));
+  std::vector<std::string> sets{"cpg.type=" + type, fmt::format("cpg.phase_lag={}", lag), "duration=8"};
+  if (type == "wave") sets.push_back("plugins=[" + std::string(GAITLAB_BINARY_DIR) + "/plugins/wave.so]");
+  const RunRecord record = run(shipped("caterpillar.yaml", sets));
   const Table table(record.trace);
   std::vector<std::vector<double>> rises(16);  // of each joint's angle through 0
   for (std::size_t j = 0; j < 16; ++j) {
@@ -64,7 +65,7 @@ TEST_P(WalkUnder, TheCaterpillarTravelsAndTurnsBackWithTheLagsSign) {
 
 INSTANTIATE_TEST_SUITE_P(Walk, WalkUnder,
                          ::testing::Values("phase_oscillator", "kuramoto_amplitude", "hopf", "matsuoka", "van_der_pol",
-                                           "equations"),
+                                           "equations", "wave"),
                          [](const auto& param) { return std::string(param.param); });
 
 /// How a run of one module under these equations ends.

@@ -20,6 +20,9 @@ struct Wave final : Cpg {
   };
   Wave(const RobotInfo& robot, const Settings& s) : n(robot.joints.size()), s(s) {}
   std::size_t states() const override { return n; }
+  void start(Out phi) const override {
+    for (std::size_t i = 0; i < n; ++i) phi[i] = s.phase_lag * static_cast<double>(i);
+  }
   void derivative(const Measured&, In phi, Out rate) const override {
     for (std::size_t i = 0; i < n; ++i) {
       rate[i] = 2 * std::numbers::pi * s.frequency[i];
