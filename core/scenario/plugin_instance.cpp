@@ -103,6 +103,9 @@ class GuardedActuator final : public Actuator {
   void report(In command, In speed, Report out) const override {
     guarded(entry_, "report", [&] { actuator_->report(command, speed, out); });
   }
+  void unlimited(In command, In speed, Out torque, Out slope) const override {
+    guarded(entry_, "unlimited", [&] { actuator_->unlimited(command, speed, torque, slope); });
+  }
 
  private:
   [[nodiscard]] In sized(const char* function, In values) const {
