@@ -60,7 +60,7 @@ struct SwapArguments : ScenarioArguments {
   std::optional<std::string> out;  ///< folder of the figure
   int jobs = 1;                    ///< threads
 };
-int swap(const SwapArguments& arguments);
+int swap_cpgs(const SwapArguments& arguments);
 
 struct DynamicsArguments : ScenarioArguments {
   std::string state;     ///< JSON file

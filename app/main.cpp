@@ -134,7 +134,7 @@ int program(int argc, char** argv) {
       ->delimiter(',');
   swap_command->add_option("--out", swap_arguments.out, "folder of the figure (default runs/swap-NAME)");
   swap_command->add_option("-j,--jobs", swap_arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
-  swap_command->callback([&] { chosen = [&] { return app::swap(swap_arguments); }; });
+  swap_command->callback([&] { chosen = [&] { return swap_cpgs(swap_arguments); }; });
 
   DynamicsArguments dynamics_arguments;
   CLI::App* dynamics_command = app.add_subcommand("dynamics", "one evaluation of the equations of motion, as JSON");

@@ -29,7 +29,7 @@ struct Swapped {
 
 /// The CPG that the scenario has, which keeps what --set says of its model.
 std::string own_cpg(const SwapArguments& arguments, Catalog& catalog) {
-  ScenarioArguments quiet = arguments;
+  auto quiet = static_cast<const ScenarioArguments&>(arguments);
   quiet.quiet = true;
   const Scenario scenario = read(quiet, catalog);
   return scenario.cpg.entry == nullptr ? "" : std::string(scenario.cpg.entry->name);
@@ -47,7 +47,7 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
       continue;
     }
     Swapped swapped{cpg};
-    ScenarioArguments with = arguments;
+    auto with = static_cast<const ScenarioArguments&>(arguments);
     if (cpg != own) {
       const auto of_model = [](const std::string& set) { return set.starts_with("cpg.model"); };
       for (const std::string& set : with.sets) {
@@ -167,7 +167,7 @@ std::string figure(const std::vector<Swapped>& all) {
 
 }  // namespace
 
-int swap(const SwapArguments& arguments) {
+int swap_cpgs(const SwapArguments& arguments) {
   Catalog catalog = standard_catalog();
   std::vector<Swapped> all = read_all(arguments, catalog);
   RunFolder folder(arguments.out, "swap-" + all.front().scenario->name);
