@@ -387,15 +387,10 @@ void Reader::rule_or_list(const char* key, int& rule, std::span<const char* cons
 
 void Reader::group(const char* key, const char*, Group group) {
   const Node* node = take(key);
-  if (node != nullptr) {
-    Reader reader(*node, key, problems_, joints_, folder_);
-    group.visit(group.self, reader);
-    reader.finish();
-  } else {
-    Reader reader(map_->place, problems_, joints_, folder_);
-    group.visit(group.self, reader);
-    reader.finish();
-  }
+  Reader reader =
+      node != nullptr ? Reader(*node, key, problems_, joints_, folder_) : Reader(map_->place, problems_, joints_, folder_);
+  group.visit(group.self, reader);
+  reader.finish();
 }
 
 }  // namespace gaitlab
