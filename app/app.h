@@ -56,7 +56,7 @@ struct ConvergeArguments : ScenarioArguments {
 int converge(const ConvergeArguments& arguments);
 
 struct SwapArguments : ScenarioArguments {
-  std::vector<std::string> cpgs;
+  std::string cpgs;                ///< types, with commas between
   std::optional<std::string> out;  ///< folder of the figure
   int jobs = 1;                    ///< threads
 };

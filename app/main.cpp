@@ -130,8 +130,7 @@ int program(int argc, char** argv) {
   add_scenario(*swap_command, swap_arguments);
   swap_command
       ->add_option("--cpg", swap_arguments.cpgs, "their types, with commas between; common keys stay, `model` falls back")
-      ->required()
-      ->delimiter(',');
+      ->required();
   swap_command->add_option("--out", swap_arguments.out, "folder of the figure (default runs/swap-NAME)");
   swap_command->add_option("-j,--jobs", swap_arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
   swap_command->callback([&] { chosen = [&] { return swap_cpgs(swap_arguments); }; });

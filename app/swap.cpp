@@ -23,6 +23,7 @@ constexpr double kShown = 8;  // s, of set point and torque: their last
 struct Swapped {
   std::string cpg;
   std::optional<Scenario> scenario = {};
+  std::vector<std::string> notes = {};
   RunRecord record = {};
   Summary summary = {};
 };
@@ -35,12 +36,29 @@ std::string own_cpg(const SwapArguments& arguments, Catalog& catalog) {
   return scenario.cpg.entry == nullptr ? "" : std::string(scenario.cpg.entry->name);
 }
 
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> names(1);
+  for (const char c : list) {
+    if (c == ',') {
+      names.emplace_back();
+    } else {
+      names.back() += c;
+    }
+  }
+  return names;
+}
+
 /// The scenario under each CPG; what is wrong with any of them is told of all at once.
 std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) {
   std::vector<Swapped> all;
   std::vector<Problem> problems;
   const std::string own = own_cpg(arguments, catalog);
-  for (const std::string& cpg : arguments.cpgs) {
+  for (const std::string& cpg : split(arguments.cpgs)) {
+    if (cpg.empty()) {
+      problems.push_back(
+          {Place{"--cpg"}, fmt::format("has an empty name in '{}'; expected types with commas between", arguments.cpgs)});
+      continue;
+    }
     const auto same = [&](const Swapped& other) { return other.cpg == cpg; };
     if (std::any_of(all.begin(), all.end(), same)) {
       problems.push_back({Place{"--cpg"}, fmt::format("names '{}' twice", cpg)});
@@ -48,18 +66,21 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
     }
     Swapped swapped{cpg};
     auto with = static_cast<const ScenarioArguments&>(arguments);
+    with.quiet = true;  // notes are told once all names are read
     if (cpg != own) {
       const auto of_model = [](const std::string& set) { return set.starts_with("cpg.model"); };
       for (const std::string& set : with.sets) {
-        if (of_model(set) && !arguments.quiet) fmt::print(stderr, "{}: note: {}: dropped --set {}\n", arguments.file, cpg, set);
+        if (of_model(set)) swapped.notes.push_back(fmt::format("{}: dropped --set {}", cpg, set));
       }
       std::erase_if(with.sets, of_model);
       with.sets.push_back("cpg.type=" + cpg);
     }
     try {
       swapped.scenario = read(with, catalog);
+      swapped.notes.insert(swapped.notes.end(), swapped.scenario->notes.begin(), swapped.scenario->notes.end());
     } catch (const InputError& error) {
-      for (const Problem& problem : error.problems()) {
+      for (Problem problem : error.problems()) {
+        if (problem.place.file == "--set cpg.type=" + cpg) problem.place = Place{"--cpg"};  // what the user wrote
         const auto alike = [&](const Problem& p) {
           return p.text == problem.text && to_string(p.place) == to_string(problem.place);
         };
@@ -69,6 +90,11 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
     all.push_back(std::move(swapped));
   }
   if (!problems.empty()) throw InputError(std::move(problems));
+  for (const Swapped& swapped : all) {
+    for (const std::string& note : swapped.notes) {
+      if (!arguments.quiet) fmt::print(stderr, "{}: note: {}\n", arguments.file, note);
+    }
+  }
   return all;
 }
 

@@ -100,7 +100,7 @@ EquationProgram::EquationProgram(const EquationNames& names, const EquationTable
     from_.push_back(static_cast<std::size_t>(c.from));
     to_.push_back(static_cast<std::size_t>(c.to));
   }
-  width_ = std::max(joints_, from_.size());
+  width_ = std::max({std::size_t{1}, joints_, from_.size()});  // a robot may have no joint
   for (std::size_t k = 0; k < texts.size(); ++k) put_out(compile(texts[k], Over::joints), k);
   scratch_.assign(blocks_ * width_, 0.0);
   names_ = nullptr;

@@ -26,7 +26,7 @@ angle rad, speed rad/s, torque N m, touching (1 while the joint's module touches
 
     sum(j in neighbours, TERM)      over the couplings by which joint i follows a joint j. In TERM: NAME[j], and of the
                                     coupling w[i,j] (its weight) and psi[i,j] (minus its phase_lag: phi_i = phi_j - psi_ij)
-    + - * / ^   < <= > >= == !=   and or not      comparisons give 1 or 0; anything but 0 is true
+    + - * / ^   < <= > >= == !=   and or not      comparisons give 1 or 0; anything but 0 is true, no number (log(-1)), too
     sin cos tan tanh exp log sqrt abs sign        of one number; log: natural; sign(0) = 0
     min(a, b)  max(a, b)  clamp(x, low, high)  if(condition, then, else)
 

@@ -337,6 +337,14 @@ TEST_P(OscillatorContract, RealisesTheCommonKeys) {
       "[{from: 0, to: 1, phase_lag: 0.9}, {from: 1, to: 2, phase_lag: 0.9, weight: 2}, {from: 2, to: 3, phase_lag: 0.9}]");
 }
 
+TEST_P(OscillatorContract, RunsOnARobotWithoutJoints) {
+  const Scenario s = scenario(
+      "gaitlab: 1\nrobot: {modules: {name: rigid, bodies: {block: {mass: 1, com: [0, 0, 0], inertia: [1, 1, 1, 0, 0, 0]}}}}\n"
+      "contact: {on: none}\ntrace: {columns: [base.*]}\nduration: 0.06\ncpg: {type: " +
+      GetParam().name + "}\n");
+  EXPECT_EQ(run(s).trace.rows(), 13U);
+}
+
 std::string shown(const ::testing::TestParamInfo<Plugin>& param) { return section(param.param.kind) + "_" + param.param.name; }
 
 INSTANTIATE_TEST_SUITE_P(Every, Contract, ::testing::ValuesIn(registered()), shown);

@@ -72,6 +72,11 @@ TEST_F(Swap, BadInputIsToldAtOnceAndNothingIsRun) {
   EXPECT_EQ(result.out, "");
   EXPECT_FALSE(fs::exists(folder / "runs"));
   EXPECT_EQ(call("").code, 2);
+  result = call("--cpg sine,,hopf");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "--cpg: error: has an empty name in 'sine,,hopf'; expected types with commas between\n");
+  EXPECT_EQ(call("--cpg hopff,sine").err, "--cpg: error: type 'hopff' is unknown; did you mean 'hopf'?\n");
+  EXPECT_EQ(gaitlab("swap --cpg sine creep.yaml --out first", folder / "").code, 0);
 }
 
 TEST_F(Swap, OneThatDivergesKeepsItsRow) {
