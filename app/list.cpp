@@ -73,7 +73,8 @@ int explain(const ManualArguments& arguments) {
   if (std::find(known.begin(), known.end(), kind) == known.end()) unknown("kind", kind, known);
   const std::vector<std::string> all = names(kind, catalog);
   if (std::find(all.begin(), all.end(), name) == all.end()) {
-    const bool plugin = std::any_of(kPluginKinds.begin(), kPluginKinds.end(), [&](Kind which) { return kind == word(which); });
+    const bool plugin =
+        std::any_of(kPluginKinds.begin(), kPluginKinds.end(), [&kind = kind](Kind which) { return kind == word(which); });
     unknown(kind, name, all, plugin && plugins.empty() ? "; one of your own needs --plugin LIBRARY" : "");
   }
   for (const Kind which : kPluginKinds) {
