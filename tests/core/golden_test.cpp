@@ -218,7 +218,7 @@ TEST(GoldenBands, TheLargestPartIsTheBand) {
   EXPECT_EQ(bands.columns[1].halving, 0);
   EXPECT_NEAR(bands.columns[3].halving, 3 * 5e-4 / scale[3], 1e-12);
   EXPECT_EQ(bands.columns[3].ensemble, 0);
-  for (const std::size_t i : {1, 2, 3, 4}) EXPECT_EQ(bands.columns[i].floor, 1e-6);
+  for (std::size_t i = 1; i < 5; ++i) EXPECT_EQ(bands.columns[i].floor, 1e-6);
   EXPECT_EQ(bands.columns[1].width(), bands.columns[1].ensemble);
   EXPECT_NEAR(bands.numbers[0].ensemble, 10 * 0.001, 1e-12);
   EXPECT_NEAR(bands.numbers[0].halving, 3 * 0.005, 1e-12);
