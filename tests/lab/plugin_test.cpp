@@ -69,8 +69,12 @@ TEST_F(Plugins, AFileThatIsNotThereNamesWhatWasTried) {
 }
 
 TEST_F(Plugins, AStaticObjectThatThrowsIsAnError) {
-  EXPECT_EQ(error(with("throws_at_load.so", "sine")),
-            kPlugins + "throws_at_load.so: error: a static object of this plugin threw an exception when it was loaded\n");
+  // glibc's dlopen ends the program; a sanitizer's lets the exception through, and its own text is told.
+  const std::string ended =
+      kPlugins + "throws_at_load.so: error: a static object of this plugin threw an exception when it was loaded\n";
+  const std::string passed = "s.yaml:2:11: error: plugin '" + kPlugins + "throws_at_load.so' cannot be loaded: no luck\n";
+  const std::string said = error(with("throws_at_load.so", "sine"));
+  EXPECT_TRUE(said == ended || said == passed) << said;
 }
 
 TEST_F(Plugins, LoadingLeavesTheRoundingOfTheProcessorAsItWas) {
