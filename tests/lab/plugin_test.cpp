@@ -108,7 +108,7 @@ TEST_F(Plugins, WhatOneThrowsBeforeTheRunIsAnErrorOfTheScenario) {
   for (const auto& [kind, where, what] : cases) {
     const std::string text = error(throwing(kind, where));
     const std::string place = "s.yaml:7:" + std::to_string(kind.size() + 10) + ": error: ";
-    EXPECT_EQ(text, place + kind + " 'throws' (" + kPlugins + "throws.so): " + what + "\n");
+    EXPECT_EQ(text, fmt::format("{}{} 'throws' ({}throws.so): {}\n", place, kind, kPlugins, what));
     EXPECT_EQ(gaitlab("run s.yaml --quiet --out run", folder / "").code, 2);
     EXPECT_FALSE(std::filesystem::exists(folder / "run")) << kind << ' ' << where;
   }
@@ -121,12 +121,11 @@ TEST_F(Plugins, WhatOneThrowsInTheRunEndsItAndKeepsWhatWasSimulated) {
       {"controller", "update", "update threw: no luck"},  {"actuator", "report", "report threw: no luck"}};
   for (const auto& [kind, where, what] : cases) {
     folder.write("s.yaml", throwing(kind, where));
-    const Result result = gaitlab("run s.yaml --quiet --out " + kind + where, folder / "");
+    const Result result = gaitlab(fmt::format("run s.yaml --quiet --out {}{}", kind, where), folder / "");
     EXPECT_EQ(result.code, 1);
-    EXPECT_NE(result.err.find(kind + " 'throws' (" + kPlugins + "throws.so): " + what +
-                              "; what was simulated until then is in " + kind + where + "\n"),
-              std::string::npos)
-        << result.err;
+    const std::string told = fmt::format("{0} 'throws' ({1}throws.so): {2}; what was simulated until then is in {0}{3}\n", kind,
+                                         kPlugins, what, where);
+    EXPECT_NE(result.err.find(told), std::string::npos) << result.err;
     EXPECT_TRUE(std::filesystem::exists(folder / (kind + where + "/summary.json")));
   }
 }
