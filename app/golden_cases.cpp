@@ -17,6 +17,12 @@ namespace fs = std::filesystem;
 
 bool is_scenario(const fs::path& file) { return file.extension() == ".yaml" || file.extension() == ".yml"; }
 
+/// A link to nothing is there, too; what cannot be looked at is not, and reading it says why.
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(path, error));
+}
+
 /// Scenarios, and goldens that have none: one of them may be gone unseen.
 struct Found {
   std::vector<fs::path> scenarios, orphans;
@@ -26,7 +32,7 @@ struct Found {
 fs::path scenario_of(const fs::path& golden) {
   for (const char* extension : {".yaml", ".yml"}) {
     fs::path file = fs::path(golden).replace_extension(extension);
-    if (fs::symlink_status(file).type() != fs::file_type::not_found) return file;
+    if (is_there(file)) return file;
   }
   return {};
 }
@@ -36,7 +42,8 @@ void find_in(const fs::path& folder, bool top, Found& found) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const fs::path& path = entry.path();
-    const bool is_folder = kind_of(path) == fs::file_type::directory;
+    std::error_code unknown;  // a loop of links is no folder: its own case tells
+    const bool is_folder = fs::is_directory(path, unknown);
     if (top && is_scenario(path) && !is_folder) found.scenarios.push_back(path);
     if (!is_folder) continue;
     if (path.extension() != ".golden") {
@@ -65,7 +72,7 @@ GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golde
     c.folder = golden ? fs::path(*golden) : own_golden(file);
     c.given_golden = golden.has_value();
     if (kind_of(file) == fs::file_type::not_found) throw InputError(Place{c.file}, "is a link to nothing");
-    if (golden || fs::symlink_status(c.folder).type() != fs::file_type::not_found) {
+    if (golden || is_there(c.folder)) {
       c.golden = read_golden(c.folder);
     } else if (!must) {
       c.verdict = Verdict::skipped;
@@ -150,7 +157,7 @@ void GoldenCase::fail(Verdict as, std::string text) {
 fs::path own_golden(const fs::path& scenario) {
   for (const char* extension : {".yaml", ".yml"}) {
     const fs::path other = fs::path(scenario).replace_extension(extension);
-    if (other.extension() == scenario.extension() || fs::symlink_status(other).type() == fs::file_type::not_found) continue;
+    if (other.extension() == scenario.extension() || !is_there(other)) continue;
     throw InputError(Place{scenario.string()}, fmt::format("would share its golden, {}, with {}; rename one of them",
                                                            golden_folder(scenario).string(), other.filename().string()));
   }

@@ -1,6 +1,8 @@
 // yaml-cpp gives the start of a scalar alone (of a block scalar its `|`); the rest is read again from the source.
 #include "core/scenario/node_places.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace gaitlab {
@@ -75,6 +77,12 @@ Place place_in(const Node& scalar, std::size_t offset) {
   if (scalar.quoted && first == '|') return in_block(scalar, offset);
   if (scalar.quoted && first == '>') return scalar.place;
   return in_line(scalar, offset);
+}
+
+void add_in(const Node& scalar, std::size_t offset, std::string_view what, Problems& problems) {
+  const Place place = place_in(scalar, offset);
+  const bool followed = offset == 0 || to_string(place) != to_string(scalar.place);
+  problems.add(place, followed ? std::string(what) : fmt::format("{} (at character {} of the text)", what, offset + 1));
 }
 
 }  // namespace gaitlab

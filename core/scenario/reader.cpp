@@ -336,13 +336,12 @@ void Reader::problem(const char* key, std::string_view what) {
 
 void Reader::problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) {
   const Node* node = map_->find(key);
-  if (node == nullptr || name.empty()) {
-    const bool given = node != nullptr;
-    if (given) {
-      add_in(*node, offset, what);
-    } else {
-      problems_.add(map_->place, std::string(what));
-    }
+  if (node == nullptr) {
+    problems_.add(map_->place, std::string(what));
+    return;
+  }
+  if (name.empty()) {
+    add_in(*node, offset, what, problems_);
     return;
   }
   const auto key_of_it = std::find_if(node->keys.begin(), node->keys.end(), [&](const auto& one) { return one.first == name; });
@@ -351,14 +350,8 @@ void Reader::problem_at(const char* key, std::string_view name, std::size_t offs
   } else if (offset == std::string_view::npos) {
     problems_.add(key_of_it->second, std::string(what));
   } else {
-    add_in(*node->find(key_of_it->first), offset, what);
+    add_in(*node->find(key_of_it->first), offset, what, problems_);
   }
-}
-
-void Reader::add_in(const Node& scalar, std::size_t offset, std::string_view what) {
-  const Place place = place_in(scalar, offset);
-  const bool followed = offset == 0 || to_string(place) != to_string(scalar.place);
-  problems_.add(place, followed ? std::string(what) : fmt::format("{} (at character {} of the text)", what, offset + 1));
 }
 
 void Reader::list(const char* key, const char*, List list) {

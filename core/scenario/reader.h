@@ -56,8 +56,6 @@ class Reader final : public Fields {
   void group(const char* key, const char* about, Group group) override;
 
   const Node* take_list(const char* key, const char* expected);
-  /// A problem at a byte of a scalar's text; where that cannot be followed in the file, told by its number.
-  void add_in(const Node& scalar, std::size_t offset, std::string_view what);
   void read_elements(const char* key, const Node& node, const List& list);
   bool read_one(const Node& node, const std::string& what, const Spec& spec, double& value);
   void read_each(const Node& node, const std::string& key, const Spec& spec, std::span<double> value);

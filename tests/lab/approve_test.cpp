@@ -85,6 +85,10 @@ TEST_F(ApproveCommand, ApproveLooksAtItsTargetFirst) {
                  "--replace makes a new one, whose history begins with it");
   fs::create_symlink("loop.yaml", folder / "loop.yaml");
   expect_refused("test loop.yaml", "loop.yaml: error: cannot be read: Too many levels of symbolic links");
+  const Result folder_with_it = call("test .");  // the others are still tested
+  EXPECT_EQ(folder_with_it.code, 2);
+  expect_contains(folder_with_it.err, "./loop.yaml: error: cannot be read: Too many levels of symbolic links\n");
+  expect_contains(folder_with_it.out, "0 passed, 0 failed, ");
 }
 
 // Where a robot hardly moves, the cost of its transport is noise: on neither side of the limit is it a regression.
