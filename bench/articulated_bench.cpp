@@ -1,0 +1,99 @@
+// What engine `articulated` costs: a step of the kernel, a control tick, a whole run; chains of 10 to 1000 modules.
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <string>
+
+#include "app/app.h"
+#include "core/scenario/plugin_instance.h"
+#include "core/simulation/simulation.h"
+#include "core/simulation/start.h"
+#include "physics_articulated/stepper.h"
+
+namespace gaitlab {
+namespace {
+
+constexpr double kStep = 5e-4;  // s
+
+/// Lives as long as the scenarios made from it.
+Catalog& catalog() {
+  static Catalog all = app::standard_catalog();
+  return all;
+}
+
+Scenario shipped(const std::string& name, std::vector<std::string> sets = {}) {
+  sets.emplace_back("physics.engine=articulated");
+  sets.emplace_back("trace.columns=[joint.*]");
+  return read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/scenarios/" + name, sets, catalog());
+}
+
+/// The caterpillar with another number of modules.
+Scenario chain(std::size_t modules) {
+  std::vector<Dock> docks;
+  for (int k = 1; k < static_cast<int>(modules); ++k) docks.push_back({1, k, 4, k - 1, 0});
+  Scenario s = shipped("caterpillar.yaml");
+  s.robot = std::make_shared<Robot>(assemble(s.robot->types, std::vector<std::size_t>(modules, 0), docks));
+  return s;
+}
+
+/// Steps of the implicit method alone: standing on the ground, motors without a command.
+void kernel(benchmark::State& state, const Scenario& s) {
+  const std::vector<ContactElement> contacts = contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on));
+  const std::unique_ptr<Actuator> motors = make_actuator(std::array{&s.actuator}, info(*s.robot));
+  PlantSettings settings{s.robot,      s.base,   s.physics.gravity,
+                         s.ground,     contacts, s.contact.penalty,
+                         motors.get(), 1,        articulated::Stepper<double>::implicit};
+  const articulated::Tree tree(*s.robot, s.base, contacts);
+  articulated::Stepper<double> stepper(tree, settings);
+  const StateLayout layout{s.robot->joints.size(), 1};
+  std::vector<double> x(layout.size());
+  const std::vector<double> command(s.robot->joints.size());
+  layout.write(start_state(s), 0, x);
+  for (int i = 0; i < 200; ++i) stepper.step(x, command, kStep);  // until it stands
+  const std::vector<double> standing = x;
+  for ([[maybe_unused]] auto once : state) {
+    std::copy(standing.begin(), standing.end(), x.begin());  // every call does the same
+    stepper.step(x, command, kStep);
+    benchmark::DoNotOptimize(x.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+void kernel_of(benchmark::State& state, const char* file) { kernel(state, shipped(file)); }
+
+/// Argument: modules. The exponent of the cost is fitted.
+void kernel_of_chain(benchmark::State& state) {
+  kernel(state, chain(static_cast<std::size_t>(state.range(0))));
+  state.SetComplexityN(state.range(0));
+}
+
+/// Loop, CPG, controllers and one step: control and trace at every step, less what a step costs, is what a tick costs.
+void tick_of(benchmark::State& state, const char* file) {
+  const std::string period = "=0.0005";  // kStep
+  const Scenario s =
+      shipped(file, {"controller.period" + period, "trace.period" + period, "physics.step" + period, "duration=1000"});
+  Simulation simulation({&s, 1});
+  for ([[maybe_unused]] auto once : state) simulation.step();
+}
+
+/// Two simulated seconds at the engine's own step; counter: simulated seconds per second.
+void run_of(benchmark::State& state, const char* file) {
+  const Scenario s = shipped(file, {"duration=2"});
+  for ([[maybe_unused]] auto once : state) {
+    Simulation simulation({&s, 1});
+    simulation.run();
+    benchmark::DoNotOptimize(simulation.state().data());
+  }
+  state.counters["sim_s/s"] = benchmark::Counter(2, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+BENCHMARK_CAPTURE(kernel_of, hexapod, "hexapod.yaml");
+BENCHMARK_CAPTURE(kernel_of, caterpillar, "caterpillar.yaml");
+BENCHMARK(kernel_of_chain)->Arg(10)->Arg(100)->Arg(1000)->Complexity(benchmark::oN);
+BENCHMARK_CAPTURE(tick_of, hexapod, "hexapod.yaml")->Iterations(2000);
+BENCHMARK_CAPTURE(tick_of, caterpillar, "caterpillar.yaml")->Iterations(2000);
+BENCHMARK_CAPTURE(run_of, hexapod, "hexapod.yaml")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_of, caterpillar, "caterpillar.yaml")->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace gaitlab

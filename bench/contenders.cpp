@@ -1,0 +1,73 @@
+#include "bench/contenders.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gaitlab::versus {
+
+namespace {
+
+std::vector<std::string> sets(const std::string& engine, const std::string& integrator) {
+  return {"physics.engine=" + engine, "physics.integrator=" + integrator};
+}
+
+bool has(const Engine* engine, const std::string& integrator) {
+  return engine != nullptr && std::ranges::find(engine->integrators, integrator) != engine->integrators.end();
+}
+
+// Steps divide the trace's 5 ms and the controller's 15 ms.
+const std::vector<double> kShort{2.5e-5, 5e-5};
+const std::vector<double> kUser{2.5e-5, 5e-5, 1e-4, 2.5e-4, 1e-3};
+const std::vector<double> kLong{2.5e-4, 5e-4, 6.25e-4, 1e-3, 1.25e-3, 5e-3 / 3, 2.5e-3};
+const std::vector<double> kLonger{5e-4, 1e-3, 1.25e-3, 5e-3 / 3, 2.5e-3, 5e-3};
+
+void add_bullet(Field& field) {
+  const auto penalty = sets("bullet", "semi_implicit");
+  field.references.push_back({"bullet", penalty, {2.5e-5, 1.25e-5}});
+  field.contenders.push_back({"bullet", Group::bullet, "bullet", penalty, kShort});
+  const std::vector<std::string> solver{"physics.engine=bullet", "contact.law=bullet"};
+  field.references.push_back({"bullet solver", solver, {1e-4, 5e-5}});
+  field.contenders.push_back({"bullet solver", Group::bullet_solver, "bullet solver", solver, {1e-4, 2.5e-4, 5e-4, 1e-3}});
+}
+
+void add_mujoco(Field& field, const Engine* engine) {
+  // One limit for the users' set-ups: they differ by the method only.
+  field.references.push_back({"mujoco user", sets("mujoco", "euler"), {1e-5, 5e-6}});
+  for (const char* integrator : {"euler", "implicit", "implicitfast"}) {
+    if (!has(engine, integrator)) continue;
+    field.contenders.push_back(
+        {fmt::format("mujoco {}", integrator), Group::mujoco_user, "mujoco user", sets("mujoco", integrator), kUser});
+  }
+  const auto best = sets("mujoco", "armature");
+  field.references.push_back({"mujoco armature", best, {5e-5, 2.5e-5}});
+  field.contenders.push_back({"mujoco armature", Group::mujoco_best, "mujoco armature", best, kLong});
+}
+
+void add_articulated(Field& field, const Engine& engine, std::vector<std::string>& left_out) {
+  field.references.push_back({"articulated", sets("articulated", "extrapolated"), {1e-4, 5e-5}});
+  for (const std::size_t lanes : {1, 4, 8}) {
+    if (lanes > engine.max_lanes) {
+      left_out.push_back(fmt::format("articulated in {} lanes: the engine has {} here", lanes, engine.max_lanes));
+      continue;
+    }
+    for (const char* integrator : {"implicit", "extrapolated"}) {
+      const std::string name =
+          lanes == 1 ? fmt::format("articulated {}", integrator) : fmt::format("articulated {} x{}", integrator, lanes);
+      field.contenders.push_back({name, Group::ours, "articulated", sets("articulated", integrator),
+                                  std::string(integrator) == "implicit" ? kLong : kLonger, lanes});
+    }
+  }
+}
+
+}  // namespace
+
+Field field(const Catalog& catalog, std::vector<std::string>& left_out) {
+  Field all;
+  if (catalog.engine("bullet") != nullptr) add_bullet(all);
+  if (catalog.engine("mujoco") != nullptr) add_mujoco(all, catalog.engine("mujoco"));
+  if (const Engine* ours = catalog.engine("articulated")) add_articulated(all, *ours, left_out);
+  return all;
+}
+
+}  // namespace gaitlab::versus

@@ -1,0 +1,78 @@
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "bench/mujoco_plant.h"
+#include "bench/results.h"
+#include "physics_bullet/engine.h"
+#include "report/build_id.h"
+
+namespace gaitlab::versus {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+const char* word(Group group) {
+  switch (group) {
+    case Group::bullet:
+      return "bullet";
+    case Group::bullet_solver:
+      return "bullet solver";
+    case Group::mujoco_user:
+      return "mujoco as a user sets it up";
+    case Group::mujoco_best:
+      return "mujoco at its best";
+    case Group::ours:
+      break;
+  }
+  return "ours";
+}
+
+Json errors(const TorqueError& error) { return {{"worst", error.worst}, {"median", error.median}}; }
+
+Json to_json(const Point& p) {
+  Json out{
+      {"scenario", p.scenario}, {"contender", p.contender}, {"group", word(p.group)}, {"step", p.step}, {"lanes", p.lanes}};
+  if (!p.ran()) {
+    out["note"] = p.note;
+    return out;
+  }
+  out["error"] = errors(p.error);
+  out["worst_joint"] = p.worst_joint;
+  if (p.other) out["error_to_bullet"] = errors(*p.other);
+  out["simulated"] = p.seconds;
+  out["speed"] = {{"median", p.speed()}, {"min", p.slowest()}, {"max", p.fastest()}, {"cpu", p.cpu_speed()}};
+  out["wall"] = p.wall;
+  out["cpu"] = p.cpu;
+  return out;
+}
+
+}  // namespace
+
+std::string json(const Results& results, const RaceSettings& settings) {
+  Json out;
+  out["machine"] = {{"processor", processor()}, {"cores", std::thread::hardware_concurrency()}};
+  out["versions"] = {{"gaitlab", build_id()}, {"bullet", bullet_version()}, {"mujoco", mujoco_version()}};
+  out["settings"] = {{"seconds", settings.seconds},
+                     {"errors_from", settings.seconds / 2},
+                     {"rounds", settings.rounds},
+                     {"least", settings.least}};
+  for (const Converged& c : results.references) {
+    out["references"].push_back({{"scenario", c.scenario}, {"name", c.name}, {"step", c.step}, {"left", errors(c.left)}});
+  }
+  for (const Point& p : results.points) out["points"].push_back(to_json(p));
+  out["left_out"] = results.left_out;
+  return out.dump(1) + "\n";
+}
+
+}  // namespace gaitlab::versus

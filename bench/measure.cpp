@@ -1,0 +1,71 @@
+#include "bench/measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+namespace gaitlab::versus {
+
+namespace {
+
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+TorqueError torque_error(const Torques& torques, const Torques& reference, double from) {
+  const std::size_t joints = reference.joints();
+  std::vector<double> errors;
+  for (std::size_t j = 0; j < joints; ++j) {
+    double squares = 0;
+    double peak = 0;
+    double rows = 0;
+    for (std::size_t row = 0; row < reference.time.size(); ++row) {
+      if (reference.time[row] < from) continue;
+      const double wanted = reference.values[row * joints + j];
+      const double difference = torques.values[row * joints + j] - wanted;
+      squares += difference * difference;
+      peak = std::max(peak, std::abs(wanted));
+      ++rows;
+    }
+    errors.push_back(peak > 0 ? std::sqrt(squares / rows) / peak : 0);
+  }
+  const auto worst = std::max_element(errors.begin(), errors.end());
+  if (worst == errors.end()) return {};
+  return {*worst, median(errors), static_cast<std::size_t>(worst - errors.begin())};
+}
+
+Measured measure(const std::vector<Scenario>& lanes, double least) {
+  Measured measured;
+  double runs = 0;
+  Timing sum;
+  while (runs == 0 || sum.wall < least) {
+    Simulation simulation(lanes);
+    const double wall = wall_seconds();
+    const double cpu = cpu_seconds();
+    simulation.run();
+    sum.cpu += cpu_seconds() - cpu;
+    sum.wall += wall_seconds() - wall;
+    if (++runs > 1) continue;
+    RunRecord record = simulation.take_record(0);
+    for (std::size_t row = 0; row < record.trace.rows(); ++row) measured.torques.time.push_back(record.trace.at(row, 0));
+    measured.torques.values = std::move(record.torques);
+  }
+  measured.timing = {sum.wall / runs, sum.cpu / runs};
+  return measured;
+}
+
+}  // namespace gaitlab::versus

@@ -1,0 +1,277 @@
+#include "bench/mujoco_plant.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "core/simulation/plant.h"
+#include "core/trace/atomic_file.h"
+#include "interchange/mjcf.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kPointRadius = 1e-6;  // m; MuJoCo has no points
+// solimp's first number, 0.9 in MuJoCo: the share of a contact's force that acts at once when it begins. Steps of it make the
+// torques of set-up armature converge slowly (hexapod: 4 % off at 1.25 ms, with this 0.9 %) whatever the solver does.
+constexpr double kOnset = 0.001;
+
+struct Delete {
+  void operator()(mjModel* m) const { mj_deleteModel(m); }
+  void operator()(mjData* d) const { mj_deleteData(d); }
+};
+using Model = std::unique_ptr<mjModel, Delete>;
+
+/// What a plant knows of its scenario, as far as the export asks: no motors (they are forces on the joints here), nothing
+/// drawn.
+Scenario bare(const PlantSettings& s) {
+  Scenario scenario;
+  scenario.name = "versus";
+  auto robot = std::make_shared<Robot>(*s.robot);
+  for (ModuleType& type : robot->types) {
+    for (BodyType& body : type.bodies) body.shapes.clear();
+  }
+  scenario.robot = robot;
+  scenario.base = s.base;
+  scenario.physics.gravity = s.gravity;
+  scenario.physics.step = 1e-3;  // advance() sets it
+  scenario.ground = s.ground;
+  scenario.on_ground = false;
+  const ContactSet all =
+      s.contacts.size() == contact_elements(*robot, ContactSet::feet).size() ? ContactSet::feet : ContactSet::all;
+  scenario.contact.on = static_cast<int>(s.contacts.empty() ? ContactSet::none : all);
+  return scenario;
+}
+
+/// The export without its sites, and with docked bodies as one for MuJoCo, too: what a user in need of speed would do.
+std::string lean(const std::string& mjcf) {
+  std::string out;
+  for (std::size_t at = 0; at < mjcf.size();) {
+    const std::size_t end = std::min(mjcf.find('\n', at), mjcf.size() - 1) + 1;
+    std::string line = mjcf.substr(at, end - at);
+    const std::size_t compiler = line.find("<compiler");
+    if (compiler != std::string::npos) line.insert(compiler + 9, " fusestatic=\"true\"");
+    if (line.find("<site ") == std::string::npos) out += line;
+    at = end;
+  }
+  return out;
+}
+
+/// MuJoCo reads models from files.
+Model load(const std::string& mjcf) {
+  std::string path = std::filesystem::temp_directory_path() / "gaitlab-XXXXXX.xml";
+  const int file = mkstemps(path.data(), 4);
+  if (file < 0) throw RunError(path + ": cannot be made");
+  close(file);
+  std::array<char, 1000> error{};
+  try {
+    write_file(path, mjcf);
+    Model model(mj_loadXML(path.c_str(), nullptr, error.data(), error.size()));
+    std::filesystem::remove(path);
+    if (model == nullptr) throw RunError(fmt::format("MuJoCo does not take the model: {}", error.data()));
+    return model;
+  } catch (...) {
+    std::filesystem::remove(path);
+    throw;
+  }
+}
+
+enum class SetUp { armature, euler, implicit, implicitfast };
+
+class MujocoPlant final : public Plant {
+ public:
+  explicit MujocoPlant(const PlantSettings& s)
+      : settings_(s),
+        set_up_(static_cast<SetUp>(s.integrator)),
+        joints_(s.robot->joints.size()),
+        layout_{joints_, 1},
+        model_(make_model(s)),
+        data_(mj_makeData(model_.get())),
+        dof_(joints_),
+        q_(joints_),
+        slope_(joints_),
+        torque_(joints_),
+        speed_(joints_),
+        zero_(joints_) {
+    mjModel& m = *model_;
+    for (std::size_t j = 0; j < joints_; ++j) {
+      const int id = mj_name2id(&m, mjOBJ_JOINT, s.robot->joints[j].name.c_str());
+      dof_[j] = m.jnt_dofadr[id];
+      q_[j] = m.jnt_qposadr[id];
+    }
+    touch_with_contacts();
+    m.opt.integrator = integrator();
+    if (s.actuator == nullptr) return;
+    const In rotor = s.actuator->reflected_inertia();
+    s.actuator->effort(zero_, zero_, torque_, slope_);
+    for (std::size_t j = 0; j < joints_; ++j) {
+      if (!rotor.empty()) m.dof_armature[dof_[j]] = rotor[j];
+      if (set_up_ != SetUp::armature) m.dof_damping[dof_[j]] = slope_[j];
+    }
+  }
+
+  [[nodiscard]] std::size_t lanes() const override { return 1; }
+  void bind(Out numbers) override { numbers_ = numbers; }
+
+  void advance(In command, double h) override {
+    read();
+    model_->opt.timestep = h;
+    std::copy_n(numbers_.begin() + static_cast<std::ptrdiff_t>(layout_.speeds()), joints_, speed_.begin());
+    if (settings_.actuator != nullptr) drive(command, h);
+    mj_step(model_.get(), data_.get());
+    write();
+    // MuJoCo starts anew after what it takes for divergence: a run must not go on from there.
+    for (const int bad : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
+      if (data_->warning[bad].number > 0) numbers_[0] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+
+  [[nodiscard]] Applied applied() const override {
+    return {torque_, speed_, {works_.data(), 1}, {works_.data(), 1}, {works_.data(), 1}};
+  }
+
+  void accelerate(const RobotState&, In, std::span<const BodyWrench>, Acceleration&) override {
+    throw RunError("engine mujoco of the benchmarks gives no accelerations: leave out the columns reaction.*");
+  }
+
+  void contacts(std::size_t, std::span<ContactSample> out) const override {
+    for (ContactSample& sample : out) sample = {};
+    for (int c = 0; c < data_->ncon; ++c) {
+      const mjContact& contact = data_->contact[c];
+      if (contact.efc_address < 0) continue;
+      std::array<mjtNum, 6> force{};
+      mj_contactForce(model_.get(), data_.get(), c, force.data());
+      ContactSample& sample = out[element_[static_cast<std::size_t>(contact.geom2)]];
+      sample.fn = force[0];
+      sample.penetration = -contact.dist;
+      sample.point = Vec3(contact.pos[0], contact.pos[1], contact.pos[2]);
+      sample.force = Eigen::Map<const Mat3>(contact.frame) * Vec3(force[0], force[1], force[2]);  // its rows are the axes
+    }
+  }
+
+  /// No rule is known.
+  [[nodiscard]] Stability stability(std::size_t, In, bool) override { return {}; }
+
+ private:
+  static Model make_model(const PlantSettings& s) {
+    if (s.base != Base::floating) throw RunError("engine mujoco of the benchmarks has floating bases only");
+    const std::string mjcf = to_mjcf(bare(s));
+    return load(lean(mjcf));
+  }
+
+  [[nodiscard]] int integrator() const {
+    if (set_up_ == SetUp::implicit) return mjINT_IMPLICIT;
+#if mjVERSION_HEADER >= 300
+    if (set_up_ == SetUp::implicitfast) return mjINT_IMPLICITFAST;
+#endif
+    return mjINT_EULER;
+  }
+
+  /// The exported geoms touch nothing: elements shall touch the ground, and only that.
+  void touch_with_contacts() {
+    mjModel& m = *model_;
+    element_.assign(static_cast<std::size_t>(m.ngeom), 0);
+    const int ground = mj_name2id(&m, mjOBJ_GEOM, "ground");
+    if (ground < 0) return;
+    m.geom_conaffinity[ground] = 1;
+    for (std::size_t e = 0; e < settings_.contacts.size(); ++e) {
+      const ContactElement& element = settings_.contacts[e];
+      const int geom = mj_name2id(&m, mjOBJ_GEOM, element.name.c_str());
+      element_[static_cast<std::size_t>(geom)] = e;
+      m.geom_contype[geom] = 1;
+      if (!(element.radius > 0)) m.geom_size[3 * geom] = m.geom_rbound[geom] = kPointRadius;
+    }
+    for (int g = 0; g < m.ngeom; ++g) {
+      m.geom_friction[3 * g] = settings_.ground.friction;  // of two geoms MuJoCo takes the larger
+      if (set_up_ == SetUp::armature) m.geom_solimp[mjNIMP * g] = kOnset;
+    }
+  }
+
+  void drive(In command, double h) {
+    if (set_up_ == SetUp::armature) {
+      settings_.actuator->effort(command, speed_, torque_, slope_);
+      const In rotor = settings_.actuator->reflected_inertia();
+      for (std::size_t j = 0; j < joints_; ++j) {
+        model_->dof_armature[dof_[j]] = (rotor.empty() ? 0.0 : rotor[j]) + h * slope_[j];
+      }
+    } else {
+      settings_.actuator->effort(command, zero_, torque_, slope_);
+    }
+    for (std::size_t j = 0; j < joints_; ++j) data_->qfrc_applied[dof_[j]] = torque_[j];
+  }
+
+  /// MuJoCo's free joint: position, quaternion, velocity in world axes, angular velocity in the body's.
+  void read() {
+    std::copy_n(numbers_.begin(), 7, data_->qpos);
+    std::copy_n(numbers_.begin() + StateLayout::kVelocity, 3, data_->qvel);
+    const double* w = numbers_.data() + StateLayout::kAngularVelocity;
+    std::array<mjtNum, 4> back{};
+    mju_negQuat(back.data(), data_->qpos + 3);
+    mju_rotVecQuat(data_->qvel + 3, w, back.data());
+    for (std::size_t j = 0; j < joints_; ++j) {
+      data_->qpos[q_[j]] = numbers_[layout_.angles() + j];
+      data_->qvel[dof_[j]] = numbers_[layout_.speeds() + j];
+    }
+  }
+
+  void write() {
+    std::copy_n(data_->qpos, 7, numbers_.begin());
+    std::copy_n(data_->qvel, 3, numbers_.begin() + StateLayout::kVelocity);
+    mju_rotVecQuat(numbers_.data() + StateLayout::kAngularVelocity, data_->qvel + 3, data_->qpos + 3);
+    for (std::size_t j = 0; j < joints_; ++j) {
+      numbers_[layout_.angles() + j] = data_->qpos[q_[j]];
+      numbers_[layout_.speeds() + j] = data_->qvel[dof_[j]];
+    }
+  }
+
+  PlantSettings settings_;
+  SetUp set_up_;
+  std::size_t joints_;
+  StateLayout layout_;
+  Out numbers_;
+  Model model_;
+  std::unique_ptr<mjData, Delete> data_;
+  std::vector<int> dof_, q_;          // of a joint
+  std::vector<std::size_t> element_;  // of a geom
+  std::vector<double> slope_, torque_, speed_, zero_;
+  std::array<double, 1> works_ = {};
+};
+
+/// "GCC: (Debian 12.2.0) 12.2.0" and the like, which compilers leave in what they make.
+std::string compiler_of(const std::string& library) {
+  const std::string bytes = read_file(library);
+  for (const char* mark : {"GCC: (", "clang version "}) {
+    const std::size_t at = bytes.find(mark);
+    if (at != std::string::npos) return std::string(bytes.c_str() + at).substr(0, 80);
+  }
+  return "unknown compiler";
+}
+
+}  // namespace
+
+void register_mujoco(Catalog& catalog) {
+  std::vector<std::string> set_ups{"armature", "euler", "implicit"};
+#if mjVERSION_HEADER >= 300
+  set_ups.emplace_back("implicitfast");
+#endif
+  catalog.add(Engine{"mujoco", "MuJoCo, for comparison.", set_ups, 1e-3, 1, true,
+                     [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<MujocoPlant>(s); }});
+}
+
+std::string mujoco_version() {
+  Dl_info library{};
+  if (dladdr(reinterpret_cast<const void*>(&mj_versionString), &library) == 0) return mj_versionString();
+  const std::string file = std::filesystem::weakly_canonical(library.dli_fname).filename();
+  return fmt::format("{} ({}, {})", mj_versionString(), file, compiler_of(library.dli_fname));
+}
+
+}  // namespace gaitlab

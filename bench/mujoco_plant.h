@@ -1,0 +1,23 @@
+// Engine `mujoco`, of the benchmarks only: MuJoCo as a plant, so that loop, control and trace are the same for every engine.
+#pragma once
+#include <string>
+
+#include "core/plugin/catalog.h"
+
+namespace gaitlab {
+
+/// Adds engine `mujoco`. The model is the interchange room's MJCF of the robot, without what is drawn and with docked bodies
+/// fused; contact elements (points: spheres of 1e-6 m) touch the plane by MuJoCo's own law, f the ground's. One lane, floating
+/// base. Its integrators are set-ups: how the motor's back-EMF (slope B of the torque at rest) is taken.
+///     euler, implicit, implicitfast (MuJoCo 3 only): as a user would: joint damping B, which the integrator takes implicitly;
+///         the motor's torque at rest under the command, limited by the largest current, as the actuator's force.
+///     armature: at its best. No joint damping; dof_armature is h B, and the torque is the law's at the present speed, so that
+///         (M + h B) v' = tau + J^T f holds in the solver of the contacts, too: that one knows no damping that is implicit.
+/// The forces that `contacts` gives are those of the last step's start; works are not known and 0. Throws RunError: another
+/// base, a model that MuJoCo does not take, accelerations asked for.
+void register_mujoco(Catalog& catalog);
+
+/// Version of the library that is loaded, its file, and the compiler that file names (Debian's names none).
+std::string mujoco_version();
+
+}  // namespace gaitlab

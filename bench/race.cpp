@@ -1,0 +1,146 @@
+#include "bench/race.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gaitlab::versus {
+
+namespace {
+
+/// A point and what it runs.
+struct Runner {
+  Point point;
+  std::vector<Scenario> lanes;
+  const Converged* reference = nullptr;
+  const Converged* other = nullptr;
+};
+
+class Race {
+ public:
+  Race(const RaceSettings& settings, Catalog& catalog) : settings_(settings), catalog_(catalog) {}
+
+  Results run() {
+    const Field all = field(catalog_, results_.left_out);
+    for (const std::string& file : settings_.scenarios) run(file, all);
+    return std::move(results_);
+  }
+
+ private:
+  void run(const std::string& file, const Field& all) {
+    const std::string name = scenario(file, {}, 0).name;  // throws what is wrong with the file itself
+    std::vector<const Contender*> contenders;
+    for (const Contender& c : all.contenders) {
+      if (glob(settings_.only, c.name)) contenders.push_back(&c);
+    }
+    // Room for all, so that pointers to them stay.
+    std::vector<Converged> references;
+    references.reserve(all.references.size());
+    for (const Reference& r : all.references) {
+      const bool wanted = std::ranges::any_of(contenders, [&](const Contender* c) {
+        return c->reference == r.name || (c->group == Group::ours && r.name == kOther);
+      });
+      if (wanted) converge(file, name, r, references);
+    }
+    std::vector<Runner> runners;
+    for (const Contender* c : contenders) enter(file, name, *c, references, runners);
+    for (int round = 0; round < settings_.rounds; ++round) {
+      settings_.say(fmt::format("{}: round {} of {}", name, round + 1, settings_.rounds));
+      for (std::size_t i = 0; i < runners.size(); ++i) {
+        // Neighbours change from round to round, too: a stride that divides no likely number.
+        step(runners[(i + static_cast<std::size_t>(round) * 7) % runners.size()]);
+      }
+    }
+    for (Runner& r : runners) results_.points.push_back(std::move(r.point));
+    for (Converged& r : references) results_.references.push_back(std::move(r));
+  }
+
+  Scenario scenario(const std::string& file, std::vector<std::string> sets, double step) {
+    sets.push_back(fmt::format("duration={}", settings_.seconds));
+    sets.emplace_back("trace.columns=[joint.*]");
+    if (step > 0) sets.push_back(fmt::format("physics.step={}", step));
+    return read_scenario(file, sets, catalog_);
+  }
+
+  void converge(const std::string& file, const std::string& name, const Reference& r, std::vector<Converged>& references) {
+    try {
+      Torques before;
+      Converged converged{name, r.name, r.steps.back(), {}, {}};
+      for (const double step : r.steps) {
+        settings_.say(fmt::format("{}: reference {}, step {} s", name, r.name, step));
+        before = std::move(converged.torques);
+        converged.torques = measure({scenario(file, r.sets, step)}, 0).torques;
+      }
+      converged.left = torque_error(before, converged.torques, settings_.seconds / 2);
+      references.push_back(std::move(converged));
+    } catch (const std::runtime_error& error) {
+      results_.left_out.push_back(fmt::format("{}: reference {}: {}", name, r.name, error.what()));
+    }
+  }
+
+  /// Every lane drives other motors, so that lanes differ as they do in a study.
+  void enter(const std::string& file, const std::string& name, const Contender& c, const std::vector<Converged>& references,
+             std::vector<Runner>& runners) {
+    const auto find = [&](const std::string& wanted) {
+      const auto at = std::ranges::find(references, wanted, &Converged::name);
+      return at == references.end() ? nullptr : &*at;
+    };
+    const Converged* reference = find(c.reference);
+    if (reference == nullptr) return;  // and said why
+    for (const double step : c.steps) {
+      Runner runner;
+      runner.point = {name, c.name, c.group, step, c.lanes, settings_.seconds * static_cast<double>(c.lanes),
+                      {},   {},     {},      {},   {},      {}};
+      runner.reference = reference;
+      if (c.group == Group::ours) runner.other = find(kOther);
+      try {
+        for (std::size_t lane = 0; lane < c.lanes; ++lane) {
+          std::vector<std::string> sets = c.sets;
+          if (lane > 0) sets.push_back(fmt::format("actuator.R={}", 4.3 + 0.1 * static_cast<double>(lane)));
+          runner.lanes.push_back(scenario(file, std::move(sets), step));
+        }
+      } catch (const InputError& error) {
+        runner.point.note = error.what();
+      }
+      runners.push_back(std::move(runner));
+    }
+  }
+
+  void step(Runner& r) const {
+    Point& p = r.point;
+    if (!p.note.empty()) return;
+    try {
+      const Measured measured = measure(r.lanes, settings_.least);
+      p.wall.push_back(measured.timing.wall);
+      p.cpu.push_back(measured.timing.cpu);
+      if (p.wall.size() > 1) return;  // the same run again
+      p.error = torque_error(measured.torques, r.reference->torques, settings_.seconds / 2);
+      p.worst_joint = r.lanes[0].robot->joints[p.error.joint].name;
+      if (r.other != nullptr) p.other = torque_error(measured.torques, r.other->torques, settings_.seconds / 2);
+    } catch (const std::runtime_error& error) {  // refused for its step, or diverged
+      p.note = error.what();
+    }
+  }
+
+  const RaceSettings& settings_;
+  Catalog& catalog_;
+  Results results_;
+};
+
+}  // namespace
+
+double Point::slowest() const { return seconds / *std::ranges::max_element(wall); }
+double Point::fastest() const { return seconds / *std::ranges::min_element(wall); }
+
+const Point* Results::fastest(const std::string& scenario, Group group, double error) const {
+  const Point* best = nullptr;
+  for (const Point& p : points) {
+    if (p.scenario != scenario || p.group != group || !p.ran() || p.error.worst > error) continue;
+    if (best == nullptr || p.speed() > best->speed()) best = &p;
+  }
+  return best;
+}
+
+Results race(const RaceSettings& settings, Catalog& catalog) { return Race(settings, catalog).run(); }
+
+}  // namespace gaitlab::versus

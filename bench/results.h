@@ -1,0 +1,20 @@
+// The results of a race as a table, as JSON and as a plot.
+#pragma once
+#include <string>
+
+#include "bench/race.h"
+
+namespace gaitlab::versus {
+
+inline constexpr double kGood = 0.01;  ///< worst joint's error at which engines are compared
+
+/// A line a point, and the fastest of each kind at kGood with what it is to MuJoCo at its best and to bullet.
+std::string table(const Results& results, bool markdown);
+
+/// Everything: machine, versions, settings, references, every point with the times of every round.
+std::string json(const Results& results, const RaceSettings& settings);
+
+/// SVG: error of the worst joint over simulated seconds per second, both logarithmic; a panel a scenario, a curve a contender.
+std::string plot(const Results& results);
+
+}  // namespace gaitlab::versus

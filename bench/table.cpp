@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/results.h"
+
+namespace gaitlab::versus {
+
+namespace {
+
+using Row = std::vector<std::string>;
+
+/// Columns as wide as their widest entry; the first is aligned to the left. Markdown: with a rule under the head.
+std::string lay_out(const std::vector<Row>& rows, bool markdown) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const Row& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::string out;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    std::string line;
+    for (std::size_t c = 0; c < widths.size(); ++c) {
+      const std::string cell =
+          c == 0 ? fmt::format("{:<{}}", rows[r][c], widths[c]) : fmt::format("{:>{}}", rows[r][c], widths[c]);
+      line += (markdown ? (c == 0 ? "| " : " | ") : (c == 0 ? "" : "  ")) + cell;
+    }
+    out += line + (markdown ? " |\n" : "\n");
+    if (r > 0 || !markdown) continue;
+    for (std::size_t c = 0; c < widths.size(); ++c) out += c == 0 ? "|---" : "|--:";
+    out += "|\n";
+  }
+  return out;
+}
+
+std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+std::string times(const Point& p, const Point* than) {
+  return than == nullptr ? "-" : fmt::format("{:.3g}", p.speed() / than->speed());
+}
+
+Row row(const Point& p, const Point* mujoco, const Point* bullet) {
+  Row row{p.contender, fmt::format("{:.4g}", 1e3 * p.step)};
+  if (!p.ran()) {
+    row.resize(10, "-");
+    return row;
+  }
+  for (std::string cell : {percent(p.error.worst), percent(p.error.median), p.other ? percent(p.other->worst) : "-",
+                           fmt::format("{:.3g}", p.speed()), fmt::format("{:.3g} .. {:.3g}", p.slowest(), p.fastest()),
+                           fmt::format("{:.3g}", p.cpu_speed()), times(p, mujoco), times(p, bullet)}) {
+    row.push_back(std::move(cell));
+  }
+  return row;
+}
+
+std::vector<std::string> scenarios(const Results& results) {
+  std::vector<std::string> names;
+  for (const Point& p : results.points) {
+    if (names.empty() || names.back() != p.scenario) names.push_back(p.scenario);
+  }
+  return names;
+}
+
+/// The fastest good points: one a group, of ours one a number of lanes.
+std::vector<const Point*> fastest(const Results& results, const std::string& scenario) {
+  std::vector<const Point*> best;
+  for (const Point& p : results.points) {
+    if (p.scenario != scenario || !p.ran() || p.error.worst > kGood) continue;
+    const auto at = std::ranges::find_if(best, [&](const Point* b) { return b->group == p.group && b->lanes == p.lanes; });
+    if (at == best.end()) {
+      best.push_back(&p);
+    } else if (p.speed() > (*at)->speed()) {
+      *at = &p;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string table(const Results& results, bool markdown) {
+  const Row head{"contender", "step, ms",   "error",     "median",   "to bullet",
+                 "sim s/s",   "min .. max", "per CPU s", "x MuJoCo", "x bullet"};
+  const std::string title = markdown ? "### " : "";
+  std::string out;
+  for (const std::string& scenario : scenarios(results)) {
+    const Point* mujoco = results.fastest(scenario, Group::mujoco_best, kGood);
+    const Point* bullet = results.fastest(scenario, Group::bullet, kGood);
+    std::vector<Row> rows{head};
+    std::string notes;
+    for (const Point& p : results.points) {
+      if (p.scenario != scenario) continue;
+      rows.push_back(row(p, mujoco, bullet));
+      if (!p.note.empty()) notes += fmt::format("- {} at {:.4g} ms: {}\n", p.contender, 1e3 * p.step, p.note);
+    }
+    std::vector<Row> best{head};
+    for (const Point* p : fastest(results, scenario)) best.push_back(row(*p, mujoco, bullet));
+    out += fmt::format("{}{}\n\n{}\n{}{}: the fastest with at most {} of error\n\n{}\n", title, scenario,
+                       lay_out(rows, markdown), title, scenario, percent(kGood), lay_out(best, markdown));
+    if (!notes.empty()) out += notes + "\n";
+    for (const Converged& c : results.references) {
+      if (c.scenario != scenario) continue;
+      out += fmt::format("- reference {}: step {:.4g} ms; the next longer one differs by {} ({} of the median joint)\n", c.name,
+                         1e3 * c.step, percent(c.left.worst), percent(c.left.median));
+    }
+    out += "\n";
+  }
+  for (const std::string& sentence : results.left_out) out += fmt::format("- left out: {}\n", sentence);
+  return out;
+}
+
+}  // namespace gaitlab::versus

@@ -1,0 +1,71 @@
+// `./lab bench --versus`: gaitlab's engines, Bullet and MuJoCo side by side, in time and in torques.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/app.h"
+#include "bench/mujoco_plant.h"
+#include "bench/results.h"
+#include "core/trace/atomic_file.h"
+#include "physics_bullet/engine.h"
+#include "report/build_id.h"
+
+namespace {
+
+using namespace gaitlab;
+
+int versus_of(int argc, char** argv) {
+  CLI::App app{
+      "Runs scenarios under every engine and set-up, interleaved, on one thread. Prints what a simulated second costs and how\n"
+      "far torques are from the engine's own converged run; writes versus.json and versus.svg."};
+  versus::RaceSettings settings;
+  std::string out = "runs/versus";
+  bool markdown = false;
+  app.add_option("SCENARIO", settings.scenarios, "scenario files (default: the shipped hexapod and caterpillar)");
+  app.add_option("--seconds", settings.seconds, "simulated; errors are of the second half (default 8)")
+      ->check(CLI::Range(0.02, 1e4));
+  app.add_option("--rounds", settings.rounds, "every contender runs once a round (default 5)")->check(CLI::Range(1, 1000));
+  app.add_option("--least", settings.least, "seconds that a contender runs in a round at least (default 0.2)")
+      ->check(CLI::Range(0.0, 1e3));
+  app.add_option("--only", settings.only, "pattern of the contenders' names, with * and ? (default *)");
+  app.add_option("--out", out, "folder of versus.json and versus.svg (default runs/versus)");
+  app.add_flag("--markdown", markdown, "the tables as Markdown");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (settings.scenarios.empty()) {
+    for (const char* name : {"hexapod", "caterpillar"}) {
+      settings.scenarios.push_back(fmt::format("{}/scenarios/{}.yaml", GAITLAB_SOURCE_DIR, name));
+    }
+  }
+  settings.say = [](const std::string& what) { fmt::print(stderr, "versus: {}\n", what); };
+
+  Catalog catalog = app::standard_catalog();
+  register_mujoco(catalog);
+  const versus::Results results = versus::race(settings, catalog);
+  std::filesystem::create_directories(out);
+  write_file(out + "/versus.json", versus::json(results, settings));
+  write_file(out + "/versus.svg", versus::plot(results));
+  fmt::print("gaitlab {}\nBullet {}, MuJoCo {}\n{} rounds, interleaved; {} s simulated, errors from {} s on; medians\n\n{}",
+             build_id(), bullet_version(), mujoco_version(), settings.rounds, settings.seconds, settings.seconds / 2,
+             versus::table(results, markdown));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return versus_of(argc, argv);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "versus: error: {}\n", error.what());
+    return 1;
+  }
+}
