@@ -185,12 +185,12 @@ class MujocoPlant final : public Plant {
     m.geom_conaffinity[ground] = 1;
     for (std::size_t e = 0; e < settings_.contacts.size(); ++e) {
       const ContactElement& element = settings_.contacts[e];
-      const int geom = mj_name2id(&m, mjOBJ_GEOM, element.name.c_str());
+      const std::ptrdiff_t geom = mj_name2id(&m, mjOBJ_GEOM, element.name.c_str());
       element_[static_cast<std::size_t>(geom)] = e;
       m.geom_contype[geom] = 1;
       if (!(element.radius > 0)) m.geom_size[3 * geom] = m.geom_rbound[geom] = kPointRadius;
     }
-    for (int g = 0; g < m.ngeom; ++g) {
+    for (std::ptrdiff_t g = 0; g < m.ngeom; ++g) {
       m.geom_friction[3 * g] = settings_.ground.friction;  // of two geoms MuJoCo takes the larger
       if (set_up_ == SetUp::armature) m.geom_solimp[mjNIMP * g] = kOnset;
     }

@@ -31,10 +31,10 @@ Style style_of(std::size_t contender) {
 
 /// Whole decades around what is added; values above 0.
 struct Decades {
-  double lo = 1e9, hi = -1e9;
+  int lo = 100, hi = -100;
   void add(double value) {
-    lo = std::min(lo, std::floor(std::log10(value)));
-    hi = std::max(hi, std::ceil(std::log10(value)));
+    lo = std::min(lo, static_cast<int>(std::floor(std::log10(value))));
+    hi = std::max(hi, static_cast<int>(std::ceil(std::log10(value))));
   }
   void widen() {
     if (lo >= hi) hi = lo + 1;
@@ -65,13 +65,14 @@ class ScenarioPanel {
     if (speed.lo > speed.hi) speed.add(1);
     speed.widen();
     error.widen();
-    x_ = {speed.lo, speed.hi, kLeft, kRight};
-    y_ = {error.lo, error.hi, top + kHeight, top};
+    x_ = {static_cast<double>(speed.lo), static_cast<double>(speed.hi), kLeft, kRight};
+    y_ = {static_cast<double>(error.lo), static_cast<double>(error.hi), top + kHeight, top};
     frame(speed, error, scenario);
   }
 
   void curve(const std::vector<const Point*>& points, const Style& style) {
     std::vector<gaitlab::Point> line;
+    line.reserve(points.size());
     for (const Point* p : points) line.push_back({x_(std::log10(p->speed())), y_(std::log10(p->error.worst))});
     svg_.polyline(line, style);
     for (const gaitlab::Point& at : line) svg_.circle(at, kMark, {.stroke = style.stroke, .fill = style.stroke});
@@ -80,14 +81,14 @@ class ScenarioPanel {
  private:
   void frame(const Decades& speed, const Decades& error, const std::string& scenario) {
     svg_.text({kLeft, top_ - 12}, scenario + ": torque error of the worst joint (RMS over its peak)", {.bold = true});
-    for (double decade = speed.lo; decade <= speed.hi; ++decade) {
+    for (int decade = speed.lo; decade <= speed.hi; ++decade) {
       for (int digit = 1; digit < 10 && (digit == 1 || decade < speed.hi); ++digit) {
         const double x = x_(decade + std::log10(digit));
         svg_.line({x, top_}, {x, top_ + kHeight}, digit == 1 ? kGrid : kFine);
       }
       svg_.text({x_(decade), top_ + kHeight + 18}, fmt::format("{:g}", std::pow(10, decade)), {.anchor = Anchor::middle});
     }
-    for (double decade = error.lo; decade <= error.hi; ++decade) {
+    for (int decade = error.lo; decade <= error.hi; ++decade) {
       for (int digit = 1; digit < 10 && (digit == 1 || decade < error.hi); ++digit) {
         const double y = y_(decade + std::log10(digit));
         svg_.line({kLeft, y}, {kRight, y}, digit == 1 ? kGrid : kFine);
@@ -111,14 +112,15 @@ class ScenarioPanel {
 std::string plot(const Results& results) {
   const std::vector<std::string> scenarios = unique(results, &Point::scenario);
   const std::vector<std::string> contenders = unique(results, &Point::contender);
-  const auto lines = static_cast<double>((contenders.size() + 2) / 3);  // three a line
-  double top = kTitleHeight + kLegendLine * lines + kHead;
+  const std::size_t lines = (contenders.size() + 2) / 3;  // three a line
+  double top = kTitleHeight + kLegendLine * static_cast<double>(lines) + kHead;
   Svg svg(kWidth, top + (kHeight + kFoot + kHead) * static_cast<double>(scenarios.size()) - kHead);
   svg.text({kWidth / 2, 28}, "What a simulated second costs, and how right its torques are",
            {.size = 18, .anchor = Anchor::middle, .bold = true});
   for (std::size_t c = 0; c < contenders.size(); ++c) {
+    const std::size_t line = c / 3;
     const double x = kLeft + static_cast<double>(c % 3) * (kRight - kLeft) / 3;
-    const double y = kTitleHeight + 14 + kLegendLine * static_cast<double>(c / 3);
+    const double y = kTitleHeight + 14 + kLegendLine * static_cast<double>(line);
     svg.line({x, y - 4.5}, {x + 38, y - 4.5}, style_of(c));
     svg.text({x + 46, y}, contenders[c]);
   }
