@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bench/results.h"
-#include "report/panel.h"
+#include "report/axes.h"
 
 namespace gaitlab::versus {
 

@@ -32,7 +32,9 @@ std::string lay_out(const std::vector<Row>& rows, bool markdown) {
   return out;
 }
 
-std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+std::string percent(double share) {
+  return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
 std::string times(const Point& p, const Point* than) {
   return than == nullptr ? "-" : fmt::format("{:.3g}", p.speed() / than->speed());
 }
