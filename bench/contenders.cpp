@@ -20,7 +20,7 @@ bool has(const Engine* engine, const std::string& integrator) {
 const std::vector<double> kShort{2.5e-5, 5e-5};
 const std::vector<double> kUser{2.5e-5, 5e-5, 1e-4, 1e-3};
 const std::vector<double> kImplicit{1e-4, 1e-3};  // two and a half times as dear, no better
-const std::vector<double> kLong{2.5e-4, 5e-4, 6.25e-4, 1e-3, 1.25e-3, 5e-3 / 3, 2.5e-3};
+const std::vector<double> kLong{2.5e-4, 5e-4, 6.25e-4, 1e-3, 1.25e-3, 5e-3 / 3, 2.5e-3, 5e-3};
 const std::vector<double> kLonger{5e-4, 1e-3, 1.25e-3, 5e-3 / 3, 2.5e-3, 5e-3};
 
 void add_bullet(Field& field) {

@@ -21,9 +21,10 @@ namespace gaitlab {
 namespace {
 
 constexpr double kPointRadius = 1e-6;  // m; MuJoCo has no points
-// solimp's first number, 0.9 in MuJoCo: the share of a contact's force that acts at once when it begins. Steps of it make the
-// torques of set-up armature converge slowly (hexapod: 4 % off at 1.25 ms, with this 0.9 %) whatever the solver does.
-constexpr double kOnset = 0.001;
+// Contacts of set-up armature: solref's time constant, s, and solimp's share of the force at once when a contact begins and
+// depth over which the whole is reached, m. MuJoCo has 0.02, 0.9 and 0.001: then the torques converge slowly, whatever the
+// solver does (hexapod: 4 % off at 1.25 ms, with these 0.9 %). Chosen among those with about our own depth.
+constexpr double kTime = 0.01, kOnset = 0.001, kDepth = 0.002;
 
 struct Delete {
   void operator()(mjModel* m) const { mj_deleteModel(m); }
@@ -192,7 +193,10 @@ class MujocoPlant final : public Plant {
     }
     for (std::ptrdiff_t g = 0; g < m.ngeom; ++g) {
       m.geom_friction[3 * g] = settings_.ground.friction;  // of two geoms MuJoCo takes the larger
-      if (set_up_ == SetUp::armature) m.geom_solimp[mjNIMP * g] = kOnset;
+      if (set_up_ != SetUp::armature) continue;
+      m.geom_solref[mjNREF * g] = kTime;
+      m.geom_solimp[mjNIMP * g] = kOnset;
+      m.geom_solimp[mjNIMP * g + 2] = kDepth;
     }
   }
 
