@@ -233,7 +233,9 @@ std::string to_text(const Summary& s, const Scenario& scenario, const RunRecord&
 
 std::vector<std::string> posture_warnings(const Scenario& scenario, const RunRecord& r) {
   std::vector<std::string> warnings;
-  if (scenario.ground.kind == Ground::Kind::none || r.poses.empty()) return warnings;
+  const Ground::Kind ground = scenario.ground.kind;
+  // A field's height says nothing about how high the robot stands above it.
+  if (ground == Ground::Kind::none || ground == Ground::Kind::heightfield || r.poses.empty()) return warnings;
   const Robot& robot = *scenario.robot;
   Kinematics k(robot);
   k.update(robot, r.state(robot, 0));

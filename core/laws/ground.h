@@ -1,13 +1,38 @@
-// The ground and what a point or sphere finds there: values and pure functions.
+// The ground and what a point or sphere finds there: values and pure functions. (docs/equations.md, 6)
 #pragma once
+#include <vector>
+
+#include "core/laws/heightfield.h"
 #include "core/model/frames.h"
 
 namespace gaitlab {
 
-/// World z = 0, solid below.
+/// A solid block that stands in the world.
+struct Box {
+  Vec3 center = Vec3::Zero();  ///< m
+  Vec3 size = Vec3::Zero();    ///< edges along its own axes, m
+  Vec3 rpy = Vec3::Zero();     ///< its axes in the world: roll pitch yaw, rad
+  double friction = 0.8;       ///< Coulomb coefficient f
+  double mass = 0;             ///< kg; 0: it never moves
+  Mat3 R = Mat3::Identity();   ///< of rpy; a query asks this one
+};
+
+/// World z = 0, solid below; with boxes on it; or a heightfield instead of it.
+///
+/// A query finds one touch an element. In a box the nearest point of the surface counts: outside the foot of the perpendicular,
+/// inside the face of least depth. Three rules make of many solids one ground:
+/// - A face that another box covers is no way out, nor is one that looks down into the plane: an element that slides over the
+///   seam of two boxes of one height feels nothing there. (At a step in height let the lower box reach a little into the
+///   higher.)
+/// - An element that touches several solids (floor and wall) gets one touch of penetration |sum s n|, normal along the sum: the
+///   spring force of a linear law is the sum of theirs. s: the penetrations, less what the others push along the same normal
+///   already, so that two floors carry like one. It changes continuously as one solid after the other comes in reach.
+/// - Its friction is the mean of theirs by s.
 struct Ground {
-  enum class Kind { none, plane } kind = Kind::plane;
-  double friction = 0.8;  ///< Coulomb coefficient f
+  enum class Kind { none, plane, boxes, heightfield } kind = Kind::plane;
+  double friction = 0.8;  ///< Coulomb coefficient f; of the plane and of the field
+  std::vector<Box> boxes = {};
+  Heightfield field = {};
 
   template <class T>
   struct BasicTouch {
@@ -19,12 +44,29 @@ struct Ground {
   };
   using Touch = BasicTouch<double>;
 
-  /// A sphere of `radius` (0: a point) centred at `centre`, world. T: double or lanes.
+  /// A sphere of `radius` (0: a point) centred at `centre`, world. Allocates nothing.
+  [[nodiscard]] Touch query(const Vec3& centre, double radius) const {
+    if (kind == Kind::boxes) return on_boxes(centre, radius);
+    if (kind == Kind::heightfield) return on_field(centre, radius);
+    return on_plane(centre, radius);
+  }
+  /// The same for lanes, over a plane.
   template <class T>
   [[nodiscard]] BasicTouch<T> query(const Eigen::Matrix<T, 3, 1>& centre, double radius) const {
+    return on_plane(centre, radius);
+  }
+
+  /// No solid is higher, m.
+  [[nodiscard]] double highest() const;
+
+ private:
+  template <class T>
+  [[nodiscard]] BasicTouch<T> on_plane(const Eigen::Matrix<T, 3, 1>& centre, double radius) const {
     const T lowest = centre.z() - radius;
     return {-lowest, {T(0.0), T(0.0), T(1.0)}, {centre.x(), centre.y(), lowest}, friction};
   }
+  [[nodiscard]] Touch on_boxes(const Vec3& centre, double radius) const;
+  [[nodiscard]] Touch on_field(const Vec3& centre, double radius) const;
 };
 
 }  // namespace gaitlab

@@ -58,6 +58,8 @@ class Fields {
   virtual void vector(const char* key, std::span<double> value, Spec spec) = 0;
   /// A list of numbers of any length.
   virtual void numbers(const char* key, std::vector<double>& value, Spec spec) = 0;
+  /// A list of rows, each a list of as many numbers as the first.
+  virtual void rows(const char* key, std::vector<std::vector<double>>& value, Spec spec) = 0;
   virtual void texts(const char* key, std::vector<std::string>& value, const char* about) = 0;
   /// A map whose keys the user chooses (a letter, then letters, digits and _), in the order of the file. One that is given
   /// takes the place of the whole default. Empty texts are refused.

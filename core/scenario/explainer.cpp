@@ -123,6 +123,11 @@ void Explainer::numbers(const char* key, std::vector<double>& value, Spec spec) 
   row(key, spec.unit, list_text(value), "list of numbers" + std::string(range.empty() ? "" : ", ") + range, spec.about);
 }
 
+void Explainer::rows(const char* key, std::vector<std::vector<double>>&, Spec spec) {
+  const std::string range = range_without_unit(spec);
+  row(key, spec.unit, "", "list of rows of numbers" + std::string(range.empty() ? "" : ", ") + range, spec.about);
+}
+
 void Explainer::texts(const char* key, std::vector<std::string>& value, const char* about) {
   std::string preset;
   for (const std::string& text : value) preset += (preset.empty() ? "" : ", ") + text;

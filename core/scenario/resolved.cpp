@@ -45,6 +45,7 @@ std::string resolved(const Scenario& scenario) {
   writer.add("robot", robot_node(copy, joints));
   const Entry* actuator = scenario.actuator.entry;
   SectionFields sections(copy, nullptr, nullptr, actuator == nullptr ? "none" : std::string(actuator->name));
+  sections.writing = true;
   sections.has_cpg = scenario.cpg.entry != nullptr;
   sections.fields(writer);
   writer.add("sensors", empty_list());

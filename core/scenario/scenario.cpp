@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "core/scenario/ground_section.h"
 #include "core/scenario/overlay.h"
 #include "core/scenario/periods.h"
 #include "core/scenario/plugin_files.h"
@@ -174,6 +175,7 @@ class ScenarioReader {
     };
     sections.fields(reader);
     reader.finish();
+    if (const Node* ground = root_.find("ground")) finish_ground(*ground, folder_, scenario_, problems_);
     check_motors(motor);
     if (sections.actuator.none) refuse_controller();
     check_initial();

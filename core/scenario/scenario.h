@@ -38,6 +38,7 @@ struct ContactSettings {
   int law = 0;  ///< penalty
   int on = 1;   ///< ContactSet
   PenaltyContact penalty;
+  [[nodiscard]] bool moves_boxes() const { return false; }  ///< whether the law knows boxes that have a mass
   void fields(Fields& f);
 };
 

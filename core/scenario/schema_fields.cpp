@@ -96,6 +96,11 @@ void SchemaFields::numbers(const char* key, std::vector<double>& value, Spec spe
   properties_[key] = preset(described({{"type", "array"}, {"items", bounded("number", spec)}}, spec.about, spec.unit), value);
 }
 
+void SchemaFields::rows(const char* key, std::vector<std::vector<double>>&, Spec spec) {
+  const Json row{{"type", "array"}, {"items", bounded("number", spec)}};
+  properties_[key] = described({{"type", "array"}, {"items", row}}, spec.about, spec.unit);
+}
+
 void SchemaFields::texts(const char* key, std::vector<std::string>& value, const char* about) {
   properties_[key] = preset(described({{"type", "array"}, {"items", scalar()}}, about), value);
 }

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kPositive = std::numeric_limits<double>::denorm_min();
 constexpr std::array<const char*, 3> kBases{"floating", "fixed", "planar"};
-constexpr std::array<const char*, 2> kGrounds{"none", "plane"};
 constexpr std::array<const char*, 1> kLaws{"penalty"};
 constexpr std::array<const char*, 3> kContactSets{"none", "feet", "all"};
 
@@ -87,13 +86,6 @@ void PhysicsFields::fields(Fields& f) {
   f.vector("gravity", span_of(physics.gravity), {"m/s^2", -1000, 1000, "World axes."});
 }
 
-void GroundFields::fields(Fields& f) {
-  int type = static_cast<int>(ground.kind);
-  f.choice("type", type, kGrounds, "plane: world z = 0, solid below.");
-  ground.kind = static_cast<Ground::Kind>(type);
-  f.number("friction", ground.friction, {"", 0, 100, "Coulomb coefficient f."});
-}
-
 void ContactSettings::fields(Fields& f) {
   f.choice("law", law, kLaws, "Fn = Kn p^k + Cd p^d p' >= 0; friction -f Fn v/v_lim up to v_lim, then -f Fn v/|v|.");
   f.choice("on", on, kContactSets, "Which elements touch: those of the free blocks' feet, of every block, or none.");
@@ -164,7 +156,7 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
 }
 
 void SectionFields::fields(Fields& f) {
-  GroundFields ground{scenario.ground};
+  GroundFields ground{scenario.ground, writing};
   f.group("initial", scenario.initial, "State at the start.");
   f.group("physics", physics, "How time is integrated.");
   f.group("ground", ground, "What the robot stands on.");

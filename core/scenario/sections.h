@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "core/scenario/ground_section.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab {
@@ -19,11 +20,6 @@ struct PhysicsFields {
   Physics& physics;
   const Catalog* catalog;
   const Problems* problems = nullptr;  ///< reading: what shows that the engine's name was wrong
-  void fields(Fields& f);
-};
-
-struct GroundFields {
-  Ground& ground;
   void fields(Fields& f);
 };
 
@@ -52,6 +48,7 @@ struct SectionFields {
   PhysicsFields physics;
   PluginFields actuator, controller, cpg;
   bool has_cpg = true;
+  bool writing = false;  ///< out in full: only what the ground's type has
 
   /// catalog, problems: as above. `actuator_type`: the default.
   SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type);

@@ -59,6 +59,13 @@ void Writer::vector(const char* key, std::span<double> value, Spec) { add(key, n
 
 void Writer::numbers(const char* key, std::vector<double>& value, Spec) { add(key, numbers_node(value)); }
 
+void Writer::rows(const char* key, std::vector<std::vector<double>>& value, Spec) {
+  Node node{Node::Kind::list};
+  node.flow = value.empty();
+  for (const std::vector<double>& row : value) node.items.push_back(numbers_node(row));
+  add(key, std::move(node));
+}
+
 void Writer::texts(const char* key, std::vector<std::string>& value, const char*) {
   Node node{Node::Kind::list};
   node.flow = true;

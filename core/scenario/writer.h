@@ -30,6 +30,7 @@ class Writer final : public Fields {
   void joint(const char* key, std::int64_t& value, const char* about) override;
   void vector(const char* key, std::span<double> value, Spec spec) override;
   void numbers(const char* key, std::vector<double>& value, Spec spec) override;
+  void rows(const char* key, std::vector<std::vector<double>>& value, Spec spec) override;
   void texts(const char* key, std::vector<std::string>& value, const char* about) override;
   void named(const char* key, std::vector<Named>& values, NamedValues kind, const char* about) override;
   void problem(const char*, std::string_view) override {}

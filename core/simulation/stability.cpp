@@ -10,12 +10,14 @@ void stand(const PlantSettings& s, const Kinematics& k, std::vector<ContactSlope
   out.clear();
   if (s.ground.kind == Ground::Kind::none) return;
   std::vector<Support> elements;
+  std::vector<Ground::Touch> touches;
   for (std::size_t e = 0; e < s.contacts.size(); ++e) {
     const Ground::Touch touch = s.ground.query(k.point(s.contacts[e].link, s.contacts[e].centre), s.contacts[e].radius);
     elements.push_back({e, -touch.penetration, touch.point});
+    touches.push_back(touch);
   }
   for (const Support& on : standing_on(std::move(elements), sums(*s.robot, k, s.gravity).com)) {
-    const Ground::Touch touch = s.ground.query(on.point, 0);
+    const Ground::Touch& touch = touches[on.element];
     out.push_back({on.element, s.contacts[on.element].link, on.point, touch.normal, Vec3::Zero(), touch.friction, 0});
   }
   if (out.empty()) return;

@@ -1,6 +1,34 @@
 #include "core/simulation/start.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace gaitlab {
+
+namespace {
+
+constexpr double kTouches = 1e-12;  // m
+constexpr int kMostDrops = 1000;    // each by the gap: past an edge that is all but upright it closes slowly
+
+/// How far the robot can sink before its lowest element touches; negative: how far it has to rise.
+double height_above(const Scenario& s, const Kinematics& k, const std::vector<ContactElement>& elements) {
+  const double lowest = lowest_point(*s.robot, k, elements);
+  if (s.ground.kind == Ground::Kind::plane || elements.empty()) return lowest;
+  // From above everything, so that it comes to stand on a box, and not beneath one.
+  double sunk = lowest - s.ground.highest();
+  for (int drop = 0; drop < kMostDrops; ++drop) {
+    double gap = std::numeric_limits<double>::infinity();
+    for (const ContactElement& e : elements) {
+      const Vec3 centre = k.point(e.link, e.centre) - sunk * Vec3::UnitZ();
+      gap = std::min(gap, -s.ground.query(centre, e.radius).penetration);
+    }
+    sunk += gap;
+    if (std::abs(gap) < kTouches) break;
+  }
+  return sunk;
+}
+
+}  // namespace
 
 RobotState start_state(const Scenario& s) {
   const Robot& robot = *s.robot;
@@ -17,7 +45,7 @@ RobotState start_state(const Scenario& s) {
   if (s.on_ground && s.ground.kind != Ground::Kind::none) {
     Kinematics kinematics(robot);
     kinematics.update(robot, start);
-    start.position.z() -= lowest_point(robot, kinematics, contact_elements(robot, static_cast<ContactSet>(s.contact.on)));
+    start.position.z() -= height_above(s, kinematics, contact_elements(robot, static_cast<ContactSet>(s.contact.on)));
   }
   return start;
 }

@@ -5,8 +5,8 @@
 
 namespace gaitlab {
 
-/// Initial angles, speeds, pose and twist; `on_ground` puts the lowest of its contact elements (or of its outline) at height 0.
-/// The quaternion has w >= 0.
+/// Initial angles, speeds, pose and twist; `on_ground` lowers it until the first of its contact elements touches
+/// (without any: its outline's lowest point to height 0). The quaternion has w >= 0.
 RobotState start_state(const Scenario& scenario);
 
 }  // namespace gaitlab

@@ -47,6 +47,7 @@ class Numbers final : public Fields {
   void joint(const char* key, std::int64_t&, const char* about) override { check(key, about); }
   void vector(const char* key, std::span<double>, Spec spec) override { check(key, spec.about); }
   void numbers(const char* key, std::vector<double>&, Spec spec) override { check(key, spec.about); }
+  void rows(const char* key, std::vector<std::vector<double>>&, Spec spec) override { check(key, spec.about); }
   void texts(const char* key, std::vector<std::string>&, const char* about) override { check(key, about); }
   void named(const char* key, std::vector<Named>&, NamedValues, const char* about) override { check(key, about); }
   void problem(const char* key, std::string_view what) override { ADD_FAILURE() << key << ": " << what; }
