@@ -39,10 +39,7 @@ class Mjcf {
                       left_out(s_), method(), interchange::text({kPointSize}), massless()));
     write_options(root);
     tinyxml2::XMLElement& world = add(root, "worldbody");
-    if (s_.ground.kind == Ground::Kind::plane) {
-      tinyxml2::XMLElement& ground = geom(world, "ground", "plane", "0 0 1");
-      set(ground, "group", "2");
-    }
+    write_ground(world);
     elements_.resize(robot_.bodies.size());
     for (ContactElement& e : contact_elements(robot_, static_cast<ContactSet>(s_.contact.on))) {
       elements_[e.body].push_back(std::move(e));
@@ -58,6 +55,20 @@ class Mjcf {
   }
 
  private:
+  void write_ground(tinyxml2::XMLElement& world) {
+    if (s_.ground.kind == Ground::Kind::heightfield) {
+      throw InputError(s_.place("ground.type"), "MJCF holds no heightfield of this kind; expected type: none, plane or boxes");
+    }
+    if (s_.ground.kind == Ground::Kind::none) return;
+    set(geom(world, "ground", "plane", "0 0 1"), "group", "2");
+    for (std::size_t i = 0; s_.ground.kind == Ground::Kind::boxes && i < s_.ground.boxes.size(); ++i) {
+      const Box& box = s_.ground.boxes[i];
+      tinyxml2::XMLElement& e = geom(world, fmt::format("ground/{}", i), "box", interchange::text(Vec3(box.size / 2)));
+      set_pose(e, {box.R, box.center});
+      set(e, "group", "2");
+    }
+  }
+
   void write_options(tinyxml2::XMLElement& root) {
     tinyxml2::XMLElement& compiler = add(root, "compiler");
     set(compiler, "angle", "radian");

@@ -8,9 +8,9 @@ namespace gaitlab {
 
 /// MJCF (MuJoCo 2.2 and later) of the robot as the scenario starts it: one MuJoCo body for each of the robot's, docked ones
 /// without a joint between them; whole inertia tensors (by their principal axes); hinges with their ranges; a free, planar
-/// (slide x, slide z, hinge y) or fixed base; the start as keyframe `start`; gravity, step and RK4; shapes and contact elements
-/// as geoms that touch nothing; motors as torques. What MJCF cannot hold is said in a comment at its top. Numbers read back to
-/// the same doubles.
+/// (slide x, slide z, hinge y) or fixed base; the start as keyframe `start`; gravity, step and RK4; shapes, contact
+/// elements, the plane and its boxes as geoms that touch nothing; motors as torques. A heightfield is an InputError. What MJCF
+/// cannot hold is said in a comment at its top. Numbers read back to the same doubles.
 std::string to_mjcf(const Scenario& scenario);
 
 }  // namespace gaitlab

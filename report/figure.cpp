@@ -203,6 +203,19 @@ double middle(const View& view) {
   return moment / area;
 }
 
+// The part of a polygon on one side of a vertical line: where sign * (x - at) >= 0.
+Polygon beside(const Polygon& polygon, double at, double sign) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point a = polygon[i];
+    const Point b = polygon[(i + 1) % polygon.size()];
+    const bool a_in = sign * (a.x - at) >= 0;
+    if (a_in) kept.push_back(a);
+    if (a_in != (sign * (b.x - at) >= 0)) kept.push_back({at, a.y + (b.y - a.y) * (at - a.x) / (b.x - a.x)});
+  }
+  return kept;
+}
+
 class Views {
  public:
   explicit Views(const FigureInput& input) : input_(input), left_(left_edge(input)) {
@@ -253,6 +266,12 @@ class Views {
     if (input_.ground) {
       svg.rectangle({left_, z(0)}, kRight - left_, 5, {.fill = colour::kPale});
       svg.line({left_, z(0)}, {kRight, z(0)}, kAxisLine);
+    }
+    for (const Polygon& solid : input_.solids) {
+      Polygon seen = beside(beside(solid, ticks_.lo, 1), ticks_.hi, -1);
+      if (seen.size() < 3) continue;
+      std::transform(seen.begin(), seen.end(), seen.begin(), paper);
+      svg.polygons(std::vector<Polygon>{std::move(seen)}, {.stroke = colour::kGrey, .fill = colour::kPale, .width = 1});
     }
     for (const Outline& outline : view.outlines) {
       std::vector<Polygon> polygons = outline.polygons;

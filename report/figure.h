@@ -27,6 +27,7 @@ struct FigureInput {
   std::vector<Footfall> footfalls = {};  ///< one a leg, from top to bottom; none: no diagram
   std::string footfall_note = {};        ///< over its right end: what the bars and the numbers are
   std::vector<View> views;               ///< drawn from top to bottom
+  std::vector<Polygon> solids = {};      ///< what stands on the ground, m, in the plane of the view; drawn within its x range
   bool ground = true;                    ///< a plane at height 0; without it every view is centred on the robot
   std::string views_title = {};          ///< instead of `side view (arrow: joint above)`
   std::string views_axis = "x (m), heights on the same scale";

@@ -36,6 +36,31 @@ View view_at(const Scenario& scenario, const RunRecord& r, std::size_t tick, std
   return view;
 }
 
+// Boxes as they are; of a field the line below the robot at the end.
+std::vector<Polygon> solids(const Scenario& scenario, const RunRecord& r) {
+  std::vector<Polygon> seen;
+  const Ground& ground = scenario.ground;
+  if (ground.kind == Ground::Kind::boxes) {
+    for (const Box& box : ground.boxes) seen.push_back(box_outline({box.R, box.center}, box.size));
+  } else if (ground.kind == Ground::Kind::heightfield && !r.poses.empty()) {
+    constexpr int kPieces = 400;
+    constexpr double kThick = 0.004;  // m
+    const double y = r.poses[r.poses.size() - 6];
+    const double from = ground.field.origin.x();
+    const double step = ground.field.spacing * static_cast<double>(ground.field.columns - 1) / kPieces;
+    constexpr double kFar = 1000;  // m, beyond the border, where the heights go on
+    Polygon line{{from - kFar, ground.field.at(from, y).z}};
+    for (int i = 0; i <= kPieces; ++i) line.push_back({from + i * step, ground.field.at(from + i * step, y).z});
+    line.push_back({line.back().x + kFar, line.back().y});
+    for (std::size_t i = line.size(); i-- > 0;) {
+      const Point above = line[i];
+      line.push_back({above.x, above.y - kThick});
+    }
+    seen.push_back(std::move(line));
+  }
+  return seen;
+}
+
 constexpr std::size_t kViews = 5;
 constexpr double kShown = 8;         // s, of the upper panels
 constexpr double kLongest = 4;       // s, of the side views: a period may have been found as a multiple of the gait's
@@ -117,6 +142,8 @@ void add_period(FigureInput& input, const Scenario& scenario, const RunRecord& r
 std::string legged_figure(const Scenario& scenario, const RunRecord& r, const Summary& summary, const std::vector<Leg>& legs) {
   FigureInput input;
   input.title = scenario.name;
+  input.ground = scenario.ground.kind != Ground::Kind::heightfield;
+  input.solids = solids(scenario, r);
   input.time = times(scenario, r, summary);
   const double from = periods_from(summary);
   const std::size_t joint = central_spine_joint(info(*scenario.robot), legs);
@@ -164,7 +191,8 @@ std::string run_figure(const Scenario& scenario, const RunRecord& r, const Summa
   const std::size_t joint = summary.most_loaded;
   FigureInput input;
   input.title = scenario.name;
-  input.ground = scenario.ground.kind != Ground::Kind::none;
+  input.ground = scenario.ground.kind == Ground::Kind::plane || scenario.ground.kind == Ground::Kind::boxes;
+  input.solids = solids(scenario, r);
   if (!scenario.robot->joints.empty()) {
     input.time = times(scenario, r, summary);
     add_joint(input, scenario, r, joint);

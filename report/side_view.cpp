@@ -101,6 +101,12 @@ Polygon convex_hull(std::vector<Point> points) {
   return hull;
 }
 
+Polygon box_outline(const Pose& pose, const Vec3& size) {
+  std::vector<Point> flat;
+  for (const Vec3& p : world_vertices({Shape::Kind::box, {}, size}, pose)) flat.push_back({p.x(), p.z()});
+  return convex_hull(std::move(flat));
+}
+
 std::vector<Outline> side_view(const Robot& robot, const Kinematics& kinematics) {
   std::vector<Seen> seen;
   for (const Body& body : robot.bodies) {

@@ -21,6 +21,9 @@ struct Outline {
 /// body's first face, link without faces.
 std::vector<Outline> side_view(const Robot& robot, const Kinematics& kinematics);
 
+/// A box that belongs to no robot, from the same side.
+Polygon box_outline(const Pose& pose, const Vec3& size);
+
 /// The convex hull, counter-clockwise, without points on its edges.
 Polygon convex_hull(std::vector<Point> points);
 
