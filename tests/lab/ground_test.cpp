@@ -1,0 +1,186 @@
+// Boxes and heightfields under both engines: a block that rests, creeps and slides on them as the closed forms of eq. 12 say, a
+// ball on two at once; and what of a query must hold for any box.
+#include "core/laws/ground.h"
+
+#include <rapidcheck.h>
+
+#include <cmath>
+
+#include "core/simulation/start.h"
+#include "engines.h"
+#include "tests/oracles/blocks.h"
+#include "tests/validation.h"
+
+namespace gaitlab::test {
+namespace {
+
+const std::string kEq12 = "closed form of eq. 12 (docs/equations.md, 6)";
+
+/// 1 kg on four points, its COM in their plane; flat on what is inclined by `slope` about y.
+Scenario block(const std::string& engine, const std::string& ground, double slope, const std::string& rest, double duration) {
+  return scenario(fmt::format(R"(
+gaitlab: 1
+robot:
+  orientation: [0, {:.17g}, 0]
+  modules:
+    name: block
+    bodies: {{block: {{mass: 1, inertia: [0.01, 0.01, 0.01, 0, 0, 0]}}}}
+    contacts:
+      feet:
+        - {{body: block, point: [0.1, 0.1, 0]}}
+        - {{body: block, point: [0.1, -0.1, 0]}}
+        - {{body: block, point: [-0.1, 0.1, 0]}}
+        - {{body: block, point: [-0.1, -0.1, 0]}}
+ground: {}
+actuator: {{type: none}}
+duration: {}
+trace: {{period: 1e-3, columns: [base.*, contact.*]}}
+physics: {{engine: {}, integrator: rk4, step: 5e-5}}
+{}
+)",
+                              slope, ground, duration, engine, rest));
+}
+
+double end(const RunRecord& record, const std::string& column) {
+  return Table(record.trace).at(record.trace.rows() - 1, column);
+}
+
+constexpr double kSlope = 0.2;  // rad
+
+const std::string kTiltedBox = "{type: boxes, boxes: [{center: [0, 0, 1], size: [4, 1, 0.2], rpy: [0, 0.2, 0]}]}";
+/// The same plane as heights, z = -x tan(0.2), of 17 digits.
+std::string tilted_field() {
+  const double fall = 0.5 * std::tan(kSlope);
+  std::string row;
+  for (int i = -4; i <= 4; ++i) row += fmt::format("{}{:.17g}", row.empty() ? "" : ", ", -i * fall);
+  return fmt::format("{{type: heightfield, heightfield: {{values: [[{0}], [{0}], [{0}]], origin: [-2, -2, 0], spacing: 0.5}}}}",
+                     row);
+}
+
+class OnGround : public EveryEngine {};
+INSTANTIATE_TEST_SUITE_P(Of, OnGround, engines(), engine_name);
+
+// As on the plane under a tilted gravity, but for the ground's place.
+TEST_P(OnGround, HoldsABlockOnATiltedBoxByFriction) {
+  for (const std::string& ground : {kTiltedBox, tilted_field()}) {
+    const RunRecord record = run(block(GetParam(), ground, kSlope, "", 0.4));
+    const double creep = oracle::SlidingBlock{0.8, 9.81, 0.01}.creeps(kSlope);
+    validate(
+        {"closed.block.tilted.creep", "block on a box or heightfield tilted by 0.2 rad: speed at which it creeps", kEq12,
+         "m/s"},
+        std::hypot(end(record, "base.vx"), end(record, "base.vz")), creep, 1e-10,
+        "0.4 s are 8 time constants of 1 / (n Cd p) = 50 ms of the normal's speed, which is below 1e-3 * 1e-4 m/s by then");
+    EXPECT_NEAR(end(record, "base.vz") / end(record, "base.vx"), -std::tan(kSlope), 1e-6);
+    double carried = 0;
+    for (int c = 0; c < 4; ++c) carried += end(record, fmt::format("contact.{}.fn", c));
+    EXPECT_NEAR(carried, 9.81 * std::cos(kSlope), 1e-6);
+  }
+}
+
+TEST_P(OnGround, LetsABlockSlideWhereFrictionIsTooSmall) {
+  // f = 0.1 < tan(0.2): from v_lim on it accelerates by g (sin a - f cos a).
+  const std::string box = "{type: boxes, boxes: [{center: [0, 0, 1], size: [4, 1, 0.2], rpy: [0, 0.2, 0], friction: 0.1}]}";
+  const RunRecord record = run(block(GetParam(), box, kSlope, "", 0.4));
+  const Table table(record.trace);
+  const auto speed = [&](double t) { return std::hypot(table(t, "base.vx"), table(t, "base.vz")); };
+  validate({"closed.block.tilted.slide", "block on a box tilted by 0.2 rad, f = 0.1: acceleration", kEq12, "m/s^2"},
+           (speed(0.4) - speed(0.3)) / 0.1, 9.81 * (std::sin(kSlope) - 0.1 * std::cos(kSlope)), 1e-3,
+           "its normal swing, by then below 1e-5 m/s, over 0.1 s");
+}
+
+// A ball between two boxes that lean on each other like a V: forces of both, as a vector.
+TEST_P(OnGround, CarriesABallOnAFloorAndAgainstAWall) {
+  const Scenario s = scenario(fmt::format(R"(
+gaitlab: 1
+robot:
+  position: [-0.05, 0, 0.05]
+  modules:
+    name: ball
+    bodies: {{ball: {{mass: 1, inertia: [0.001, 0.001, 0.001, 0, 0, 0]}}}}
+    contacts: {{feet: [{{body: ball, sphere: [0, 0, 0], radius: 0.05}}]}}
+ground: {{type: boxes, friction: 0, boxes: [{{center: [0.5, 0, 0.5], size: [1, 1, 1], friction: 0}}]}}
+actuator: {{type: none}}
+duration: 1
+trace: {{period: 1e-3, columns: [base.*, contact.*]}}
+physics: {{engine: {}, step: 2.5e-5, gravity: [3, 0, -9.81]}}
+)",
+                                          GetParam()));
+  const RunRecord record = run(s);
+  // Kn times the depths: 3 N against the wall, 9.81 N on the floor.
+  const std::string what = "ball pressed into the corner of floor and wall: depth ";
+  validate({"closed.corner.wall", what + "in the wall, m g_x / Kn", kEq12, "m"}, end(record, "base.x") + 0.05, 3e-4, 1e-9,
+           "the swing along each is gone (exp(-Cd p t / 2 m) = exp(-15) of 3e-4 m)");
+  validate({"closed.corner.floor", what + "in the floor, m g_z / Kn", kEq12, "m"}, 0.05 - end(record, "base.z"), 9.81e-4, 1e-9,
+           "the same");
+}
+
+TEST(GroundStart, LowersTheRobotOntoWhatIsBelow) {
+  const auto height = [](const std::string& ground, const std::string& more = "") {
+    return start_state(scenario("gaitlab: 1\nrobot: {modules: mtran" + more + "}\ncontact: {on: all}\nground: " + ground +
+                                "\nduration: 1\n"))
+        .position.z();
+  };
+  EXPECT_NEAR(height("{type: boxes, boxes: [{center: [5, 0, 1], size: [1, 1, 1]}]}"), 0.0325, 1e-12);
+  EXPECT_NEAR(height("{type: boxes, boxes: [{center: [0, 0, 0.05], size: [1, 1, 0.1]}]}"), 0.1325, 1e-12);
+  // A sphere of the active block, 0.0325 behind the middle and as far up, on a box that rises to the front by 0.1 rad; a point
+  // of the front face is farther down still.
+  const double top = 0.5 + 0.05 / std::cos(0.1);
+  EXPECT_NEAR(height("{type: boxes, boxes: [{center: [0, 0, 0.5], size: [1, 1, 0.1], rpy: [0, -0.1, 0]}]}"),
+              top + 0.065 * std::tan(0.1) + 0.0325, 1e-9);
+  EXPECT_NEAR(height("{type: heightfield, heightfield: {values: [[0, 0], [0, 0]], origin: [-1, -1, -0.3]}}"), 0.0325 - 0.3,
+              1e-12);
+}
+
+// Whatever box, wherever: who moves with it finds the same; a step of an element moves what it finds by no more.
+TEST(GroundProperty, ABoxIsTheSameFromEverySide) {
+  const auto number = [](double lo, double hi) { return lo + (hi - lo) * *rc::gen::inRange(0, 1000001) / 1e6; };
+  const auto vector = [&](double size) { return Vec3(number(-size, size), number(-size, size), number(-size, size)); };
+  const auto check = [&] {
+    Ground ground;
+    ground.kind = Ground::Kind::boxes;
+    Box box;
+    box.center = Vec3(0, 0, 20) + vector(5);
+    box.size = Vec3(0.5, 0.5, 0.5) + vector(0.45);
+    box.rpy = vector(3);
+    box.R = rpy(box.rpy);
+    ground.boxes = {box};
+    const Vec3 local = vector(0.8);
+    const double radius = number(0, 0.2);
+    const Vec3 centre = box.center + box.R * local;
+    const Ground::Touch touch = ground.query(centre, radius);
+    RC_ASSERT(std::abs(touch.normal.norm() - 1) < 1e-12);
+    RC_ASSERT((touch.point - (centre - radius * touch.normal)).norm() < 1e-12);
+    RC_ASSERT(std::abs(touch.penetration - radius - ground.query(centre, 0).penetration) < 1e-12);
+    // Mirrored in the box's own planes, and turned with it.
+    Ground other = ground;
+    other.boxes[0].rpy = vector(3);
+    other.boxes[0].R = rpy(other.boxes[0].rpy);
+    const Vec3 signs(*rc::gen::element(-1.0, 1.0), *rc::gen::element(-1.0, 1.0), *rc::gen::element(-1.0, 1.0));
+    const Ground::Touch seen = other.query(box.center + other.boxes[0].R * signs.cwiseProduct(local), radius);
+    RC_ASSERT(std::abs(seen.penetration - touch.penetration) < 1e-12);
+    // A distance has a slope of 1.
+    const Vec3 step = vector(0.01);
+    RC_ASSERT(std::abs(ground.query(centre + step, radius).penetration - touch.penetration) < step.norm() + 1e-12);
+  };
+  EXPECT_TRUE(rc::check(check));
+}
+
+TEST(GroundFigure, DrawsTheBoxesAndMjcfHoldsThem) {
+  const Folder folder;
+  const std::string rubble = "'" + kScenarios + "rubble.yaml'";
+  EXPECT_EQ(gaitlab("export " + rubble + " --to mjcf r.xml", folder / "").code, 0);
+  const std::string xml = read(folder / "r.xml");
+  EXPECT_NE(xml.find("<geom name=\"ground/3\" type=\"box\" size=\"0.11 0.12 0.004\" pos=\"1.16 0.14 0.004\""),
+            std::string::npos)
+      << xml;
+  folder.write("f.yaml",
+               "gaitlab: 1\nrobot: {modules: {name: one, bodies: {b: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}}}\n"
+               "ground: {type: heightfield, heightfield: {values: [[0, 0], [0, 1]]}}\nduration: 1\n");
+  const Result refused = gaitlab("export f.yaml --to mjcf f.xml", folder / "");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.err, "f.yaml:3:16: error: MJCF holds no heightfield of this kind; expected type: none, plane or boxes\n");
+  EXPECT_FALSE(std::filesystem::exists(folder / "f.xml"));
+}
+
+}  // namespace
+}  // namespace gaitlab::test
