@@ -109,6 +109,8 @@ RIGHT = [
     SHORT + "actuator: {type: none}\n",
     SHORT + "controller: {type: hold, command: 1, period: 0.005}\n",
     SHORT + "physics: {engine: bullet, integrator: rk4, step: 1e-5}\n",
+    SHORT + "ground: {type: boxes, boxes: [{center: [0, 0, 0.1], size: [1, 1, 0.2], rpy: [0, 0.1, 0], friction: 0.4}]}\n",
+    SHORT + "ground: {type: heightfield, heightfield: {values: [[0, 0.1], [0, 0]], origin: [-1, -1, 0], spacing: 2}}\n",
     SHORT + "trace: {period: 0.005, columns: [joint.*]}\nsensors: []\nplugins: []\n",
     "robot: {modules: {0: mtran, default: mtran}, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.1\n",
     "robot: {modules: {name: one, bodies: {b: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}}}\ncontact: {on: none}\nduration: 0.1\n"
@@ -140,6 +142,9 @@ WRONG = [
     SHORT + "physics: {integrator: euler}\n",
     SHORT + "physics: {gravity: [0, 0]}\n",
     SHORT + "ground: {type: plane, friction: -1}\n",
+    SHORT + "ground: {type: boxes, boxes: [{size: [1, 1]}]}\n",
+    SHORT + "ground: {type: boxes, boxes: [{size: [1, 1, 1], centre: [0, 0, 0]}]}\n",
+    SHORT + "ground: {type: heightfield, heightfield: {values: [0, 1]}}\n",
     SHORT + "contact: {slip_speed: 0}\n",
     SHORT + "contact: {on: foot}\n",
     SHORT + "initial: {angles: high}\n",

@@ -45,7 +45,9 @@ Rows read_rows(const Node& list, const std::string& what, const Spec& spec, Prob
       problems.add(row.place, fmt::format("{} is {}; expected a list of numbers", name, found(row)));
       continue;
     }
-    if (row.items.size() != list.items[0].items.size()) {
+    if (row.items.empty()) {
+      problems.add(row.place, name + " is empty; expected a list of numbers");
+    } else if (row.items.size() != list.items[0].items.size()) {
       problems.add(row.place, fmt::format("{} has {}; expected {} like {}[0]", name, numbers(row.items.size()),
                                           list.items[0].items.size(), what));
     }

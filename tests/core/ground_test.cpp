@@ -235,6 +235,14 @@ TEST(GroundField, NormalIsTheSlopeOfTheSurface) {
   }
 }
 
+// A run that diverges asks for places that are none; it ends with an error after the step.
+TEST(GroundField, StandsPlacesThatAreNone) {
+  const double none = std::nan("");
+  EXPECT_FALSE(field(2, {0, 1, 2, 3}).query(Vec3(none, none, none), 0.1).penetration > 0);
+  EXPECT_FALSE(boxes({box(kMiddle, kSize)}).query(Vec3(none, none, none), 0.1).penetration > 0);
+  EXPECT_NEAR(field(2, {0, 0, 0, 0}).query(Vec3(1e300, -1e300, 0.05), 0.1).penetration, 0.1, kRounding);
+}
+
 // A sphere on a ball: z = -(x^2 + y^2) / 2 R near the top, whose curvature the cubic cells have exactly at the nodes' spacing.
 TEST(GroundField, FindsTheNearestPointOfACurvedSurface) {
   const double R = 0.5;

@@ -80,6 +80,9 @@ TEST_F(GroundSection, RefusesHeightfieldsAtTheirPlace) {
   EXPECT_EQ(field("values: [[0, 1], 5]"), "s.yaml:3:60: error: values[1] is 5; expected a list of numbers");
   EXPECT_EQ(field("values: [[0, x], [1, 1]]"), "s.yaml:3:56: error: values[0][1] is 'x'; expected a number in m");
   EXPECT_EQ(field("values: [[0], [1]]"), "s.yaml:3:51: error: the heightfield has 2 rows of 1; expected at least 2 of 2");
+  EXPECT_EQ(field("values: [[], []]"),
+            "s.yaml:3:52: error: values[0] is empty; expected a list of numbers\n"
+            "s.yaml:3:56: error: values[1] is empty; expected a list of numbers");
   EXPECT_EQ(field("values: []"), "s.yaml:3:51: error: the heightfield has 0 rows of 0; expected at least 2 of 2");
   EXPECT_EQ(field("values: 5"), "s.yaml:3:51: error: values is 5; expected a list of rows of numbers");
   EXPECT_EQ(field("values: [[0, 1], [1, 1]], spacing: 0"),
