@@ -78,10 +78,10 @@ void DcMotorActuator::report(In command, In speed, Report out) const {
     const DcMotor::Effort e = motors_[i](command[i], speed[i]);
     out.voltage[i] = e.voltage;
     out.current[i] = e.current;
-    out.saturation[i] = e.saturation;
-    out.power_in[i] = e.voltage * e.current;
-    out.copper[i] = motors_[i].R * e.current * e.current;
-    out.gear[i] = out.power_in[i] - out.copper[i] - e.torque * speed[i];
+    out.saturation[i] = e.saturation();
+    out.power_in[i] = e.drawn;
+    out.copper[i] = e.copper;
+    out.gear[i] = e.gear;
   }
 }
 

@@ -22,6 +22,7 @@ class DcMotorActuator final : public Actuator {
   void effort(In command, In speed, Out torque, Out slope) const override;
   void report(In command, In speed, Report out) const override;
   void unlimited(In command, In speed, Out torque, Out slope) const override;
+  [[nodiscard]] const DcMotor* dc_motors() const override { return motors_.data(); }
 
  private:
   std::vector<DcMotor> motors_;

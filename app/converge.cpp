@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/app.h"
-#include "app/parallel.h"
+#include "core/parallel.h"
 #include "core/simulation/simulation.h"
 #include "core/trace/convergence.h"
 

@@ -35,7 +35,7 @@ Acceleration forward(const Scenario& scenario, const DynamicsInput& input) {
   const std::unique_ptr<Plant> plant = scenario.physics.engine->make(settings);
   Acceleration acceleration;
   acceleration.joints.resize(input.tau.size());
-  plant->accelerate(input.state, input.tau, input.wrenches, acceleration);
+  plant->accelerate(0, input.state, input.tau, input.wrenches, acceleration);
   return acceleration;
 }
 

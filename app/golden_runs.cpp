@@ -6,8 +6,8 @@
 #include <functional>
 #include <mutex>
 
-#include "app/parallel.h"
 #include "app/progress.h"
+#include "core/parallel.h"
 #include "core/simulation/simulation.h"
 #include "report/build_id.h"
 #include "report/summary.h"

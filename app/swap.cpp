@@ -7,8 +7,8 @@
 
 #include "app/app.h"
 #include "app/golden_report.h"
-#include "app/parallel.h"
 #include "core/errors.h"
+#include "core/simulation/batch.h"
 #include "core/trace/atomic_file.h"
 #include "core/trace/run_folder.h"
 #include "report/curves.h"
@@ -99,17 +99,12 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
 }
 
 void run_all(std::vector<Swapped>& all, int jobs) {
-  parallel(all.size(), jobs, [&](std::size_t i) {
-    Simulation simulation({&*all[i].scenario, 1});
-    std::string outcome = "done";
-    try {
-      simulation.run();
-    } catch (const SimulationError& error) {
-      outcome = error.what();
-    }
-    all[i].record = simulation.take_record(0);
+  std::vector<Scenario> scenarios;
+  for (const Swapped& one : all) scenarios.push_back(*one.scenario);
+  run_batch(scenarios, {.threads = jobs}, [&](std::size_t i, RolloutEnd&& end) {
+    all[i].record = std::move(end.record);
     all[i].summary = summarise(*all[i].scenario, all[i].record, 0);
-    all[i].summary.outcome = outcome;
+    all[i].summary.outcome = end.outcome;
   });
 }
 

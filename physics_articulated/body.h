@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/math/functions.h"
-#include "core/simulation/plant.h"
+#include "core/simulation/state_layout.h"
 #include "physics_articulated/cholesky.h"
 #include "physics_articulated/spatial.h"
 #include "physics_articulated/tree.h"
@@ -16,51 +16,73 @@ namespace gaitlab::articulated {
 /// fits into the recursion (Featherstone, Rigid Body Dynamics Algorithms, 2008, 7.3, here in world axes about the origin of the
 /// base frame: a child's inertia and force are added to the parent's as they are). Forces are those at the start; weight is a
 /// force on each link and not an acceleration of the base, so that what resists sees true velocities.
-///     place, add_force and add_resistance as often as there are, solve; respond as often as wanted.
+///     place, then solve as often as wanted; respond by the last solve's matrix.
 /// State: entries as in StateLayout, SI; the quaternion may have any length but 0. No allocation but in the constructor.
 template <class T>
 class Body {
  public:
-  Body(const Tree& tree, const Vec3& gravity)
-      : tree_(tree), gravity_{gravity.x(), gravity.y(), gravity.z()}, links_(tree.links.size()) {}
+  Body(const Tree<T>& tree, const Vec<T>& gravity) : tree_(tree), gravity_(gravity), links_(tree.links.size()) {}
 
   /// Poses and velocities from the state; inertias, weight, centrifugal and gyroscopic forces.
   void place(std::span<const T> state) {
     place_base(state);
-    for (std::size_t i = 1; i < links_.size(); ++i) place_link(i, state);
-    clear();
-  }
-  /// Back to what place left: solve has used it up, and nothing added stays.
-  void clear() {
-    for (std::size_t i = 0; i < links_.size(); ++i) weigh(i);
-  }
-
-  /// On a link, at a point from the base frame's origin, world axes; N, N m.
-  void add_force(std::size_t link, const Vec<T>& x, const Vec<T>& force) { links_[link].p -= force_at(x, force); }
-  void add_moment(std::size_t link, const Vec<T>& moment) { links_[link].p.n -= moment; }
-  /// Force -G J v' on the point: G has the unit of a mass.
-  void add_resistance(std::size_t link, const Vec<T>& x, const Sym<T>& G) {
-    Link& l = links_[link];
-    l.I += resistance(x, G);
-    // J v' is what v' makes of the point's acceleration: the rest, `bias`, is there without it.
-    add_force(link, x, G * l.bias.at(x));
+    weigh(0);
+    for (std::size_t i = 1; i < links_.size(); ++i) {
+      place_link(i, state);
+      weigh(i);
+    }
   }
 
-  /// `torque` and `diagonal`: a joint, N m and kg m^2. out: 6 + joints.
-  void solve(std::span<const T> torque, std::span<const T> diagonal, std::span<T> out) {
+  /// What acts on one link while solve passes it.
+  class Load {
+   public:
+    /// At a point from the base frame's origin, world axes; N, N m.
+    void add_force(const Vec<T>& x, const Vec<T>& force) { p_ -= force_at(x, force); }
+    void add_moment(const Vec<T>& moment) { p_.n -= moment; }
+    /// Force -G J v' on the point: G has the unit of a mass.
+    void add_resistance(const Vec<T>& x, const Sym<T>& G) {
+      I_ += resistance(x, G);
+      // J v' is what v' makes of the point's acceleration: the rest, `bias`, is there without it.
+      add_force(x, G * bias_.at(x));
+    }
+
+   private:
+    friend Body;
+    Load(Inertia<T>& I, Force<T>& p, const Motion<T>& bias) : I_(I), p_(p), bias_(bias) {}
+    Inertia<T>& I_;
+    Force<T>& p_;
+    const Motion<T>& bias_;
+  };
+
+  /// `torque` and `diagonal`: a joint, N m and kg m^2. loads(link, Load): called once a link, the last first. out: 6 + joints.
+  template <class Loads>
+  void solve(std::span<const T> torque, std::span<const T> diagonal, std::span<T> out, Loads loads) {
     for (std::size_t i = links_.size(); i-- > 1;) {
       Link& l = links_[i];
-      const std::size_t j = tree_.links[i].joint;
-      l.U = l.I * l.S;
-      l.inverse = 1.0 / (dot(l.S, l.U) + diagonal[j]);
-      l.u = torque[j] - dot(l.S, l.p);
-      Link& parent = links_[tree_.links[i].parent];
-      l.I.add_square(-l.inverse, l.U);
-      parent.I += l.I;
-      parent.p += l.p;
-      parent.p += l.I * l.c;
-      add_scaled(parent.p, l.inverse * l.u, l.U);
+      const TreeLink<T>& constant = tree_.links[i];
+      Inertia<T> I = constant.leaf ? rigid(constant.mass, l.moment, l.about_origin) : l.I;
+      Force<T> p = constant.leaf ? l.at_rest : l.p;
+      loads(i, Load(I, p, l.bias));
+      l.U = I * l.S;
+      l.inverse = 1.0 / (dot(l.S, l.U) + diagonal[constant.joint]);
+      l.u = torque[constant.joint] - dot(l.S, p);
+      I.add_square(-l.inverse, l.U);
+      p += I * l.c;
+      add_scaled(p, l.inverse * l.u, l.U);
+      Link& parent = links_[constant.parent];
+      if (constant.last_child) {  // the first that this pass meets
+        parent.I = rigid(tree_.links[constant.parent].mass, parent.moment, parent.about_origin);
+        parent.p = parent.at_rest;
+      }
+      parent.I += I;
+      parent.p += p;
     }
+    Link& base = links_[0];
+    if (tree_.links[0].leaf) {
+      base.I = rigid(tree_.links[0].mass, base.moment, base.about_origin);
+      base.p = base.at_rest;
+    }
+    loads(0, Load(base.I, base.p, base.bias));
     factor_base();
     spread(base_acceleration(), true, out);
     // A spatial acceleration is not d/dt of the origin's velocity.
@@ -84,9 +106,18 @@ class Body {
     spread(base_acceleration(), false, out);
   }
 
+  [[nodiscard]] Vec<T> com() const {
+    Vec<T> moment{};
+    T mass = 0.0;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      moment += links_[i].moment;
+      mass = mass + tree_.links[i].mass;
+    }
+    return origin_ + (T(1.0) / mass) * moment;
+  }
   [[nodiscard]] const Vec<T>& origin() const { return origin_; }  ///< of the base frame, world, m
   /// Of a point fixed to a link, from the base frame's origin.
-  [[nodiscard]] Vec<T> point(std::size_t link, const Vec<double>& in_link) const {
+  [[nodiscard]] Vec<T> point(std::size_t link, const Vec<T>& in_link) const {
     return links_[link].r + links_[link].R * in_link;
   }
   [[nodiscard]] Vec<T> velocity(std::size_t link, const Vec<T>& x) const { return links_[link].V.at(x); }
@@ -97,17 +128,20 @@ class Body {
 
  private:
   struct Link {
-    Mat<T> R;        ///< own axes in the world
-    Vec<T> r;        ///< own origin, from the base frame's
-    Motion<T> S;     ///< what one unit of the joint's speed does
-    Motion<T> V;     ///< velocity
-    Motion<T> c;     ///< acceleration that the joint's turning axis makes
-    Motion<T> bias;  ///< acceleration where v' = 0
-    Inertia<T> I;    ///< rigid, then articulated, then what is left of it with the joint free
-    Force<T> p;      ///< force that holds it without acceleration
-    Force<T> U;      ///< I S
-    T inverse, u;    ///< 1 / (S^T I S + diagonal); what accelerates the joint
-    Motion<T> A;     ///< acceleration
+    Mat<T> R;             ///< own axes in the world
+    Vec<T> r;             ///< own origin, from the base frame's
+    Motion<T> S;          ///< what one unit of the joint's speed does
+    Motion<T> V;          ///< velocity
+    Motion<T> c;          ///< acceleration that the joint's turning axis makes
+    Motion<T> bias;       ///< acceleration where v' = 0
+    Vec<T> moment;        ///< mass times COM
+    Sym<T> about_origin;  ///< inertia about the origin
+    Force<T> at_rest;     ///< p before anything is added
+    Inertia<T> I;         ///< rigid and what its children add
+    Force<T> p;           ///< force that holds it without acceleration, and theirs
+    Force<T> U;           ///< I S
+    T inverse, u;         ///< 1 / (S^T I S + diagonal); what accelerates the joint
+    Motion<T> A;          ///< acceleration
   };
 
   static void add_scaled(Force<T>& to, const T& s, const Force<T>& U) {
@@ -127,7 +161,7 @@ class Body {
   }
 
   void place_link(std::size_t i, std::span<const T> state) {
-    const TreeLink& constant = tree_.links[i];
+    const TreeLink<T>& constant = tree_.links[i];
     const Link& parent = links_[constant.parent];
     Link& l = links_[i];
     const T& q = state[StateLayout::kAngles + constant.joint];
@@ -143,17 +177,17 @@ class Body {
   }
 
   void weigh(std::size_t i) {
-    const TreeLink& constant = tree_.links[i];
+    const TreeLink<T>& constant = tree_.links[i];
     Link& l = links_[i];
-    const T mass = constant.mass;
     const Vec<T> c = l.r + l.R * constant.com;
-    const Vec<T> h = mass * c;
-    l.I = rigid(constant.mass, h, c, turned(l.R, constant.inertia));
-    const Vec<T> weight = mass * gravity_;
-    const Vec<T> momentum = mass * l.V.v + cross(l.V.w, h);
-    const Vec<T> angular = l.I.A * l.V.w + cross(h, l.V.v);
-    l.p.n = cross(l.V.w, angular) + cross(l.V.v, momentum) - cross(c, weight);
-    l.p.f = cross(l.V.w, momentum) - weight;
+    const Vec<T> h = constant.mass * c;
+    l.moment = h;
+    l.about_origin = about(c, h, turned(l.R, constant.inertia));
+    const Vec<T> weight = constant.mass * gravity_;
+    const Vec<T> momentum = constant.mass * l.V.v + cross(l.V.w, h);
+    const Vec<T> angular = l.about_origin * l.V.w + cross(h, l.V.v);
+    l.at_rest.n = cross(l.V.w, angular) + cross(l.V.v, momentum) - cross(c, weight);
+    l.at_rest.f = cross(l.V.w, momentum) - weight;
   }
 
   /// Outwards. `moving`: with the accelerations that velocities make.
@@ -207,7 +241,7 @@ class Body {
     return {};
   }
 
-  const Tree& tree_;
+  const Tree<T>& tree_;
   Vec<T> gravity_;
   Vec<T> origin_;
   std::vector<Link> links_;

@@ -74,14 +74,17 @@ struct Inertia {
   }
 };
 
-/// Of mass m with first moment h = m c and inertia about the COM, both in world axes.
+/// Inertia about the origin of a body with COM c, first moment h = m c and that inertia about its COM.
 template <class T>
-Inertia<T> rigid(double m, const Vec<T>& h, const Vec<T>& c, Sym<T> about_com) {
-  const T zero = 0.0;
+Sym<T> about(const Vec<T>& c, const Vec<T>& h, Sym<T> about_com) {
   const T hc = dot(h, c);
   about_com += {hc - h.x * c.x, hc - h.y * c.y, hc - h.z * c.z, -h.x * c.y, -h.x * c.z, -h.y * c.z};
-  const T mass = m;
-  return {about_com, {{zero, h.z, -h.y}, {-h.z, zero, h.x}, {h.y, -h.x, zero}}, {mass, mass, mass, zero, zero, zero}};
+  return about_com;
+}
+template <class T>
+Inertia<T> rigid(const T& mass, const Vec<T>& h, const Sym<T>& about_origin) {
+  const T zero = 0.0;
+  return {about_origin, {{zero, h.z, -h.y}, {-h.z, zero, h.x}, {h.y, -h.x, zero}}, {mass, mass, mass, zero, zero, zero}};
 }
 
 /// What a slope G of a force against the velocity of the point x does: force -G v(x), that is, as an inertia would resist.

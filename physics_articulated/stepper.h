@@ -1,11 +1,15 @@
 // One step of time over a scalar T, a double or lanes: implicit, extrapolated, rk4.
 #pragma once
 #include <algorithm>
+#include <cstring>
 
 #include "core/laws/hinge_stop.h"
 #include "physics_articulated/contacts.h"
+#include "physics_articulated/motors.h"
 
 namespace gaitlab::articulated {
+
+enum Method { kImplicit, kExtrapolated, kRk4 };
 
 /// What a step did, for the ledger.
 template <class T>
@@ -43,116 +47,105 @@ struct Done {
 template <class T>
 class Stepper {
  public:
-  enum Method { implicit, extrapolated, rk4 };
   static constexpr int kSolves = 4;
 
-  Stepper(const Tree& tree, const PlantSettings& s)
-      : body(tree, s.gravity),
-        contacts(tree, s.ground, s.law),
+  Stepper(const Tree<T>& tree, const Site<T>& site, const Actuator* actuator, Method method)
+      : body(tree, site.gravity),
+        contacts(tree, site),
+        motors(actuator, tree.lo.size()),
         rotor(tree.lo.size(), T(0.0)),
         done(tree.lo.size()),
         tree_(tree),
-        actuator_(s.actuator),
-        method_(static_cast<Method>(s.integrator)),
+        method_(method),
         joints_(tree.lo.size()),
-        held_(joints_ * s.lanes),
         part_(joints_) {
-    for (auto* values : {&torque_, &slope_, &limited_, &limited_slope_, &unlimited_, &unlimited_slope_, &stop_, &stop_slope_,
-                         &force_, &diagonal_, &end_}) {
-      values->assign(joints_, T(0.0));
-    }
-    for (auto* state : {&start_, &stage_, &rate_, &sum_}) state->assign(StateLayout::kAngles + 2 * joints_, T(0.0));
+    for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_}) values->assign(joints_, T(0.0));
+    for (auto* state : {&start_, &prepared_, &stage_, &rate_, &sum_}) state->assign(StateLayout::kAngles + 2 * joints_, T(0.0));
     a_.assign(6 + joints_, T(0.0));
-    const In inertia = actuator_ == nullptr ? In() : actuator_->reflected_inertia();
-    std::copy(inertia.begin(), inertia.end(), numbers(rotor).begin());
+    const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
+    std::copy(inertia.begin(), inertia.end(), math::numbers(std::span<T>(rotor)).begin());
+  }
+
+  /// Places the body and finds its contacts, unless this was the last state placed.
+  void place(std::span<const T> x) {
+    const In now = math::numbers(x);
+    const In last = math::numbers(std::span<const T>(prepared_));
+    if (placed_ && std::memcmp(now.data(), last.data(), now.size_bytes()) == 0) return;
+    std::copy(x.begin(), x.end(), prepared_.begin());
+    placed_ = true;
+    body.place(x);
+    contacts.find(body);
   }
 
   /// Held commands: joint * lanes + lane.
   void step(std::span<T> x, In command, double h) {
     done.clear();
-    if (method_ == rk4) {
+    if (method_ == kRk4) {
       runge_kutta(x, command, h);
       return;
     }
-    if (method_ == implicit) {
-      implicit_step(x, command, h);
+    begin(x, command);
+    if (method_ == kImplicit) {
+      finish(x, command, h);
       done.add(part_, 1, 1);
       return;
     }
     std::copy(x.begin(), x.end(), start_.begin());
-    implicit_step(start_, command, h);
+    finish(start_, command, h);
     done.add(part_, -1, -1);
-    for (int i = 0; i < 2; ++i) {
-      implicit_step(x, command, h / 2);
-      done.add(part_, 1, 2);  // means of half the step: 2 / 2
-    }
-    for (std::size_t e = 0; e < x.size(); ++e) x[e] = 2.0 * x[e] - start_[e];
+    finish(x, command, h / 2);
+    done.add(part_, 1, 2);  // means of half the step: 2 / 2
+    begin(x, command);
+    finish(x, command, h / 2);
+    done.add(part_, 1, 2);
+    for (std::size_t e = 0; e < x.size(); ++e) x[e] = T(2.0) * x[e] - start_[e];
     normalise(x);
   }
 
   Body<T> body;
   Contacts<T> contacts;
+  Motors<T> motors;
   std::vector<T> rotor;  ///< reflected inertia of each joint, kg m^2
   Done<T> done;          ///< of the last step
 
  private:
-  static Out numbers(std::span<T> values) { return math::numbers(values); }
   std::span<T> speeds(std::span<T> x) const { return x.subspan(StateLayout::kAngles + joints_, joints_); }
 
-  void implicit_step(std::span<T> x, In command, double h) {
-    if (actuator_ != nullptr) actuator_->unlimited(command, numbers(speeds(x)), numbers(torque_), numbers(slope_));
-    std::fill(held_.begin(), held_.end(), false);
-    place(x, h);
+  /// What a step needs of its start, whatever its length.
+  void begin(std::span<T> x, In command) {
+    place(x);
+    motors.start(command, speeds(x));
+  }
+
+  /// An implicit step of h from where begin left off; begin serves several.
+  void finish(std::span<T> x, In command, double h) {
+    motors.begin();
+    contacts.begin(h);
+    stop(x, h);
     accelerate(h);
     for (int solve = 1;; ++solve) {
-      for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + h * a_[6 + j];
+      for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + T(h) * a_[6 + j];
       if (solve == kSolves) break;
-      const bool motors = hold(command, numbers(speeds(x)));
-      if (!contacts.change(body, h) && !motors) break;
-      body.clear();
+      const bool held = motors.hold(command, speeds(x), end_);
+      if (!contacts.change(body, h) && !held) break;
       accelerate(h);
     }
-    for (std::size_t j = 0; j < joints_; ++j) part_.torque[j] = torque_[j] - h * slope_[j] * a_[6 + j];
+    for (std::size_t j = 0; j < joints_; ++j) part_.torque[j] = motors.torque[j] - T(h) * motors.slope[j] * a_[6 + j];
     part_.speed = end_;
     part_.contact = part_.friction = part_.stops = T(0.0);
     add_works(x, h, h);
-    for (std::size_t i = 0; i < 6; ++i) x[StateLayout::kVelocity + i] = x[StateLayout::kVelocity + i] + h * a_[i];
+    for (std::size_t i = 0; i < 6; ++i) x[StateLayout::kVelocity + i] = x[StateLayout::kVelocity + i] + T(h) * a_[i];
     std::copy(end_.begin(), end_.end(), speeds(x).begin());
     drift(x, h);
   }
 
-  /// Holds motors at the limits that the step's end passes, there being any that were not held; torque and slope are then the
-  /// law's at that end.
-  bool hold(In command, In speed) {
-    if (actuator_ == nullptr) return false;
-    const In end = numbers(end_);
-    actuator_->effort(command, end, numbers(limited_), numbers(limited_slope_));
-    actuator_->unlimited(command, end, numbers(unlimited_), numbers(unlimited_slope_));
-    bool more = false;
-    for (std::size_t i = 0; i < held_.size(); ++i) {
-      if (held_[i] || numbers(limited_)[i] == numbers(unlimited_)[i]) continue;
-      held_[i] = more = true;
-      numbers(slope_)[i] = numbers(limited_slope_)[i];
-      numbers(torque_)[i] = numbers(limited_)[i] + numbers(limited_slope_)[i] * (end[i] - speed[i]);
-    }
-    return more;
-  }
-
-  /// h: over which slopes work, 0: explicit.
-  void place(std::span<T> x, double h) {
-    body.place(x);
-    contacts.find(body, h);
-    stop(x, h);
-  }
-
-  /// a_ from the motors' torque_ and slope_ and all else that acts.
+  /// a_ from the motors and all else that acts.
   void accelerate(double h) {
-    contacts.apply(body, h);
     for (std::size_t j = 0; j < joints_; ++j) {
-      force_[j] = torque_[j] + stop_[j];
-      diagonal_[j] = rotor[j] + (h > 0 ? h * (slope_[j] + stop_slope_[j]) : T(0.0));
+      force_[j] = motors.torque[j] + stop_[j];
+      diagonal_[j] = rotor[j] + (h > 0 ? T(h) * (motors.slope[j] + stop_slope_[j]) : T(0.0));
     }
-    body.solve(force_, diagonal_, a_);
+    body.solve(force_, diagonal_, a_, [&](std::size_t link, typename Body<T>::Load load) { contacts.load(link, load, h); });
   }
 
   /// Torque and slope of the stops as contacts have them: -ks (q + h qd+ - q_lim) - cs qd+.
@@ -214,8 +207,10 @@ class Stepper {
 
   /// d/dt of the whole state, the orientation as a quaternion: q' = (0, omega) q / 2.
   void derive(std::span<T> x, In command, std::span<T> rate) {
-    if (actuator_ != nullptr) actuator_->effort(command, numbers(speeds(x)), numbers(torque_), numbers(slope_));
-    place(x, 0);
+    motors.evaluate(command, speeds(x));
+    place(x);
+    contacts.begin(0);
+    stop(x, 0);
     accelerate(0);
     constexpr std::size_t w = StateLayout::kAngularVelocity;
     std::copy_n(x.begin() + StateLayout::kVelocity, 3, rate.begin());
@@ -235,7 +230,7 @@ class Stepper {
       derive(stage_, command, rate_);
       part_.contact = part_.friction = part_.stops = T(0.0);
       add_works(stage_, 0, kWeight[i] * h);
-      part_.torque = torque_;
+      part_.torque = motors.torque;
       std::fill(part_.speed.begin(), part_.speed.end(), T(0.0));
       done.add(part_, kWeight[i], 1);
       for (std::size_t e = 0; e < x.size(); ++e) {
@@ -247,16 +242,13 @@ class Stepper {
     normalise(x);
   }
 
-  const Tree& tree_;
-  const Actuator* actuator_;
+  const Tree<T>& tree_;
   Method method_;
   std::size_t joints_;
-  std::vector<T> torque_, slope_;                                         // of the motors, as the solve takes them
-  std::vector<T> limited_, limited_slope_, unlimited_, unlimited_slope_;  // of the motors' laws at the step's end
-  std::vector<T> stop_, stop_slope_, force_, diagonal_, end_, a_;         // a joint; end_: speeds
-  std::vector<char> held_;                                                // joint * lanes + lane
+  std::vector<T> stop_, stop_slope_, force_, diagonal_, end_, a_;  // a joint; end_: speeds
   Done<T> part_;
-  std::vector<T> start_, stage_, rate_, sum_;
+  bool placed_ = false;
+  std::vector<T> start_, prepared_, stage_, rate_, sum_;
 };
 
 }  // namespace gaitlab::articulated

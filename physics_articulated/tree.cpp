@@ -1,13 +1,18 @@
 #include "physics_articulated/tree.h"
 
+#include "core/model/robot.h"
+#include "physics_articulated/eigen.h"
+
 namespace gaitlab::articulated {
 
-Tree::Tree(const Robot& robot, Base base_kind, const std::vector<ContactElement>& contacts) : base(base_kind) {
+Tree<double> tree(const Robot& robot, Base base, const std::vector<ContactElement>& contacts) {
+  Tree<double> all;
+  all.base = base;
   // Turns a link's frame so that its z is the joint axis; the base frame stays what the state describes.
   std::vector<Mat3> frames{Mat3::Identity()};
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
     const Link& link = robot.links[i];
-    TreeLink one;
+    TreeLink<double> one;
     if (i > 0) {
       const Vec3 x = link.axis.unitOrthogonal();
       Mat3 frame;
@@ -21,15 +26,21 @@ Tree::Tree(const Robot& robot, Base base_kind, const std::vector<ContactElement>
     one.mass = link.mass;
     one.com = vec(frames[i].transpose() * link.com);
     one.inertia = sym(frames[i].transpose() * link.inertia * frames[i]);
-    links.push_back(one);
+    all.links.push_back(one);
+  }
+  for (std::size_t i = all.links.size(); i-- > 1;) {
+    TreeLink<double>& parent = all.links[all.links[i].parent];
+    all.links[i].last_child = parent.leaf;
+    parent.leaf = false;
   }
   for (const ContactElement& element : contacts) {
-    points.push_back({element.link, vec(frames[element.link].transpose() * element.centre), element.radius});
+    all.points.push_back({element.link, vec(frames[element.link].transpose() * element.centre), element.radius});
   }
   for (const Joint& joint : robot.joints) {
-    lo.push_back(joint.lo);
-    hi.push_back(joint.hi);
+    all.lo.push_back(joint.lo);
+    all.hi.push_back(joint.hi);
   }
+  return all;
 }
 
 }  // namespace gaitlab::articulated

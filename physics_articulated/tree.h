@@ -1,35 +1,110 @@
-// The robot as the recursion wants it: links whose joint axis is the z of their frame.
+// The robots of the lanes as the recursion wants them: links whose joint axis is the z of their frame.
 #pragma once
+#include <span>
 #include <vector>
 
-#include "core/model/robot.h"
+#include "core/model/base.h"
 #include "physics_articulated/vector.h"
+
+namespace gaitlab {
+struct Robot;
+struct ContactElement;
+}  // namespace gaitlab
 
 namespace gaitlab::articulated {
 
+template <class T>
 struct TreeLink {
   std::size_t parent = 0, joint = 0;  ///< of links 1..
-  Mat<double> at_zero;                ///< own axes in the parent's at joint angle 0
-  Vec<double> origin;                 ///< of the own frame, in the parent's, m
-  double mass = 0;
-  Vec<double> com;      ///< own frame, m
-  Sym<double> inertia;  ///< about the COM, own axes, kg m^2
+  bool leaf = true;                   ///< has no children
+  bool last_child = false;            ///< of its parent
+  Mat<T> at_zero;                     ///< own axes in the parent's at joint angle 0
+  Vec<T> origin;                      ///< of the own frame, in the parent's, m
+  T mass = 0.0;
+  Vec<T> com;      ///< own frame, m
+  Sym<T> inertia;  ///< about the COM, own axes, kg m^2
 };
 
+template <class T>
 struct TreePoint {
   std::size_t link = 0;
-  Vec<double> centre;  ///< own frame of the link, m
-  double radius = 0;
+  Vec<T> centre;  ///< own frame of the link, m
+  T radius = 0.0;
 };
 
-/// Constants of one robot, the same in all lanes.
+/// Constants of one robot a lane; links, joints and points are the same ones in all lanes, their numbers may differ.
+template <class T>
 struct Tree {
-  Tree(const Robot& robot, Base base, const std::vector<ContactElement>& contacts);
-
-  Base base;
-  std::vector<TreeLink> links;    ///< a parent before its children
-  std::vector<TreePoint> points;  ///< one a contact element
-  std::vector<double> lo, hi;     ///< range of each joint, rad
+  Base base = Base::floating;
+  std::vector<TreeLink<T>> links;    ///< a parent before its children
+  std::vector<TreePoint<T>> points;  ///< one a contact element
+  std::vector<T> lo, hi;             ///< range of each joint, rad
 };
+
+Tree<double> tree(const Robot& robot, Base base, const std::vector<ContactElement>& contacts);
+
+template <class T>
+void put(T& to, std::size_t lane, double from) {
+  math::lane(to, lane) = from;
+}
+template <class T>
+void put(Vec<T>& to, std::size_t lane, const Vec<double>& from) {
+  put(to.x, lane, from.x);
+  put(to.y, lane, from.y);
+  put(to.z, lane, from.z);
+}
+template <class T>
+void put(Mat<T>& to, std::size_t lane, const Mat<double>& from) {
+  put(to.x, lane, from.x);
+  put(to.y, lane, from.y);
+  put(to.z, lane, from.z);
+}
+template <class T>
+void put(Sym<T>& to, std::size_t lane, const Sym<double>& from) {
+  put(to.xx, lane, from.xx);
+  put(to.yy, lane, from.yy);
+  put(to.zz, lane, from.zz);
+  put(to.xy, lane, from.xy);
+  put(to.xz, lane, from.xz);
+  put(to.yz, lane, from.yz);
+}
+
+/// One tree a lane, alike.
+template <class T>
+Tree<T> side_by_side(std::span<const Tree<double>* const> lanes) {
+  const Tree<double>& first = *lanes[0];
+  Tree<T> all;
+  all.base = first.base;
+  all.links.resize(first.links.size());
+  all.points.resize(first.points.size());
+  all.lo.resize(first.lo.size());
+  all.hi.resize(first.hi.size());
+  for (std::size_t l = 0; l < lanes.size(); ++l) {
+    const Tree<double>& one = *lanes[l];
+    for (std::size_t i = 0; i < all.links.size(); ++i) {
+      TreeLink<T>& to = all.links[i];
+      const TreeLink<double>& from = one.links[i];
+      to.parent = from.parent;
+      to.joint = from.joint;
+      to.leaf = from.leaf;
+      to.last_child = from.last_child;
+      put(to.at_zero, l, from.at_zero);
+      put(to.origin, l, from.origin);
+      put(to.mass, l, from.mass);
+      put(to.com, l, from.com);
+      put(to.inertia, l, from.inertia);
+    }
+    for (std::size_t i = 0; i < all.points.size(); ++i) {
+      all.points[i].link = one.points[i].link;
+      put(all.points[i].centre, l, one.points[i].centre);
+      put(all.points[i].radius, l, one.points[i].radius);
+    }
+    for (std::size_t j = 0; j < all.lo.size(); ++j) {
+      put(all.lo[j], l, one.lo[j]);
+      put(all.hi[j], l, one.hi[j]);
+    }
+  }
+  return all;
+}
 
 }  // namespace gaitlab::articulated

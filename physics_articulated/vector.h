@@ -2,7 +2,6 @@
 // use packets, and a rollout must give the same bits alone and beside seven others.
 #pragma once
 #include "core/math/lanes.h"
-#include "core/model/frames.h"
 
 namespace gaitlab::articulated {
 
@@ -36,15 +35,11 @@ template <class T>
 struct Mat {
   Vec<T> x, y, z;
 
-  template <class U>
-  friend Vec<T> operator*(const Mat& R, const Vec<U>& v) {
+  friend Vec<T> operator*(const Mat& R, const Vec<T>& v) {
     return {R.x.x * v.x + R.y.x * v.y + R.z.x * v.z, R.x.y * v.x + R.y.y * v.y + R.z.y * v.z,
             R.x.z * v.x + R.y.z * v.y + R.z.z * v.z};
   }
-  template <class U>
-  friend Mat operator*(const Mat& R, const Mat<U>& b) {
-    return {R * b.x, R * b.y, R * b.z};
-  }
+  friend Mat operator*(const Mat& R, const Mat& b) { return {R * b.x, R * b.y, R * b.z}; }
 };
 
 /// Symmetric.
@@ -63,17 +58,12 @@ struct Sym {
   }
 };
 
-inline Vec<double> vec(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-inline Mat<double> mat(const Mat3& m) { return {vec(m.col(0)), vec(m.col(1)), vec(m.col(2))}; }
-inline Sym<double> sym(const Mat3& m) { return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}; }
-inline Vec3 vec3(const Vec<double>& v) { return {v.x, v.y, v.z}; }
-
-/// R s R^T of a constant s.
+/// R s R^T
 template <class T>
-Sym<T> turned(const Mat<T>& R, const Sym<double>& s) {
-  const Vec<T> x = R * Vec<double>{s.xx, s.xy, s.xz};
-  const Vec<T> y = R * Vec<double>{s.xy, s.yy, s.yz};
-  const Vec<T> z = R * Vec<double>{s.xz, s.yz, s.zz};
+Sym<T> turned(const Mat<T>& R, const Sym<T>& s) {
+  const Vec<T> x = R * Vec<T>{s.xx, s.xy, s.xz};
+  const Vec<T> y = R * Vec<T>{s.xy, s.yy, s.yz};
+  const Vec<T> z = R * Vec<T>{s.xz, s.yz, s.zz};
   return {x.x * R.x.x + y.x * R.y.x + z.x * R.z.x, x.y * R.x.y + y.y * R.y.y + z.y * R.z.y,
           x.z * R.x.z + y.z * R.y.z + z.z * R.z.z, x.x * R.x.y + y.x * R.y.y + z.x * R.z.y,
           x.x * R.x.z + y.x * R.y.z + z.x * R.z.z, x.y * R.x.z + y.y * R.y.z + z.y * R.z.z};

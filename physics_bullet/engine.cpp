@@ -71,7 +71,8 @@ class BulletPlant final : public Plant, private InverseMass {
     return {applied_, start_speed_, In(work_).subspan(0, 1), In(work_).subspan(1, 1), In(work_).subspan(2, 1)};
   }
 
-  void accelerate(const RobotState& state, In torque, std::span<const BodyWrench> wrenches, Acceleration& out) override {
+  void accelerate(std::size_t, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
+                  Acceleration& out) override {
     kinematics_.update(robot_, state);
     body_.set(state, kinematics_);
     body_.add_weight(settings_.gravity);
@@ -83,6 +84,7 @@ class BulletPlant final : public Plant, private InverseMass {
     accelerate(state, out);
   }
 
+  [[nodiscard]] std::optional<Vec3> com(std::size_t) const override { return {}; }
   void contacts(std::size_t, std::span<ContactSample> out) const override {
     layout_.read(numbers_, 0, state_);
     kinematics_.update(robot_, state_);
@@ -141,7 +143,7 @@ class BulletPlant final : public Plant, private InverseMass {
     double vn;    ///< normal velocity, positive when separating, m/s
     Vec3 vt;      ///< tangential velocity, m/s
     double slip;  ///< |vt|
-    PenaltyContact::Force<double> force;
+    PenaltyContact::Force force;
     [[nodiscard]] Vec3 world() const { return force.fn * touch.normal - force.friction_slope * vt; }
   };
 
@@ -200,7 +202,7 @@ void register_bullet(Catalog& catalog) {
       "long (lambda: largest eigenvalue of M^-1 (B + sum J^T G J), checked at the start and watched at every control tick).",
       {"semi_implicit", "rk4"},
       2.5e-5,
-      1,
+      {1},
       true,
       [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<BulletPlant>(s); }});
 }

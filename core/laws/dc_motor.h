@@ -1,65 +1,86 @@
 // The DC motor behind its gear: pure functions with their slopes, elementwise over joints and lanes.
 #pragma once
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/math/functions.h"
+#include "core/math/lanes.h"
 
 namespace gaitlab {
 
 /// i = (u - Ks n w) / R, |u| <= u_max, |i| <= i_max; T = eta Kt i n.  (eq. 1, 2; limits: the paper's text)
-/// u V, w joint speed rad/s, i A, T N m on the joint. Inductance neglected, as in the paper.
+/// u V, w joint speed rad/s, i A, T N m on the joint. Inductance neglected, as in the paper. V: double or lanes.
 ///
 /// As printed, eq. 2 takes eta from the torque both ways: a joint that drives its motor then gets away with eta T instead of T
 /// / eta, and the gear creates energy. `turn` > 0 makes it directional: T = eta^s Kt i n, s = w sign(i) / turn within [-1, 1],
 /// so that eta acts while driving, 1 / eta while back-driven, and the gear's loss (1 - eta^s) Kt i n w is never negative. The
 /// steps of torque at w = 0 would make any explicit method chatter; `turn` spreads it, as v_lim does for friction.
-struct DcMotor {
-  double R, Kt, Ks, gear, efficiency, u_max, i_max;
-  double turn = 0;  ///< rad/s on the joint; 0: eq. 2 as printed
+template <class V>
+struct BasicDcMotor {
+  V R, Kt, Ks, gear, efficiency, u_max, i_max;
+  V turn = 0.0;  ///< rad/s on the joint; 0: eq. 2 as printed
+  V steep = Kt * Ks * gear * gear / R;
 
   struct Effort {
-    double torque;   ///< N m
-    double slope;    ///< -dT/dw >= 0, N m s/rad: eta Kt Ks n^2 / R, 0 while the current is limited; more within `turn`
-    double current;  ///< A
-    double voltage;  ///< at the terminals: R i + Ks n w, V
-    int saturation;  ///< 0 none, 1 voltage, 2 current
+    V torque;                        ///< N m
+    V slope;                         ///< -dT/dw >= 0, N m s/rad: eta Kt Ks n^2 / R, 0 while limited; more within `turn`
+    V current;                       ///< A
+    V voltage;                       ///< at the terminals: R i + Ks n w, V
+    math::Mask<V> limited, clamped;  ///< the current; the command
+    V drawn;                         ///< electrical power, W
+    V copper, gear;                  ///< what becomes heat of it in the winding and in the gear, W
+
+    /// 0 none, 1 voltage, 2 current
+    [[nodiscard]] V saturation() const { return math::select(limited, V(2.0), math::select(clamped, V(1.0), V(0.0))); }
   };
 
-  [[nodiscard]] Effort operator()(double command, double speed) const { return at(command, speed, i_max); }
+  [[nodiscard]] Effort operator()(const V& command, const V& speed) const { return at(command, speed, i_max); }
   /// Whatever current that takes.
-  [[nodiscard]] Effort unlimited(double command, double speed) const {
+  [[nodiscard]] Effort unlimited(const V& command, const V& speed) const {
     return at(command, speed, std::numeric_limits<double>::infinity());
   }
 
  private:
-  [[nodiscard]] Effort at(double command, double speed, double largest) const {
-    const double u = std::clamp(command, -u_max, u_max);
-    const double emf = Ks * gear * speed;
-    const double wanted = (u - emf) / R;
-    const double current = std::clamp(wanted, -largest, largest);
-    const bool limited = current != wanted;
-    const double steep = limited ? 0.0 : Kt * Ks * gear * gear / R;
+  [[nodiscard]] Effort at(const V& command, const V& speed, const V& largest) const {
+    using math::select;
+    const V u = math::clamp(command, -u_max, u_max);
+    const V emf = Ks * gear * speed;
+    const V wanted = (u - emf) / R;
+    const V current = math::clamp(wanted, -largest, largest);
+    const auto limited = math::abs(wanted) > largest;
     const Share share = gear_share(current, speed);
-    return {share.eta * Kt * current * gear, share.eta * steep + share.slope * Kt * std::abs(current) * gear, current,
-            limited ? R * current + emf : u,
-            limited        ? 2
-            : u != command ? 1
-                           : 0};
+    const V torque = share.eta * Kt * current * gear;
+    const V voltage = select(limited, R * current + emf, u);
+    const V drawn = voltage * current;
+    const V copper = R * current * current;
+    return {torque,
+            share.eta * select(limited, V(0.0), steep) + share.slope * Kt * math::abs(current) * gear,
+            current,
+            voltage,
+            limited,
+            math::abs(command) > u_max,
+            drawn,
+            copper,
+            drawn - copper - torque * speed};
   }
 
   struct Share {
-    double eta;    ///< T / (Kt i n)
-    double slope;  ///< -d eta / d(w sign(i)), s/rad
+    V eta;    ///< T / (Kt i n)
+    V slope;  ///< -d eta / d(w sign(i)), s/rad
   };
-  [[nodiscard]] Share gear_share(double current, double speed) const {
-    if (!(turn > 0)) return {efficiency, 0};
-    const double along = (current < 0 ? -speed : speed) / turn;
-    const double loss = math::log(efficiency);  // <= 0
-    const double eta = math::exp(loss * std::clamp(along, -1.0, 1.0));
-    return {eta, std::abs(along) < 1 ? -eta * loss / turn : 0.0};
+  [[nodiscard]] Share gear_share(const V& current, const V& speed) const {
+    using math::select;
+    const V zero = 0.0;
+    const V one = 1.0;
+    const auto directional = turn > zero;
+    if (!math::any(directional)) return {efficiency, zero};
+    const V along = select(current < zero, -speed, speed) / select(directional, turn, one);
+    const V loss = math::log(efficiency);  // <= 0
+    const V eta = math::exp(loss * math::clamp(along, -one, one));
+    return {select(directional, eta, efficiency),
+            select(math::both(directional, math::abs(along) < one), -eta * loss / select(directional, turn, one), zero)};
   }
 };
+
+using DcMotor = BasicDcMotor<double>;
 
 }  // namespace gaitlab

@@ -15,7 +15,7 @@ struct BasicHingeStop {
   T damping = 0.0;    ///< -d(torque)/d(qd), N m s/rad
   T stiffness = 0.0;  ///< -d(torque)/d(q), N m/rad
 
-  static BasicHingeStop at(T q, T qd, double lo, double hi) {
+  static BasicHingeStop at(const T& q, const T& qd, const T& lo, const T& hi) {
     using math::select;
     const T zero = 0.0;
     const T excess = select(q > hi, q - hi, select(q < lo, q - lo, zero));

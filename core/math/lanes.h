@@ -1,7 +1,8 @@
 // What code that is written once, for a double and for a vector of doubles (a lane per rollout), asks of its scalar: choice by
-// mask where a double would branch. A lane type brings its own overloads.
+// mask where a double would branch. A lane type brings its own overloads (core/math/doubles.h).
 #pragma once
 #include <cmath>
+#include <cstddef>
 #include <span>
 
 namespace gaitlab::math {
@@ -9,6 +10,9 @@ namespace gaitlab::math {
 /// What comparing two scalars gives: bool, or a bool per lane.
 template <class T>
 using Mask = decltype(T{} < T{});
+/// Lanes of a scalar.
+template <class T>
+inline constexpr std::size_t kLanes = sizeof(T) / sizeof(double);
 
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline bool both(bool a, bool b) { return a && b; }
@@ -17,8 +21,30 @@ inline bool either(bool a, bool b) { return a || b; }
 inline bool fresh(bool yes, bool already) { return yes && !already; }
 /// Whether work may be skipped: it is masked off in every lane.
 inline bool any(bool mask) { return mask; }
+inline bool all(bool mask) { return mask; }
 inline double sqrt(double x) { return std::sqrt(x); }  // exact to rounding everywhere, unlike its kin (core/math/functions.h)
+inline double abs(double x) { return std::abs(x); }
+template <class T>
+T clamp(const T& x, const T& lo, const T& hi) {
+  return select(x < lo, lo, select(hi < x, hi, x));
+}
+
 /// As plain numbers, entry * lanes + lane.
-inline std::span<double> numbers(std::span<double> x) { return x; }
+template <class T>
+std::span<double> numbers(std::span<T> x) {
+  return {reinterpret_cast<double*>(x.data()), x.size() * kLanes<T>};
+}
+template <class T>
+std::span<const double> numbers(std::span<const T> x) {
+  return {reinterpret_cast<const double*>(x.data()), x.size() * kLanes<T>};
+}
+template <class T>
+double& lane(T& x, std::size_t l) {
+  return reinterpret_cast<double*>(&x)[l];
+}
+template <class T>
+double lane(const T& x, std::size_t l) {
+  return reinterpret_cast<const double*>(&x)[l];
+}
 
 }  // namespace gaitlab::math

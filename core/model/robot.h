@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/model/base.h"
 #include "core/model/module_type.h"
 #include "core/plugin/robot_info.h"
 
 namespace gaitlab {
-
-enum class Base { floating, fixed, planar };  ///< planar: world x, world z and rotation about world y
 
 /// Bodies that move as one. Its frame is the frame of its joint (link 0: the base frame); a parent comes before its children.
 struct Link {

@@ -4,6 +4,10 @@
 
 namespace gaitlab {
 
+template <class T>
+struct BasicDcMotor;
+using DcMotor = BasicDcMotor<double>;
+
 /// Memoryless and elementwise over joint*lanes + lane, so that one plain loop serves one lane and eight. No allocation.
 class Actuator {
  public:
@@ -23,6 +27,9 @@ class Actuator {
   /// does not bind. An implicit step starts from it, for the limit may bind at its end and not at its start, or the other way
   /// round. Without such a limit: effort.
   virtual void unlimited(In command, In speed, Out torque, Out slope) const { effort(command, speed, torque, slope); }
+  /// Where effort is nothing but DC motors (core/laws/dc_motor.h): one a joint * lanes + lane, which an engine may then
+  /// evaluate itself, several lanes at once. Else nullptr.
+  [[nodiscard]] virtual const DcMotor* dc_motors() const { return nullptr; }
 };
 
 }  // namespace gaitlab

@@ -18,7 +18,7 @@ struct Engine {
   std::string name, manual;
   std::vector<std::string> integrators;  ///< the first is the default
   double step = 0;                       ///< default, s
-  std::size_t max_lanes = 1;             ///< rollouts side by side
+  std::vector<std::size_t> lanes{1};     ///< how many rollouts it runs side by side, ascending
   bool rotor_inertia = false;            ///< can add a joint's reflected rotor inertia
   std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
 };

@@ -106,6 +106,9 @@ class GuardedActuator final : public Actuator {
   void unlimited(In command, In speed, Out torque, Out slope) const override {
     guarded(entry_, "unlimited", [&] { actuator_->unlimited(command, speed, torque, slope); });
   }
+  [[nodiscard]] const DcMotor* dc_motors() const override {
+    return guarded(entry_, "dc_motors", [&] { return actuator_->dc_motors(); });
+  }
 
  private:
   [[nodiscard]] In sized(const char* function, In values) const {

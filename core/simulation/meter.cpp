@@ -1,47 +1,71 @@
 #include "core/simulation/meter.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace gaitlab {
 
-Meter::Meter(const Robot& robot, std::size_t lanes) : sums_(robot.joints.size() * lanes), lanes_(lanes) {
-  for (const Joint& joint : robot.joints) {
-    lo_.insert(lo_.end(), lanes, joint.lo);
-    hi_.insert(hi_.end(), lanes, joint.hi);
+namespace {
+
+/// Where a figure is in Meter::figures_.
+template <class Figures>
+double* at(Figures& figures, double JointFigures::*member) {
+  constexpr JointFigures kAny{};
+  return figures[static_cast<std::size_t>(&(kAny.*member) - &kAny.torque_peak)].data();
+}
+
+}  // namespace
+
+Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()) {
+  for (std::size_t j = 0; j < lanes[0].robot->joints.size(); ++j) {
+    for (const Scenario& lane : lanes) {
+      lo_.push_back(lane.robot->joints.at(j).lo);
+      hi_.push_back(lane.robot->joints.at(j).hi);
+    }
   }
+  for (auto& figure : figures_) figure.assign(lo_.size(), 0.0);
 }
 
 void Meter::add(In angle, In speed, In setpoint, In torque, const Actuator::Report& report, double h) {
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    JointFigures& s = sums_[i];
-    const double error = setpoint[i] - angle[i];
-    const double excess = std::max({angle[i] - hi_[i], lo_[i] - angle[i], 0.0});
-    const double shaft = torque[i] * speed[i];
-    s.torque_peak = std::max(s.torque_peak, std::abs(torque[i]));
-    s.torque_rms += h * torque[i] * torque[i];
-    s.speed_peak = std::max(s.speed_peak, std::abs(speed[i]));
-    s.current_peak = std::max(s.current_peak, std::abs(report.current[i]));
-    s.current_rms += h * report.current[i] * report.current[i];
-    s.error_rms += h * error * error;
-    s.error_peak = std::max(s.error_peak, std::abs(error));
-    s.saturated_voltage += report.saturation[i] == 1 ? h : 0;
-    s.saturated_current += report.saturation[i] == 2 ? h : 0;
-    s.range_share += excess > 0 ? h : 0;
-    s.range_worst = std::max(s.range_worst, excess);
-    s.setpoint_outside += setpoint[i] > hi_[i] || setpoint[i] < lo_[i] ? h : 0;
-    s.electrical += h * report.power_in[i];
-    s.copper += h * report.copper[i];
-    s.gear += h * report.gear[i];
-    s.created += h * std::max(-report.gear[i], 0.0);
-    s.shaft += h * shaft;
-    s.shaft_positive += h * std::max(shaft, 0.0);
-  }
+  const std::size_t n = lo_.size();
+  const auto peak = [&](double JointFigures::*member, auto value) {
+    double* const to = at(figures_, member);
+    for (std::size_t i = 0; i < n; ++i) to[i] = std::max(to[i], value(i));
+  };
+  const auto sum = [&](double JointFigures::*member, auto value) {
+    double* const to = at(figures_, member);
+    for (std::size_t i = 0; i < n; ++i) to[i] += h * value(i);
+  };
+  const auto error = [&](std::size_t i) { return setpoint[i] - angle[i]; };
+  const auto excess = [&](std::size_t i) { return std::max(std::max(angle[i] - hi_[i], lo_[i] - angle[i]), 0.0); };
+  const auto shaft = [&](std::size_t i) { return torque[i] * speed[i]; };
+  using F = JointFigures;
+  peak(&F::torque_peak, [&](std::size_t i) { return std::abs(torque[i]); });
+  sum(&F::torque_rms, [&](std::size_t i) { return torque[i] * torque[i]; });
+  peak(&F::speed_peak, [&](std::size_t i) { return std::abs(speed[i]); });
+  peak(&F::current_peak, [&](std::size_t i) { return std::abs(report.current[i]); });
+  sum(&F::current_rms, [&](std::size_t i) { return report.current[i] * report.current[i]; });
+  sum(&F::error_rms, [&](std::size_t i) { return error(i) * error(i); });
+  peak(&F::error_peak, [&](std::size_t i) { return std::abs(error(i)); });
+  sum(&F::saturated_voltage, [&](std::size_t i) { return report.saturation[i] == 1 ? 1.0 : 0.0; });
+  sum(&F::saturated_current, [&](std::size_t i) { return report.saturation[i] == 2 ? 1.0 : 0.0; });
+  sum(&F::range_share, [&](std::size_t i) { return excess(i) > 0 ? 1.0 : 0.0; });
+  peak(&F::range_worst, excess);
+  sum(&F::setpoint_outside, [&](std::size_t i) { return setpoint[i] > hi_[i] || setpoint[i] < lo_[i] ? 1.0 : 0.0; });
+  sum(&F::electrical, [&](std::size_t i) { return report.power_in[i]; });
+  sum(&F::copper, [&](std::size_t i) { return report.copper[i]; });
+  sum(&F::gear, [&](std::size_t i) { return report.gear[i]; });
+  sum(&F::created, [&](std::size_t i) { return std::max(-report.gear[i], 0.0); });
+  sum(&F::shaft, shaft);
+  sum(&F::shaft_positive, [&](std::size_t i) { return std::max(shaft(i), 0.0); });
   time_ += h;
 }
 
 JointFigures Meter::figures(std::size_t joint, std::size_t lane) const {
-  JointFigures f = sums_[joint * lanes_ + lane];
+  std::array<double, kFigures> of_joint{};
+  for (std::size_t k = 0; k < kFigures; ++k) of_joint[k] = figures_[k][joint * lanes_ + lane];
+  auto f = std::bit_cast<JointFigures>(of_joint);
   if (!(time_ > 0)) return f;
   for (double* mean_square : {&f.torque_rms, &f.current_rms, &f.error_rms}) *mean_square = std::sqrt(*mean_square / time_);
   for (double* share : {&f.saturated_voltage, &f.saturated_current, &f.range_share, &f.setpoint_outside}) *share /= time_;

@@ -1,8 +1,9 @@
 // Sums and peaks over ALL steps of a run, joint by joint: what the trace rows are too sparse for.
 #pragma once
+#include <array>
 #include <vector>
 
-#include "core/model/robot.h"
+#include "core/scenario/scenario.h"
 #include "core/simulation/plant.h"
 
 namespace gaitlab {
@@ -21,10 +22,13 @@ struct JointFigures {
   double created = 0;                                      ///< J: what the gear gave instead of losing (eq. 2, back-driven)
 };
 
+/// Number of them, all doubles.
+inline constexpr std::size_t kFigures = sizeof(JointFigures) / sizeof(double);
+
 /// Elementwise over joint * lanes + lane. add() allocates nothing.
 class Meter {
  public:
-  Meter(const Robot& robot, std::size_t lanes);
+  explicit Meter(std::span<const Scenario> lanes);
 
   /// One step: actuator law and motion at its start, mean torque over it.
   void add(In angle, In speed, In setpoint, In torque, const Actuator::Report& report, double h);
@@ -32,7 +36,7 @@ class Meter {
 
  private:
   std::vector<double> lo_, hi_;
-  std::vector<JointFigures> sums_;
+  std::array<std::vector<double>, kFigures> figures_;  // by the members of JointFigures: plain loops over all joints and lanes
   std::size_t lanes_;
   double time_ = 0;  ///< only a divisor: a sum of equal steps
 };

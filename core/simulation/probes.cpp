@@ -35,25 +35,26 @@ void Sample::place(const Robot& robot) {
   sums = gaitlab::sums(robot, kinematics, gravity);
 }
 
-void Sample::react(const std::vector<ContactElement>& elements, Plant& plant) {
+void Sample::react(const std::vector<ContactElement>& elements, Plant& plant, std::size_t lane) {
   for (std::size_t j = 0; j < applied_.size(); ++j) applied_[j] = torque[j] + stop_torque[j];
   ground_.clear();
   for (std::size_t c = 0; c < elements.size(); ++c) {
     if (contacts[c].fn > 0) ground_.push_back({elements[c].body, contacts[c].point, contacts[c].force});
   }
-  plant.accelerate(state, applied_, ground_, acceleration_);
+  plant.accelerate(lane, state, applied_, ground_, acceleration_);
   reactions.update(kinematics, acceleration_, gravity, ground_);
 }
 
 Probes::Probes(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg,
-               std::string_view command_unit, const Sample& first) {
+               std::string_view command_unit, const Sample& sample)
+    : sample_(sample) {
   const Robot& robot = *scenario.robot;
-  add("t", "s", "time", [](const Sample& s) { return s.t; });
+  add("t", "s", "time", sample.t);
   add_joints(robot, scenario.actuator.entry != nullptr, command_unit);
   add_base();
   add_vector("com", "m", "centre of mass, world axes", [](const Sample& s) { return s.sums.com; });
   add_contacts(contacts);
-  add_bodies(robot, first);
+  add_bodies(robot, sample);
   for (std::size_t i = 0; cpg != nullptr && i < cpg->states(); ++i) {
     add("cpg." + cpg->state_name(i), "", "state of the CPG", [i](const Sample& s) { return s.cpg[i]; });
   }
@@ -64,7 +65,11 @@ Probes::Probes(const Scenario& scenario, const std::vector<ContactElement>& cont
 
 void Probes::add(std::string name, std::string unit, std::string definition, Read read) {
   columns_.push_back({std::move(name), std::move(unit), std::move(definition)});
-  reads_.push_back(std::move(read));
+  sources_.push_back({nullptr, std::move(read)});
+}
+void Probes::add(std::string name, std::string unit, std::string definition, const double& number) {
+  columns_.push_back({std::move(name), std::move(unit), std::move(definition)});
+  sources_.push_back({&number});
 }
 
 void Probes::add_vector(const std::string& name, std::string unit, const std::string& definition,
@@ -83,12 +88,11 @@ void Probes::add_joints(const Robot& robot, bool driven, std::string_view comman
     const std::string of = " of joint " + robot.joints[j].name;
     const auto joint = [&](const char* quantity, std::string_view unit, const char* definition,
                            std::vector<double> Sample::*values) {
-      add(fmt::format("joint.{}.{}", j, quantity), std::string(unit), definition + of,
-          [values, j](const Sample& s) { return (s.*values)[j]; });
+      add(fmt::format("joint.{}.{}", j, quantity), std::string(unit), definition + of, (sample_.*values)[j]);
     };
     if (driven) joint("setpoint", "rad", "set point in force just before t", &Sample::setpoint);
-    add(fmt::format("joint.{}.angle", j), "rad", "angle" + of, [j](const Sample& s) { return s.state.q[j]; });
-    add(fmt::format("joint.{}.speed", j), "rad/s", "speed" + of, [j](const Sample& s) { return s.state.qd[j]; });
+    add(fmt::format("joint.{}.angle", j), "rad", "angle" + of, sample_.state.q[j]);
+    add(fmt::format("joint.{}.speed", j), "rad/s", "speed" + of, sample_.state.qd[j]);
     if (driven) {
       joint("voltage_command", command_unit, "controller output before clamping, in force just before t", &Sample::command);
       joint("voltage", "V", "terminal voltage of the motor", &Sample::voltage);
@@ -208,17 +212,23 @@ void Probes::select(const Scenario& scenario) {
     if (!wanted[i]) continue;
     if (kept != i) {
       columns_[kept] = std::move(columns_[i]);
-      reads_[kept] = std::move(reads_[i]);
+      sources_[kept] = std::move(sources_[i]);
     }
     ++kept;
   }
   columns_.resize(kept);
-  want_reactions_ = std::ranges::any_of(columns_, [](const Column& c) { return c.name.starts_with(kReaction); });
-  reads_.resize(kept);
+  const auto want = [&](std::string_view prefix) {
+    return std::ranges::any_of(columns_, [&](const Column& c) { return c.name.starts_with(prefix); });
+  };
+  want_reactions_ = want(kReaction);
+  want_places_ = want_reactions_ || want("body.") || want("energy.") || want("momentum.") || want("angular_momentum.");
+  sources_.resize(kept);
 }
 
-void Probes::fill(const Sample& sample, Out row) const {
-  for (std::size_t i = 0; i < reads_.size(); ++i) row[i] = reads_[i](sample);
+void Probes::fill(Out row) const {
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    row[i] = sources_[i].number != nullptr ? *sources_[i].number : sources_[i].read(sample_);
+  }
 }
 
 }  // namespace gaitlab

@@ -17,7 +17,7 @@ struct Sample {
   explicit Sample(const Robot& robot, std::size_t contacts, std::size_t cpg_states);
   void place(const Robot& robot);  ///< fills kinematics, link orientations and sums from state
   /// Fills reactions from what is known here and the accelerations that `plant` gives for it.
-  void react(const std::vector<ContactElement>& elements, Plant& plant);
+  void react(const std::vector<ContactElement>& elements, Plant& plant, std::size_t lane);
 
   double t = 0;
   RobotState state;
@@ -40,18 +40,21 @@ struct Sample {
 class Probes {
  public:
   /// The columns that match the scenario's patterns, in the order of docs/conventions. Throws InputError: a pattern that
-  /// matches nothing. `first`: the sample at the start; it fixes the signs of the bodies' quaternions (qw >= 0).
+  /// matches nothing. `sample`: outlives this, and is as at the start; it fixes the signs of the bodies' quaternions (qw >= 0).
   Probes(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg, std::string_view command_unit,
-         const Sample& first);
+         const Sample& sample);
 
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
   /// Whether a column reads Sample::reactions.
   [[nodiscard]] bool want_reactions() const { return want_reactions_; }
-  void fill(const Sample& sample, Out row) const;
+  /// Whether a column reads what Sample::place fills in, the centre of mass aside.
+  [[nodiscard]] bool want_places() const { return want_places_; }
+  void fill(Out row) const;  ///< from the sample as it is now
 
  private:
   using Read = std::function<double(const Sample&)>;
   void add(std::string name, std::string unit, std::string definition, Read read);
+  void add(std::string name, std::string unit, std::string definition, const double& number);
   void add_vector(const std::string& name, std::string unit, const std::string& definition,
                   std::function<Vec3(const Sample&)> read);
   void add_joints(const Robot& robot, bool driven, std::string_view command_unit);
@@ -63,9 +66,16 @@ class Probes {
   void add_reactions(const Robot& robot);
   void select(const Scenario& scenario);
 
+  /// A number of the sample, or what is made of several.
+  struct Source {
+    const double* number = nullptr;
+    Read read = {};
+  };
+
+  const Sample& sample_;
   std::vector<Column> columns_;
-  std::vector<Read> reads_;
-  bool want_reactions_ = false;
+  std::vector<Source> sources_;
+  bool want_reactions_ = false, want_places_ = false;
 };
 
 }  // namespace gaitlab

@@ -21,6 +21,16 @@ constexpr double kLargestSpeed = 1e5;  // rad/s
 
 }  // namespace
 
+bool can_share(const Scenario& a, const Scenario& b) {
+  const auto same_link = [](const Link& x, const Link& y) { return x.parent == y.parent && x.joint == y.joint; };
+  const auto same_place = [](const ContactElement& x, const ContactElement& y) { return x.link == y.link; };
+  const auto elements = [](const Scenario& s) { return contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on)); };
+  return a.physics.engine == b.physics.engine && a.physics.integrator == b.physics.integrator &&
+         a.physics.step == b.physics.step && a.actuator.entry == b.actuator.entry && a.base == b.base &&
+         std::ranges::equal(a.robot->links, b.robot->links, same_link) &&
+         std::ranges::equal(elements(a), elements(b), same_place);
+}
+
 std::int64_t whole(double period, double step) { return std::llround(period / step); }
 
 SimulationError::SimulationError(std::int64_t at_step, double at_time, std::string at, const std::string& what)
@@ -28,11 +38,19 @@ SimulationError::SimulationError(std::int64_t at_step, double at_time, std::stri
 
 /// The scalar half of one rollout: its CPG, controller, sensors, trace row.
 struct Simulation::Lane {
-  Lane(const Scenario& s, const RobotInfo& info, std::size_t contacts)
+  Lane(const Scenario& s, std::size_t lane_index)
+      : Lane(s, lane_index, info(*s.robot), contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on))) {}
+  Lane(const Scenario& s, std::size_t lane_index, const RobotInfo& info, std::vector<ContactElement> elements)
       : scenario(s),
+        robot(*s.robot),
+        index(lane_index),
+        steps(whole(s.duration, s.physics.step)),
+        control_every(whole(s.control_period, s.physics.step)),
+        trace_every(whole(s.trace.period, s.physics.step)),
+        contacts(std::move(elements)),
         cpg(make_cpg(s.cpg, info)),
         controller(make_controller(s.controller, info)),
-        sample(*s.robot, contacts, cpg == nullptr ? 0 : cpg->states()) {
+        sample(*s.robot, contacts.size(), cpg == nullptr ? 0 : cpg->states()) {
     const std::size_t n = info.joints.size();
     for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit}) values->assign(n, 0.0);
     touching.assign(info.modules.size(), 0.0);
@@ -60,6 +78,12 @@ struct Simulation::Lane {
   }
 
   const Scenario& scenario;
+  const Robot& robot;
+  std::size_t index;
+  std::int64_t steps, control_every, trace_every;
+  bool running = true;  ///< else its numbers are of no use to anyone
+  std::string failure;
+  std::vector<ContactElement> contacts;
   std::unique_ptr<Cpg> cpg;
   std::unique_ptr<Controller> controller;
   Out cpg_state, controller_state, ledger;                                       // parts of the one state array
@@ -73,30 +97,26 @@ struct Simulation::Lane {
 
 Simulation::Simulation(std::span<const Scenario> lanes) try
     : scenarios_(lanes.begin(), lanes.end()),
-      robot_(*scenarios_.at(0).robot),
-      h_(scenarios_[0].physics.step),
-      steps_(whole(scenarios_[0].duration, h_)),
-      control_every_(whole(scenarios_[0].control_period, h_)),
-      trace_every_(whole(scenarios_[0].trace.period, h_)),
-      contacts_(contact_elements(robot_, static_cast<ContactSet>(scenarios_[0].contact.on))),
-      layout_{robot_.joints.size(), scenarios_.size()},
-      meter_(robot_, scenarios_.size()) {
-  const Scenario& first = scenarios_[0];
-  if (scenarios_.size() > first.physics.engine->max_lanes) {
-    throw std::invalid_argument(fmt::format("engine {} runs {} rollouts side by side, not {}", first.physics.engine->name,
-                                            first.physics.engine->max_lanes, scenarios_.size()));
-  }
-  const RobotInfo about = info(robot_);
+      h_(scenarios_.at(0).physics.step),
+      layout_{scenarios_[0].robot->joints.size(), scenarios_.size()},
+      meter_(scenarios_) {
   std::vector<const Choice*> actuators;
-  for (const Scenario& lane : scenarios_) actuators.push_back(&lane.actuator);
-  actuator_ = make_actuator(actuators, about);
-  PlantSettings settings{first.robot,     first.base,        first.physics.gravity,
-                         first.ground,    contacts_,         first.contact.penalty,
-                         actuator_.get(), scenarios_.size(), first.physics.integrator};
-  plant_ = first.physics.engine->make(settings);
-  for (const Scenario& lane : scenarios_) lanes_.push_back(std::make_unique<Lane>(lane, about, contacts_.size()));
+  for (const Scenario& s : scenarios_) {
+    if (!can_share(scenarios_[0], s)) throw std::invalid_argument("these scenarios cannot run side by side");
+    actuators.push_back(&s.actuator);
+    lanes_.push_back(std::make_unique<Lane>(s, lanes_.size()));
+    steps_ = std::max(steps_, lanes_.back()->steps);
+  }
+  const Scenario& first = scenarios_[0];
+  const auto& widths = first.physics.engine->lanes;
+  if (std::find(widths.begin(), widths.end(), lanes_.size()) == widths.end()) {
+    throw std::invalid_argument(fmt::format("engine {} runs {} rollouts side by side, not {}", first.physics.engine->name,
+                                            fmt::join(widths, " or "), lanes_.size()));
+  }
+  actuator_ = make_actuator(actuators, info(*first.robot));
+  plant_ = first.physics.engine->make(plant_settings());
   for (auto* values : {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_, &angle_, &speed_}) {
-    values->assign(robot_.joints.size() * lanes_.size(), 0.0);
+    values->assign(layout_.joints * lanes_.size(), 0.0);
   }
   cut_state();
   set_start();
@@ -107,9 +127,23 @@ Simulation::Simulation(std::span<const Scenario> lanes) try
 
 Simulation::~Simulation() = default;
 
+PlantSettings Simulation::plant_settings() const {
+  const auto own = [](const Lane& lane) {
+    const Scenario& s = lane.scenario;
+    return LaneSettings{s.robot, s.physics.gravity, s.ground, lane.contacts, s.contact.penalty};
+  };
+  PlantSettings settings;
+  static_cast<LaneSettings&>(settings) = own(*lanes_[0]);
+  for (std::size_t l = 1; l < lanes_.size(); ++l) settings.others.push_back(own(*lanes_[l]));
+  settings.base = scenarios_[0].base;
+  settings.actuator = actuator_.get();
+  settings.integrator = scenarios_[0].physics.integrator;
+  return settings;
+}
+
 /// step counter | plant | set points | commands | per lane: CPG states, controller states, ledger's sums.
 void Simulation::cut_state() {
-  const std::size_t joints = robot_.joints.size() * lanes_.size();
+  const std::size_t joints = layout_.joints * lanes_.size();
   std::size_t size = 1 + layout_.size() + 2 * joints;
   for (const auto& lane : lanes_) {
     size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states()) + Ledger::kSums;
@@ -133,52 +167,66 @@ void Simulation::cut_state() {
 }
 
 void Simulation::set_start() {
-  const std::size_t lanes = lanes_.size();
-  for (std::size_t l = 0; l < lanes; ++l) {
-    Lane& lane = *lanes_[l];
+  for (const auto& one : lanes_) {
+    Lane& lane = *one;
+    const std::size_t l = lane.index;
     const Scenario& s = lane.scenario;
     Sample& sample = lane.sample;
     sample.gravity = s.physics.gravity;
-    RobotState& start = sample.state;
-    start = start_state(s);
-    sample.place(robot_);
-    layout_.write(start, l, plant_state_);
-    lane.energy_at_start = energy(sample, l);
-    // No command yet: set point = angle, command 0.
-    for (std::size_t j = 0; j < robot_.joints.size(); ++j) setpoint_[j * lanes + l] = start.q[j];
+    place_at_start(lane);
+    sample.place(lane.robot);
+    lane.energy_at_start = energy(lane);
     if (lane.cpg != nullptr) lane.cpg->start(lane.cpg_state);
     if (lane.controller != nullptr) lane.controller->start(lane.controller_state);
-    for (std::size_t j = 0; actuator_ != nullptr && j < robot_.joints.size(); ++j) {
-      lane.limit[j] = actuator_->command_limit()[j * lanes + l];
+    for (std::size_t j = 0; actuator_ != nullptr && j < layout_.joints; ++j) {
+      lane.limit[j] = actuator_->command_limit()[j * lanes_.size() + l];
     }
-    lane.probes =
-        std::make_unique<Probes>(s, contacts_, lane.cpg.get(), actuator_ == nullptr ? "" : actuator_->command_unit(), sample);
-    const auto rows = static_cast<std::size_t>(steps_ / trace_every_ + 1);
-    lane.record.trace.columns = lane.probes->columns();
-    lane.record.trace.values.reserve(rows * lane.record.trace.columns.size());
-    for (auto* series : {&lane.record.com_x, &lane.record.com_y, &lane.record.com_z}) series->reserve(rows);
-    lane.record.poses.reserve(rows * 7);
-    for (auto* series : {&lane.record.angles, &lane.record.setpoints, &lane.record.torques})
-      series->reserve(rows * robot_.joints.size());
-    lane.record.loads.reserve(rows * robot_.modules.size());
+    lane.probes = std::make_unique<Probes>(s, lane.contacts, lane.cpg.get(),
+                                           actuator_ == nullptr ? "" : actuator_->command_unit(), sample);
+    const auto rows = static_cast<std::size_t>(lane.steps / lane.trace_every + 2);
+    RunRecord& record = lane.record;
+    record.trace.columns = lane.probes->columns();
+    record.trace.values.reserve(rows * record.trace.columns.size());
+    for (auto* series : {&record.com_x, &record.com_y, &record.com_z}) series->reserve(rows);
+    record.poses.reserve(rows * 7);
+    for (auto* series : {&record.angles, &record.setpoints, &record.torques}) series->reserve(rows * layout_.joints);
+    record.loads.reserve(rows * lane.robot.modules.size());
+  }
+}
+
+/// No command yet: set point = angle, command 0.
+void Simulation::place_at_start(Lane& lane) {
+  const RobotState start = start_state(lane.scenario);
+  lane.sample.state = start;  // copied, not moved: the probes read its vectors where they are
+  layout_.write(lane.sample.state, lane.index, plant_state_);
+  for (std::size_t j = 0; j < layout_.joints; ++j) {
+    setpoint_[j * lanes_.size() + lane.index] = lane.sample.state.q[j];
+    command_[j * lanes_.size() + lane.index] = 0;
   }
 }
 
 void Simulation::check_standing() {
   const In rotors = actuator_ == nullptr ? In{} : actuator_->reflected_inertia();
-  for (std::size_t l = 0; l < lanes_.size(); ++l) {
-    check_inertia(scenarios_[l], lanes_[l]->sample.kinematics, rotors, lanes_.size(), l, scenarios_[l].place("robot"));
-    const Stability one = plant_->stability(l, command_, true);
+  for (const auto& lane : lanes_) {
+    const Scenario& s = lane->scenario;
+    check_inertia(s, lane->sample.kinematics, rotors, lanes_.size(), lane->index, s.place("robot"));
+    const Stability one = plant_->stability(lane->index, command_, true);
     if (one.rate > standing_.rate) standing_ = one;
+    if (h_ * one.rate > 1) throw InputError(s.place("physics.step"), step_advice(s, lane->contacts, one, "standing"));
   }
-  if (!(h_ * standing_.rate > 1)) return;
-  const Scenario& s = scenarios_[0];
-  throw InputError(s.place("physics.step"), step_advice(s, contacts_, standing_, "standing"));
+}
+
+bool Simulation::control_tick(const Lane& lane) const { return lane.running && step_number() % lane.control_every == 0; }
+bool Simulation::trace_tick(const Lane& lane) const {
+  return lane.running && (step_number() % lane.trace_every == 0 || step_number() == lane.steps);
+}
+bool Simulation::any(bool (Simulation::*tick)(const Lane&) const) const {
+  return std::any_of(lanes_.begin(), lanes_.end(), [&](const auto& lane) { return (this->*tick)(*lane); });
 }
 
 void Simulation::step() {
-  if (trace_tick()) record();
-  if (control_tick()) {
+  if (any(&Simulation::trace_tick)) record();
+  if (any(&Simulation::control_tick)) {
     sense();
     command();
   }
@@ -197,34 +245,67 @@ bool Simulation::run(const std::function<void(double)>& progress, const std::ato
   record();  // t = duration is a row even where it is no multiple of the trace period
   return true;
 } catch (const PluginError& error) {
-  throw SimulationError(step_number(), time(), word(error.kind),
-                        fmt::format("stopped at step {}, t = {:.6g} s: {}", step_number(), time(), error.what()));
+  throw stopped(error);
+}
+
+SimulationError Simulation::stopped(const PluginError& error) const {
+  return {step_number(), time(), word(error.kind),
+          fmt::format("stopped at step {}, t = {:.6g} s: {}", step_number(), time(), error.what())};
+}
+
+/// What the lane's own code may throw ends the lane; where it is alone, the run.
+template <class Work>
+void Simulation::guard(Lane& lane, Work work) try {
+  work();
+} catch (const PluginError& error) {
+  fail(lane, stopped(error));
+} catch (const SimulationError& error) {
+  fail(lane, error);
+}
+
+void Simulation::fail(Lane& lane, const SimulationError& error) {
+  if (lanes_.size() == 1) throw SimulationError(error);
+  lane.failure = error.what();
+  end(lane);
+}
+
+/// Closes its record. Its numbers go on from the start, without commands, so that they stay numbers.
+void Simulation::end(Lane& lane) {
+  lane.running = false;
+  close(lane);
+  if (lanes_.size() > 1) place_at_start(lane);
 }
 
 /// The actuator law at these speeds under the commands in force.
 void Simulation::report(In speeds) {
   if (actuator_ == nullptr) return;
-  actuator_->report(command_, speeds, {voltage_, current_, saturation_, power_in_, copper_, gear_});
+  const Actuator::Report into{voltage_, current_, saturation_, power_in_, copper_, gear_};
+  if (!plant_->report(command_, speeds, into)) actuator_->report(command_, speeds, into);
 }
 
 /// Kinetic and potential, rotors included, J.
-double Simulation::energy(const Sample& sample, std::size_t l) const {
+double Simulation::energy(const Lane& lane) const {
+  const Sample& sample = lane.sample;
   double rotors = 0;
   const In inertia = actuator_ == nullptr ? In() : actuator_->reflected_inertia();
-  for (std::size_t j = 0; j < robot_.joints.size() && !inertia.empty(); ++j) {
-    rotors += inertia[j * lanes_.size() + l] * sample.state.qd[j] * sample.state.qd[j] / 2;
+  for (std::size_t j = 0; j < layout_.joints && !inertia.empty(); ++j) {
+    rotors += inertia[j * lanes_.size() + lane.index] * sample.state.qd[j] * sample.state.qd[j] / 2;
   }
   return sample.sums.kinetic + sample.sums.potential + rotors;
 }
 
-Sample& Simulation::take_sample(Lane& lane, std::size_t l) {
+/// `whole`: also what no column asks for.
+Sample& Simulation::take_sample(Lane& lane, bool whole) {
   const std::size_t lanes = lanes_.size();
+  const std::size_t l = lane.index;
   Sample& s = lane.sample;
   s.t = time();
   layout_.read(plant_state_, l, s.state);
-  s.place(robot_);
+  const std::optional<Vec3> com = plant_->com(l);
+  if (whole || !com || lane.probes->want_places()) s.place(lane.robot);
+  if (com) s.sums.com = *com;
   plant_->contacts(l, s.contacts);
-  for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+  for (std::size_t j = 0; j < layout_.joints; ++j) {
     const std::size_t i = j * lanes + l;
     s.setpoint[j] = setpoint_[i];
     s.command[j] = command_[i];
@@ -232,10 +313,10 @@ Sample& Simulation::take_sample(Lane& lane, std::size_t l) {
     s.current[j] = current_[i];
     s.saturation[j] = saturation_[i];
     s.torque[j] = torque_[i];
-    s.stop_torque[j] = HingeStop::at(s.state.q[j], s.state.qd[j], robot_.joints[j].lo, robot_.joints[j].hi).torque;
+    s.stop_torque[j] = HingeStop::at(s.state.q[j], s.state.qd[j], lane.robot.joints[j].lo, lane.robot.joints[j].hi).torque;
   }
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
-  s.ledger = Ledger::of(lane.ledger, energy(s, l) - lane.energy_at_start);
+  s.ledger = Ledger::of(lane.ledger, energy(lane) - lane.energy_at_start);
   return s;
 }
 
@@ -244,14 +325,15 @@ void Simulation::record() {
   if (actuator_ != nullptr) {
     actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
   }
-  for (std::size_t l = 0; l < lanes_.size(); ++l) {
-    Lane& lane = *lanes_[l];
-    Sample& s = take_sample(lane, l);
-    if (lane.probes->want_reactions()) s.react(contacts_, *plant_);
+  plant_->look();
+  for (const auto& one : lanes_) {
+    Lane& lane = *one;
+    if (!trace_tick(lane)) continue;
+    Sample& s = take_sample(lane, false);
+    if (lane.probes->want_reactions()) s.react(lane.contacts, *plant_, lane.index);
     RunRecord& r = lane.record;
-    r.ledger = s.ledger;
     r.trace.values.resize(r.trace.values.size() + r.trace.columns.size());
-    lane.probes->fill(s, Out(r.trace.values).last(r.trace.columns.size()));
+    lane.probes->fill(Out(r.trace.values).last(r.trace.columns.size()));
     r.com_x.push_back(s.sums.com.x());
     r.com_y.push_back(s.sums.com.y());
     r.com_z.push_back(s.sums.com.z());
@@ -263,9 +345,12 @@ void Simulation::record() {
     r.angles.insert(r.angles.end(), s.state.q.begin(), s.state.q.end());
     r.setpoints.insert(r.setpoints.end(), s.setpoint.begin(), s.setpoint.end());
     r.torques.insert(r.torques.end(), s.torque.begin(), s.torque.end());
-    r.loads.resize(r.loads.size() + robot_.modules.size(), 0.0);
-    const Out loads = Out(r.loads).last(robot_.modules.size());
-    for (std::size_t c = 0; c < contacts_.size(); ++c) loads[robot_.bodies[contacts_[c].body].module] += s.contacts[c].fn;
+    r.loads.resize(r.loads.size() + lane.robot.modules.size(), 0.0);
+    const Out loads = Out(r.loads).last(lane.robot.modules.size());
+    for (std::size_t c = 0; c < lane.contacts.size(); ++c) {
+      loads[lane.robot.bodies[lane.contacts[c].body].module] += s.contacts[c].fn;
+    }
+    if (step_number() == lane.steps) end(lane);
   }
 }
 
@@ -276,51 +361,58 @@ void Simulation::sense() {
   if (actuator_ != nullptr) {
     actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
   }
-  for (std::size_t l = 0; l < lanes; ++l) {
-    Lane& lane = *lanes_[l];
-    for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+  plant_->look();
+  for (const auto& one : lanes_) {
+    Lane& lane = *one;
+    const std::size_t l = lane.index;
+    if (!control_tick(lane)) continue;
+    for (std::size_t j = 0; j < layout_.joints; ++j) {
       lane.angle[j] = plant_state_[layout_.angles() + j * lanes + l];
       lane.speed[j] = plant_state_[layout_.speeds() + j * lanes + l];
       lane.torque[j] = torque_[j * lanes + l];
     }
     std::fill(lane.touching.begin(), lane.touching.end(), 0.0);
     plant_->contacts(l, lane.sample.contacts);
-    for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      if (lane.sample.contacts[c].fn > 0) lane.touching[robot_.bodies[contacts_[c].body].module] = 1;
+    for (std::size_t c = 0; c < lane.contacts.size(); ++c) {
+      if (lane.sample.contacts[c].fn > 0) lane.touching[lane.robot.bodies[lane.contacts[c].body].module] = 1;
     }
   }
 }
 
 void Simulation::command() {
-  const std::size_t lanes = lanes_.size();
-  for (std::size_t l = 0; l < lanes; ++l) {
-    Lane& lane = *lanes_[l];
-    const Measured measured = lane.measured(time());
-    if (lane.cpg != nullptr) {
-      lane.cpg->event(measured, lane.cpg_state);
-      std::fill(lane.setpoint.begin(), lane.setpoint.end(), NAN);  // one that is not written is found below
-      lane.cpg->output(time(), lane.cpg_state, lane.setpoint);
-    } else {
-      for (std::size_t j = 0; j < lane.setpoint.size(); ++j) lane.setpoint[j] = lane.scenario.initial.angles[j];
-    }
-    if (lane.controller != nullptr) {
-      lane.controller->update(measured, lane.setpoint, lane.limit, lane.controller_state, lane.command);
-    }
-    for (std::size_t j = 0; j < lane.setpoint.size(); ++j) {
-      setpoint_[j * lanes + l] = lane.setpoint[j];
-      command_[j * lanes + l] = lane.command[j];
-    }
-    if (lane.cpg == nullptr) continue;
-    lane.integrate_cpg(time());
-    check_cpg(*lane.cpg, robot_, lane.setpoint, lane.cpg_state, step_number(), time());
+  for (const auto& lane : lanes_) {
+    if (control_tick(*lane)) guard(*lane, [&] { command(*lane); });
   }
   watch_stability();
 }
 
+void Simulation::command(Lane& lane) {
+  const std::size_t lanes = lanes_.size();
+  const Measured measured = lane.measured(time());
+  if (lane.cpg != nullptr) {
+    lane.cpg->event(measured, lane.cpg_state);
+    std::fill(lane.setpoint.begin(), lane.setpoint.end(), NAN);  // one that is not written is found below
+    lane.cpg->output(time(), lane.cpg_state, lane.setpoint);
+  } else {
+    for (std::size_t j = 0; j < lane.setpoint.size(); ++j) lane.setpoint[j] = lane.scenario.initial.angles[j];
+  }
+  if (lane.controller != nullptr) {
+    lane.controller->update(measured, lane.setpoint, lane.limit, lane.controller_state, lane.command);
+  }
+  for (std::size_t j = 0; j < lane.setpoint.size(); ++j) {
+    setpoint_[j * lanes + lane.index] = lane.setpoint[j];
+    command_[j * lanes + lane.index] = lane.command[j];
+  }
+  if (lane.cpg == nullptr) return;
+  lane.integrate_cpg(time());
+  check_cpg(*lane.cpg, lane.robot, lane.setpoint, lane.cpg_state, step_number(), time());
+}
+
 void Simulation::watch_stability() {
-  for (std::size_t l = 0; l < lanes_.size(); ++l) {
-    RunRecord& record = lanes_[l]->record;
-    const Stability now = plant_->stability(l, command_, false);
+  for (const auto& lane : lanes_) {
+    if (!control_tick(*lane)) continue;
+    RunRecord& record = lane->record;
+    const Stability now = plant_->stability(lane->index, command_, false);
     ++record.ticks;
     if (h_ * now.rate > 1) ++record.ticks_above_1;
     if (now.rate > record.worst.rate) {
@@ -358,40 +450,52 @@ void Simulation::keep_ledger() {
   }
 }
 
-void Simulation::check() const {
-  bool fine = true;
-  for (const double value : plant_state_) fine = fine && std::abs(value) < kLargestSpeed;  // false for NaN too
-  if (!fine) diverged();
+void Simulation::check() {
+  for (const auto& lane : lanes_) {
+    if (!lane->running) continue;
+    bool fine = true;
+    for (std::size_t i = lane->index; i < plant_state_.size(); i += lanes_.size()) {
+      fine = fine && std::abs(plant_state_[i]) < kLargestSpeed;  // false for NaN too
+    }
+    if (!fine) fail(*lane, diverged(*lane));
+  }
 }
 
-void Simulation::diverged() const {
-  const std::size_t lanes = lanes_.size();
+SimulationError Simulation::diverged(const Lane& lane) const {
   std::string where = "base";
   double worst = 0;
   bool finite = true;
-  for (std::size_t i = 0; i < command_.size(); ++i) {
-    const double speed = std::abs(plant_state_[layout_.speeds() + i]);
+  for (std::size_t j = 0; j < layout_.joints; ++j) {
+    const double speed = std::abs(plant_state_[layout_.speeds() + j * lanes_.size() + lane.index]);
     if (!std::isfinite(speed) && finite) {
       finite = false;
-      where = robot_.joints[i / lanes].name;
+      where = lane.robot.joints[j].name;
     }
     if (finite && speed > worst && speed >= kLargestSpeed) {
       worst = speed;
-      where = robot_.joints[i / lanes].name;
+      where = lane.robot.joints[j].name;
     }
   }
-  throw SimulationError(step_number(), time(), where,
-                        fmt::format("diverged at step {}, t = {:.6g} s: {}{}", step_number(), time(),
-                                    where == "base" ? "the base" : "joint " + where,
-                                    finite && worst > 0 ? fmt::format(" turns at {:.3g} rad/s", worst)
-                                                        : fmt::format(" has left the numbers (+-{:g})", kLargestSpeed)));
+  return {step_number(), time(), where,
+          fmt::format("diverged at step {}, t = {:.6g} s: {}{}", step_number(), time(),
+                      where == "base" ? "the base" : "joint " + where,
+                      finite && worst > 0 ? fmt::format(" turns at {:.3g} rad/s", worst)
+                                          : fmt::format(" has left the numbers (+-{:g})", kLargestSpeed))};
 }
 
+/// What is known of it at this step, beside the rows.
+void Simulation::close(Lane& lane) {
+  lane.record.steps = step_number();
+  lane.record.ledger = take_sample(lane, true).ledger;
+  lane.record.joints.clear();
+  for (std::size_t j = 0; j < layout_.joints; ++j) lane.record.joints.push_back(meter_.figures(j, lane.index));
+}
+
+const std::string& Simulation::failure(std::size_t lane) const { return lanes_[lane]->failure; }
+
 RunRecord Simulation::take_record(std::size_t lane) {
-  RunRecord record = std::move(lanes_[lane]->record);
-  record.steps = step_number();
-  for (std::size_t j = 0; j < robot_.joints.size(); ++j) record.joints.push_back(meter_.figures(j, lane));
-  return record;
+  if (lanes_[lane]->running) close(*lanes_[lane]);
+  return std::move(lanes_[lane]->record);
 }
 
 }  // namespace gaitlab

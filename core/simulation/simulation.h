@@ -16,6 +16,8 @@
 
 namespace gaitlab {
 
+class PluginError;
+
 /// A run that left the numbers, or whose plugin threw: step, time and joint or plugin are in what().
 class SimulationError : public RunError {
  public:
@@ -45,9 +47,15 @@ struct RunRecord {
   std::int64_t steps = 0;
 };
 
-/// Simulates one or more scenarios of the same robot, engine, step and duration side by side, one a lane.
-/// Throws std::invalid_argument for more lanes than the engine has. The constructor checks the step: InputError where h lambda
-/// > 1 for the standing robot, naming the largest step allowed and the joint or contact that sets it. step() allocates nothing.
+/// Whether two scenarios can be lanes of one simulation: they share engine, integrator, step, kind of actuator, base, and the
+/// robot's structure: links, joints, which link each contact element is on.
+bool can_share(const Scenario& a, const Scenario& b);
+
+/// Simulates one or more scenarios side by side, one a lane, each to its own end. All but what can_share asks may differ, and a
+/// lane's bits are those it has alone, whatever the others hold. Throws std::invalid_argument where they do not share it, or
+/// the engine has no such number of lanes. The constructor checks the step: InputError where h lambda > 1 for the standing
+/// robot, naming the largest step allowed and the joint or contact that sets it. step() allocates nothing. A lane that leaves
+/// the numbers throws SimulationError if it is alone; beside others it ends there, and failure() tells.
 class Simulation {
  public:
   explicit Simulation(std::span<const Scenario> lanes);
@@ -57,6 +65,8 @@ class Simulation {
 
   void step();
   [[nodiscard]] bool done() const { return step_number() == steps_; }
+  /// Why a lane ended early; empty: it did not.
+  [[nodiscard]] const std::string& failure(std::size_t lane) const;
   /// Steps to the end; `progress(share)` about 200 times; stops early (returns false) once `stop` is set.
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
 
@@ -72,29 +82,37 @@ class Simulation {
  private:
   struct Lane;
 
-  [[nodiscard]] bool control_tick() const { return step_number() % control_every_ == 0; }
-  [[nodiscard]] bool trace_tick() const { return step_number() % trace_every_ == 0; }
+  [[nodiscard]] bool control_tick(const Lane& lane) const;
+  [[nodiscard]] bool trace_tick(const Lane& lane) const;
+  [[nodiscard]] bool any(bool (Simulation::*tick)(const Lane&) const) const;
   void record();
   void sense();
   void command();
+  void command(Lane& lane);
   void advance();
-  void check() const;
+  void check();
 
+  [[nodiscard]] PlantSettings plant_settings() const;
   void cut_state();
   void set_start();
+  void place_at_start(Lane& lane);
   void check_standing();
   void watch_stability();
   void report(In speeds);
   void keep_ledger();
-  [[nodiscard]] double energy(const Sample& sample, std::size_t lane) const;
-  Sample& take_sample(Lane& lane, std::size_t index);
-  [[noreturn]] void diverged() const;
+  [[nodiscard]] double energy(const Lane& lane) const;
+  Sample& take_sample(Lane& lane, bool whole);
+  template <class Work>
+  void guard(Lane& lane, Work work);
+  void fail(Lane& lane, const SimulationError& error);
+  void end(Lane& lane);
+  void close(Lane& lane);
+  [[nodiscard]] SimulationError stopped(const PluginError& error) const;
+  [[nodiscard]] SimulationError diverged(const Lane& lane) const;
 
   std::vector<Scenario> scenarios_;
-  const Robot& robot_;
   double h_;
-  std::int64_t steps_, control_every_, trace_every_;
-  std::vector<ContactElement> contacts_;
+  std::int64_t steps_ = 0;  ///< of the longest lane
   std::unique_ptr<Actuator> actuator_;
   std::unique_ptr<Plant> plant_;
   std::vector<std::unique_ptr<Lane>> lanes_;

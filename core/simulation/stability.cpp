@@ -6,7 +6,7 @@
 
 namespace gaitlab {
 
-void stand(const PlantSettings& s, const Kinematics& k, std::vector<ContactSlope>& out) {
+void stand(const LaneSettings& s, const Kinematics& k, std::vector<ContactSlope>& out) {
   out.clear();
   if (s.ground.kind == Ground::Kind::none) return;
   std::vector<Support> elements;

@@ -32,7 +32,7 @@ struct ContactSlope {
 
 /// Slopes of a robot that stands: its weight in equal parts on its support (support.h), at the penetration that carries it.
 /// Replaces `out`; empty where there is no ground.
-void stand(const PlantSettings& settings, const Kinematics& kinematics, std::vector<ContactSlope>& out);
+void stand(const LaneSettings& settings, const Kinematics& kinematics, std::vector<ContactSlope>& out);
 
 /// Power iteration on A = M^-1 (B + sum J^T G J), Rayleigh quotient in the norm of (B + sum J^T G J): from below, and right to
 /// second order in the vector's error. Cold start, fixed number of iterations: the same state gives the same answer.

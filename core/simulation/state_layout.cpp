@@ -1,4 +1,6 @@
-#include "core/simulation/plant.h"
+#include "core/simulation/state_layout.h"
+
+#include "core/model/kinematics.h"
 
 namespace gaitlab {
 

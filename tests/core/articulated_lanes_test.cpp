@@ -1,131 +1,125 @@
-// The articulated step is one template: with a scalar of two lanes it must give each lane the bits it has alone.
+// A rollout has the bits it has alone in every width of lanes, whatever the others hold: other parameters, other robots of the
+// same structure, motors at their limit, numbers that are none any more.
 #include <gtest/gtest.h>
 
-#include "core/math/functions.h"
-#include "core/math/lanes.h"
-
-// A lane type in its plainest form: two doubles, and what core/math/lanes.h asks for. (Before the headers that use it.)
-namespace gaitlab::math {
-
-struct TwoBools {
-  bool a, b;
-};
-
-struct Two {
-  double a = 0, b = 0;
-  Two() = default;
-  Two(double both)
-      : a(both), b(both) {}  // NOLINT(google-explicit-constructor): constants of the model are the same in all lanes
-  Two(double x, double y) : a(x), b(y) {}
-  friend Two operator+(Two x, Two y) { return {x.a + y.a, x.b + y.b}; }
-  friend Two operator-(Two x, Two y) { return {x.a - y.a, x.b - y.b}; }
-  friend Two operator*(Two x, Two y) { return {x.a * y.a, x.b * y.b}; }
-  friend Two operator/(Two x, Two y) { return {x.a / y.a, x.b / y.b}; }
-  friend Two operator-(Two x) { return {-x.a, -x.b}; }
-  friend TwoBools operator<(Two x, Two y) { return {x.a < y.a, x.b < y.b}; }
-  friend TwoBools operator>(Two x, Two y) { return y < x; }
-  friend TwoBools operator>=(Two x, Two y) { return {x.a >= y.a, x.b >= y.b}; }
-  friend TwoBools operator<=(Two x, Two y) { return y >= x; }
-};
-
-struct TwoSinCos {
-  Two sin, cos;
-};
-inline TwoSinCos sincos(Two x) {
-  const SinCos a = sincos(x.a);
-  const SinCos b = sincos(x.b);
-  return {{a.sin, b.sin}, {a.cos, b.cos}};
-}
-inline Two pow(Two x, double e) { return {pow(x.a, e), pow(x.b, e)}; }
-inline Two sqrt(Two x) { return {sqrt(x.a), sqrt(x.b)}; }
-inline Two select(TwoBools mask, Two yes, Two no) { return {mask.a ? yes.a : no.a, mask.b ? yes.b : no.b}; }
-inline TwoBools both(TwoBools x, TwoBools y) { return {x.a && y.a, x.b && y.b}; }
-inline TwoBools either(TwoBools x, TwoBools y) { return {x.a || y.a, x.b || y.b}; }
-inline TwoBools fresh(TwoBools yes, TwoBools already) { return {yes.a && !already.a, yes.b && !already.b}; }
-inline bool any(TwoBools mask) { return mask.a || mask.b; }
-inline std::span<double> numbers(std::span<Two> x) { return {&x.data()->a, 2 * x.size()}; }
-
-}  // namespace gaitlab::math
-
 #include "actuators/dc_motor.h"
-#include "core/simulation/start.h"
-#include "physics_articulated/stepper.h"
+#include "core/simulation/plant.h"
+#include "physics_articulated/engine.h"
 #include "tests/random_robots.h"
 
 namespace gaitlab::test {
 namespace {
-
-using math::Two;
 
 std::string method_name(const testing::TestParamInfo<int>& method) {
   constexpr std::array kNames{"implicit", "extrapolated", "rk4"};
   return kNames[static_cast<std::size_t>(method.param)];
 }
 
-class Lanes : public testing::TestWithParam<int> {};
+class Lanes : public testing::TestWithParam<int> {
+ protected:
+  Lanes() { register_articulated(catalog_); }
+  [[nodiscard]] const Engine& engine() const { return *catalog_.engine("articulated"); }
+
+ private:
+  Catalog catalog_;
+};
 INSTANTIATE_TEST_SUITE_P(Of, Lanes, testing::Values(0, 1, 2), method_name);
 
+/// One lane: what it is made from, its numbers and commands.
+struct Lane {
+  LaneSettings settings;
+  DcMotorActuator::Settings motors;
+  std::vector<double> numbers, command;
+};
+
+/// A lane of another kind for every index, with a robot like `first` but of other masses and lengths.
+Lane lane(RandomRobots& random, const Robot& first, Base base, std::size_t index) {
+  Lane one;
+  auto robot = std::make_shared<Robot>(first);
+  for (Link& link : robot->links) {
+    const double scale = random.uniform(0.8, 1.25);
+    link.mass *= scale;
+    link.inertia *= scale;
+    link.in_parent.p *= random.uniform(0.9, 1.1);
+  }
+  one.settings.robot = robot;
+  one.settings.gravity = random.vector(10);
+  one.settings.contacts = contact_elements(*robot, ContactSet::all);
+  for (std::size_t l = 0; l < robot->links.size(); ++l) {  // made-up types have no elements of their own
+    ContactElement element;
+    element.link = l;
+    element.radius = random.uniform(0.02, 0.07);
+    one.settings.contacts.push_back(element);
+  }
+  one.settings.ground.friction = random.uniform(0.2, 1);
+  one.settings.law.kn = random.uniform(5e3, 2e4);
+  one.settings.law.k = index % 3 == 0 ? 1.5 : 1;
+  one.settings.law.d = index % 4 == 1 ? 0 : 1;
+  one.motors.i_max = PerJoint{index % 2 == 0 ? 0.2 : 2};
+  one.motors.efficiency_model = index % 4 == 3 ? 1 : 0;
+  RobotState state = random.state(*robot, base);
+  state.position.z() = index % 3 == 2 ? 0.1 : -0.005;  // in the air there, through the ground here
+  const StateLayout alone{robot->joints.size(), 1};
+  one.numbers.resize(alone.size());
+  alone.write(state, 0, one.numbers);
+  for (std::size_t j = 0; j < robot->joints.size(); ++j) one.command.push_back(random.uniform(-8, 8));
+  return one;
+}
+
 TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
+  if (engine().lanes.size() < 2) GTEST_SKIP() << "this processor has neither AVX2 nor AVX-512";
+  constexpr int kSteps = 60;
+  const double h = GetParam() == 2 ? 2e-5 : 5e-4;
   RandomRobots random(41);
   double rubbed = 0;  // J: something slides in some lane
-  for (int i = 0; i < 6; ++i) {
-    PlantSettings settings;
-    settings.robot = std::make_shared<const Robot>(random.robot_of(4));
-    const Robot& robot = *settings.robot;
-    settings.gravity = {0.5, 0.3, -9.81};
-    settings.integrator = GetParam();
-    settings.contacts = contact_elements(robot, ContactSet::all);
-    for (std::size_t l = 0; l < robot.links.size(); ++l) {  // made-up types have no elements of their own
-      ContactElement element;
-      element.link = l;
-      element.radius = 0.05;
-      settings.contacts.push_back(element);
-    }
-    settings.law.k = 1.5;
-    const articulated::Tree tree(robot, settings.base, settings.contacts);
-    DcMotorActuator::Settings weak;
-    weak.i_max = PerJoint{0.2};
-    DcMotorActuator::Settings directional;
-    directional.efficiency_model = 1;
-    const std::array<const DcMotorActuator::Settings*, 2> motors{&weak, &directional};
+  for (const std::size_t width : engine().lanes) {
+    for (int i = 0; i < 4; ++i) {
+      const Robot first = random.robot_of(4);
+      const std::size_t n = first.joints.size();
+      std::vector<Lane> lanes;
+      for (std::size_t l = 0; l < width; ++l) lanes.push_back(lane(random, first, Base::floating, l));
+      if (width > 1) lanes[1].numbers[StateLayout::kVelocity] = std::numeric_limits<double>::infinity();  // diverged
 
-    const std::size_t n = robot.joints.size();
-    const StateLayout alone{n, 1};
-    const StateLayout beside{n, 2};
-    std::vector<double> numbers(beside.size());
-    std::vector<double> commands(2 * n);
-    for (double& u : commands) u = random.uniform(-8, 8);
-    std::array<std::vector<double>, 2> lane;
-    for (std::size_t l = 0; l < 2; ++l) {
-      RobotState state = random.state(robot, settings.base);
-      state.position.z() = 0.1;  // through the ground here, in the air there
-      beside.write(state, l, numbers);
-      lane[l].resize(alone.size());
-      alone.write(state, 0, lane[l]);
-    }
-    std::vector<Two> together(alone.size());
-    for (std::size_t e = 0; e < together.size(); ++e) together[e] = {numbers[2 * e], numbers[2 * e + 1]};
-
-    const double h = GetParam() == 2 ? 2e-5 : 5e-4;
-    const DcMotorActuator both(info(robot), {motors[0], motors[1]});
-    settings.actuator = &both;
-    settings.lanes = 2;
-    articulated::Stepper<Two> two(tree, settings);
-    for (int step = 0; step < 60; ++step) two.step(together, commands, h);
-    for (std::size_t l = 0; l < 2; ++l) {
-      const DcMotorActuator own(info(robot), {motors[l]});
-      settings.actuator = &own;
-      settings.lanes = 1;
-      std::vector<double> command(n);
-      for (std::size_t j = 0; j < n; ++j) command[j] = commands[2 * j + l];
-      articulated::Stepper<double> one(tree, settings);
-      for (int step = 0; step < 60; ++step) one.step(lane[l], command, h);
-      for (std::size_t e = 0; e < alone.size(); ++e) {
-        EXPECT_EQ(l == 0 ? together[e].a : together[e].b, lane[l][e]) << "robot " << i << ", lane " << l << ", entry " << e;
-        EXPECT_LT(std::abs(lane[l][e]), 1e5);
+      const StateLayout beside{n, width};
+      std::vector<double> numbers(beside.size());
+      std::vector<double> commands(width * n);
+      std::vector<const DcMotorActuator::Settings*> motors;
+      PlantSettings together;
+      together.integrator = GetParam();
+      for (std::size_t l = 0; l < width; ++l) {
+        for (std::size_t e = 0; e < lanes[l].numbers.size(); ++e) numbers[e * width + l] = lanes[l].numbers[e];
+        for (std::size_t j = 0; j < n; ++j) commands[j * width + l] = lanes[l].command[j];
+        motors.push_back(&lanes[l].motors);
+        (l == 0 ? static_cast<LaneSettings&>(together) : together.others.emplace_back()) = lanes[l].settings;
       }
-      EXPECT_EQ(l == 0 ? two.done.friction.a : two.done.friction.b, one.done.friction);
-      rubbed += one.done.friction;
+      const DcMotorActuator all(info(first), motors);
+      together.actuator = &all;
+      const std::unique_ptr<Plant> pack = engine().make(together);
+      pack->bind(numbers);
+      for (int step = 0; step < kSteps; ++step) pack->advance(commands, h);
+
+      for (std::size_t l = 0; l < width; ++l) {
+        if (width > 1 && l == 1) continue;
+        PlantSettings own;
+        static_cast<LaneSettings&>(own) = lanes[l].settings;
+        own.integrator = GetParam();
+        const DcMotorActuator motor(info(first), {&lanes[l].motors});
+        own.actuator = &motor;
+        const std::unique_ptr<Plant> alone = engine().make(own);
+        alone->bind(lanes[l].numbers);
+        for (int step = 0; step < kSteps; ++step) alone->advance(lanes[l].command, h);
+        for (std::size_t e = 0; e < lanes[l].numbers.size(); ++e) {
+          EXPECT_EQ(numbers[e * width + l], lanes[l].numbers[e])
+              << width << " lanes, robot " << i << ", lane " << l << ", entry " << e;
+          EXPECT_LT(std::abs(lanes[l].numbers[e]), 1e5);
+        }
+        const Applied a = pack->applied();
+        const Applied b = alone->applied();
+        for (std::size_t j = 0; j < n; ++j) EXPECT_EQ(a.torque[j * width + l], b.torque[j]);
+        EXPECT_EQ(a.friction[l], b.friction[0]);
+        EXPECT_EQ(a.stops[l], b.stops[0]);
+        rubbed += b.friction[0];
+      }
     }
   }
   EXPECT_GT(rubbed, 0);

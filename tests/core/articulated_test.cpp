@@ -2,17 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <functional>
 
 #include "core/dynamics/mass_matrix.h"
+#include "core/simulation/plant.h"
+#include "physics_articulated/eigen.h"
 #include "physics_articulated/engine.h"
-#include "physics_articulated/stepper.h"
+#include "physics_articulated/kernel.h"
 #include "tests/random_robots.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
 namespace {
 
-using articulated::Tree;
 using articulated::vec;
 
 /// The generalised numbers that `base` has, of 6 + joints.
@@ -56,11 +58,13 @@ Solved solve(RandomRobots& random, Base base, double resist) {
   const Robot robot = random.robot();
   const RobotState state = random.state(robot, base);
   const Vec3 gravity = random.vector(10);
-  const Tree tree(robot, base, {});
-  articulated::Body<double> body(tree, gravity);
+  const articulated::Tree<double> tree = articulated::tree(robot, base, {});
+  articulated::Body<double> body(tree, vec(gravity));
   std::vector<double> x(StateLayout::kAngles + 2 * robot.joints.size());
   StateLayout{robot.joints.size(), 1}.write(state, 0, x);
   for (std::size_t e = 3; e < 7; ++e) x[e] *= 1.3;  // a quaternion of any length
+  using Load = articulated::Body<double>::Load;
+  std::vector<std::pair<std::size_t, std::function<void(Load)>>> loads;
   body.place(x);
 
   Kinematics k(robot);
@@ -80,15 +84,19 @@ Solved solve(RandomRobots& random, Base base, double resist) {
     const BodyWrench w{random.below(robot.bodies.size()), state.position + random.vector(1), random.vector(5), Vec3::Zero()};
     wrenches.push_back(w);
     const std::size_t link = robot.bodies[w.body].link;
-    body.add_force(link, vec(w.point - state.position), vec(w.force));
+    loads.emplace_back(link, [=](Load load) { load.add_force(vec(w.point - state.position), vec(w.force)); });
     const Mat3 root = Vec3(random.uniform(0, 1), random.uniform(0, 1), 0).asDiagonal() * random.rotation();
     const Mat3 G = resist * root.transpose() * root;  // positive semidefinite, singular: as sliding friction
-    body.add_resistance(link, vec(w.point - state.position), articulated::sym(G));
+    loads.emplace_back(link, [=](Load load) { load.add_resistance(vec(w.point - state.position), articulated::sym(G)); });
     const Eigen::MatrixXd J = jacobian(robot, state, base, link, w.point);
     matrix += J.transpose() * G * J;
   }
   std::vector<double> a(6 + robot.joints.size());
-  body.solve(torque, diagonal, a);
+  body.solve(torque, diagonal, a, [&](std::size_t link, Load load) {
+    for (const auto& [at, act] : loads) {
+      if (at == link) act(load);
+    }
+  });
 
   Acceleration none;
   none.joints.assign(robot.joints.size(), 0.0);
@@ -142,13 +150,15 @@ class BlockOnPlane : public testing::Test {
   }
   /// Velocity after one step of h from `speed` along x, at the depth that carries the weight.
   [[nodiscard]] double after(double speed, double h) const {
-    const Tree tree(*settings.robot, settings.base, settings.contacts);
-    articulated::Stepper<double> stepper(tree, settings);
+    Catalog catalog;
+    register_articulated(catalog);
+    const std::unique_ptr<Plant> plant = catalog.engine("articulated")->make(settings);
     std::vector<double> x(StateLayout::kAngles);
     x[StateLayout::kPosition + 2] = -1e-3;
     x[StateLayout::kOrientation] = 1;
     x[StateLayout::kVelocity] = speed;
-    stepper.step(x, {}, h);
+    plant->bind(x);
+    plant->advance({}, h);
     EXPECT_EQ(x[StateLayout::kVelocity + 1], 0);
     return x[StateLayout::kVelocity];
   }

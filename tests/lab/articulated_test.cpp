@@ -12,7 +12,7 @@ Acceleration accelerate(const std::string& engine, const PlantSettings& settings
                         std::span<const BodyWrench> wrenches) {
   Acceleration out;
   out.joints.resize(tau.size());
-  catalog().engine(engine)->make(settings)->accelerate(state, tau, wrenches, out);
+  catalog().engine(engine)->make(settings)->accelerate(0, state, tau, wrenches, out);
   return out;
 }
 

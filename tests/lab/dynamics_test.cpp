@@ -143,7 +143,7 @@ Acceleration accelerate(const std::string& engine, const std::shared_ptr<const R
   const std::unique_ptr<Plant> plant = catalog().engine(engine)->make(settings);
   Acceleration out;
   out.joints.resize(tau.size());
-  plant->accelerate(state, tau, wrenches, out);
+  plant->accelerate(0, state, tau, wrenches, out);
   return out;
 }
 

@@ -29,7 +29,7 @@ struct Case {
     settings.ground.kind = Ground::Kind::none;
     Acceleration a;
     a.joints.resize(robot->joints.size());
-    catalog().engine("bullet")->make(settings)->accelerate(state, torque, wrenches, a);
+    catalog().engine("bullet")->make(settings)->accelerate(0, state, torque, wrenches, a);
     return a;
   }
 };

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace gaitlab::app {
+namespace gaitlab {
 
 /// Calls work(i) for every i < count, up to `jobs` at once, each i once. Every piece writes only what is its own, so that the
 /// result does not depend on `jobs`. All are done before the first exception, in the order of i, is thrown.
@@ -34,4 +34,4 @@ void parallel(std::size_t count, int jobs, Work&& work) {
   }
 }
 
-}  // namespace gaitlab::app
+}  // namespace gaitlab

@@ -1,0 +1,89 @@
+#include "core/simulation/batch.h"
+
+#include <algorithm>
+
+#include "core/parallel.h"
+
+namespace gaitlab {
+
+namespace {
+
+using Pack = std::vector<std::size_t>;  ///< indices of rollouts; one that stands twice fills a lane that nobody needs
+
+/// How many lanes to take for so many rollouts that are left: all that the widest gives, or the fewest that hold the rest.
+std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::size_t most) {
+  std::size_t best = widths.front();
+  for (const std::size_t lanes : widths) {
+    if (most != 0 && lanes > most) break;
+    best = lanes;
+    if (lanes >= left) break;
+  }
+  return best;
+}
+
+std::vector<Pack> packs(std::span<const Scenario> rollouts, std::size_t most) {
+  std::vector<Pack> groups;
+  for (std::size_t i = 0; i < rollouts.size(); ++i) {
+    const auto group =
+        std::find_if(groups.begin(), groups.end(), [&](const Pack& g) { return can_share(rollouts[g.front()], rollouts[i]); });
+    if (group == groups.end()) {
+      groups.push_back({i});
+    } else {
+      group->push_back(i);
+    }
+  }
+  std::vector<Pack> all;
+  for (const Pack& group : groups) {
+    const std::vector<std::size_t>& widths = rollouts[group.front()].physics.engine->lanes;
+    for (std::size_t from = 0; from < group.size();) {
+      const std::size_t lanes = width(widths, group.size() - from, most);
+      Pack pack;
+      for (std::size_t l = 0; l < lanes; ++l) pack.push_back(group[std::min(from + l, group.size() - 1)]);
+      all.push_back(pack);
+      from += lanes;
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings,
+               const std::function<void(std::size_t, RolloutEnd&&)>& end) {
+  const std::vector<Pack> all = packs(rollouts, settings.lanes);
+  parallel(all.size(), settings.threads, [&](std::size_t p) {
+    const Pack& pack = all[p];
+    std::vector<Scenario> lanes;
+    for (const std::size_t i : pack) lanes.push_back(rollouts[i]);
+    Simulation simulation(lanes);
+    std::string stopped;  // where a lane is alone
+    try {
+      simulation.run();
+    } catch (const SimulationError& error) {
+      stopped = error.what();
+    }
+    for (std::size_t l = 0; l < pack.size() && (l == 0 || pack[l] != pack[l - 1]); ++l) {
+      const std::string& failure = stopped.empty() ? simulation.failure(l) : stopped;
+      end(pack[l], {simulation.take_record(l), failure.empty() ? "done" : failure});
+    }
+  });
+}
+
+std::vector<Scenario> rollouts(const std::string& file, const std::vector<std::string>& sets,
+                               std::span<const std::vector<std::string>> own, Catalog& catalog) {
+  std::vector<Scenario> all;
+  Problems problems;
+  for (const std::vector<std::string>& overrides : own) {
+    std::vector<std::string> both = sets;
+    both.insert(both.end(), overrides.begin(), overrides.end());
+    try {
+      all.push_back(read_scenario(file, both, catalog));
+    } catch (const InputError& error) {
+      for (const Problem& problem : error.problems()) problems.add(problem.place, problem.text);
+    }
+  }
+  problems.raise();
+  return all;
+}
+
+}  // namespace gaitlab

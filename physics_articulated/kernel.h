@@ -1,0 +1,55 @@
+// Steps of rollouts side by side; one implementation a width and instruction set.
+#pragma once
+#include <memory>
+#include <span>
+
+#include "core/plugin/actuator.h"
+#include "physics_articulated/stepper.h"
+
+namespace gaitlab::articulated {
+
+/// One rollout's constants; `ground` outlives the kernel.
+struct Rollout {
+  Tree<double> tree;
+  Vec<double> gravity;
+  PenaltyContact law;
+  bool plane = true;
+  double friction = 0;  ///< of the plane
+  const Ground* ground = nullptr;
+};
+
+/// Force of the ground on a contact element of one lane, world, N.
+struct Press {
+  std::size_t element = 0;
+  double fn = 0;
+  Vec<double> force;
+  Touch<double> touch;
+};
+
+class Kernel {
+ public:
+  virtual ~Kernel() = default;
+  /// As Plant::advance.
+  virtual void step(Out state, In command, double h) = 0;
+  [[nodiscard]] virtual Applied applied() const = 0;
+  virtual bool report(In command, In speed, const Actuator::Report& out) = 0;
+  /// Takes the state for what follows, all lanes at once.
+  virtual void look(In state) = 0;
+  /// Those that touch, in the order of the elements; valid up to the next call.
+  virtual std::span<const Press> presses(std::size_t lane) = 0;
+  virtual Vec<double> com(std::size_t lane) = 0;  ///< world, m
+};
+
+/// What a kernel is made of: rollouts that are alike, as many as its width; actuator: joint * lanes + lane.
+struct KernelSettings {
+  std::span<const Rollout> rollouts;
+  const Actuator* actuator = nullptr;
+  Method method = kImplicit;
+  Touch<double> (*query)(const Ground&, const Vec<double>& centre, double radius) = nullptr;
+};
+
+std::unique_ptr<Kernel> make_kernel_1(const KernelSettings&);
+std::unique_ptr<Kernel> make_kernel_4(const KernelSettings&);  ///< AVX2
+std::unique_ptr<Kernel> make_kernel_8(const KernelSettings&);  ///< AVX-512
+
+}  // namespace gaitlab::articulated

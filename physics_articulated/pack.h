@@ -1,0 +1,100 @@
+// The kernel over a scalar T. Included by one translation unit a width, compiled for its processor.
+#pragma once
+#include <cstring>
+
+#include "physics_articulated/kernel.h"
+
+namespace gaitlab::articulated {
+
+template <class T>
+class Pack final : public Kernel {
+ public:
+  explicit Pack(const KernelSettings& s)
+      : tree_(trees(s.rollouts)),
+        site_(site(s)),
+        stepper_(tree_, site_, s.actuator, s.method),
+        x_(StateLayout::kAngles + 2 * tree_.lo.size()) {
+    presses_.reserve(tree_.points.size());
+    forces_.reserve(tree_.points.size());
+  }
+
+  void step(Out state, In command, double h) override {
+    load(state);
+    stepper_.step(x_, command, h);
+    std::memcpy(state.data(), x_.data(), state.size_bytes());
+  }
+
+  [[nodiscard]] Applied applied() const override {
+    const Done<T>& done = stepper_.done;
+    const auto lanes = [](const T& sum) { return math::numbers(std::span<const T>(&sum, 1)); };
+    return {math::numbers(std::span<const T>(done.torque)), math::numbers(std::span<const T>(done.speed)), lanes(done.contact),
+            lanes(done.friction), lanes(done.stops)};
+  }
+
+  bool report(In command, In speed, const Actuator::Report& out) override {
+    return stepper_.motors.report(command, speed, out);
+  }
+
+  void look(In state) override {
+    load(state);
+    stepper_.place(x_);
+    stepper_.contacts.begin(0);
+    forces_.clear();
+    for (const Contact<T>& c : stepper_.contacts.touching()) forces_.push_back(c.force());
+    com_ = stepper_.body.com();
+  }
+
+  std::span<const Press> presses(std::size_t lane) override {
+    presses_.clear();
+    const auto& touching = stepper_.contacts.touching();
+    for (std::size_t i = 0; i < forces_.size(); ++i) {
+      const Contact<T>& c = touching[i];
+      const double penetration = math::lane(c.touch.penetration, lane);
+      if (!(penetration > 0)) continue;
+      presses_.push_back({c.element,
+                          math::lane(c.law.fn, lane),
+                          of_lane(forces_[i], lane),
+                          {penetration, of_lane(c.n, lane), of_lane(c.touch.point, lane), math::lane(c.touch.friction, lane)}});
+    }
+    return presses_;
+  }
+  Vec<double> com(std::size_t lane) override { return of_lane(com_, lane); }
+
+ private:
+  static Tree<T> trees(std::span<const Rollout> rollouts) {
+    std::vector<const Tree<double>*> each;
+    for (const Rollout& one : rollouts) each.push_back(&one.tree);
+    return side_by_side<T>(each);
+  }
+  static Site<T> site(const KernelSettings& s) {
+    Site<T> all;
+    all.query = s.query;
+    for (std::size_t l = 0; l < s.rollouts.size(); ++l) {
+      const Rollout& one = s.rollouts[l];
+      put(all.gravity, l, one.gravity);
+      put(all.law.kn, l, one.law.kn);
+      put(all.law.k, l, one.law.k);
+      put(all.law.cd, l, one.law.cd);
+      put(all.law.d, l, one.law.d);
+      put(all.law.v_lim, l, one.law.v_lim);
+      put(all.friction, l, one.friction);
+      all.plane = all.plane && one.plane;
+      all.ground.push_back(one.ground);
+    }
+    return all;
+  }
+  static Vec<double> of_lane(const Vec<T>& v, std::size_t lane) {
+    return {math::lane(v.x, lane), math::lane(v.y, lane), math::lane(v.z, lane)};
+  }
+  void load(In state) { std::memcpy(static_cast<void*>(x_.data()), state.data(), state.size_bytes()); }
+
+  Tree<T> tree_;
+  Site<T> site_;
+  Stepper<T> stepper_;
+  std::vector<T> x_;
+  std::vector<Vec<T>> forces_;  // of the contacts that look found
+  std::vector<Press> presses_;
+  Vec<T> com_;
+};
+
+}  // namespace gaitlab::articulated
