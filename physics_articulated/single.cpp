@@ -14,7 +14,7 @@ constexpr int kStartIterations = 200;   // once, before the run
 
 Touch<double> query(const Ground& ground, const Vec<double>& centre, double radius) {
   if (ground.kind == Ground::Kind::none) return {-1, {}, {}, 0};
-  const Ground::Touch touch = ground.query<double>(vec3(centre), radius);
+  const Ground::Touch touch = ground.query(vec3(centre), radius);
   return {touch.penetration, vec(touch.normal), vec(touch.point), touch.friction};
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/laws/plane.h"
+
 namespace gaitlab {
 
 namespace {
@@ -154,6 +156,13 @@ Ground::Touch touch(const Push& push, const Vec3& centre, double radius) {
 }
 
 }  // namespace
+
+Ground::Touch Ground::query(const Vec3& centre, double radius) const {
+  if (kind == Kind::boxes) return on_boxes(centre, radius);
+  if (kind == Kind::heightfield) return on_field(centre, radius);
+  const auto [penetration, height] = on_plane(centre.z(), radius);
+  return {penetration, Vec3::UnitZ(), {centre.x(), centre.y(), height}, friction};
+}
 
 Ground::Touch Ground::on_boxes(const Vec3& centre, double radius) const {
   Sum sum;

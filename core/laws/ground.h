@@ -34,37 +34,20 @@ struct Ground {
   std::vector<Box> boxes = {};
   Heightfield field = {};
 
-  template <class T>
-  struct BasicTouch {
-    using Vector = Eigen::Matrix<T, 3, 1>;
-    T penetration;  ///< m; negative: the gap
-    Vector normal;
-    Vector point;  ///< where the force acts: the deepest point of the element
+  struct Touch {
+    double penetration;  ///< m; negative: the gap
+    Vec3 normal;
+    Vec3 point;  ///< where the force acts: the deepest point of the element
     double friction;
   };
-  using Touch = BasicTouch<double>;
 
-  /// A sphere of `radius` (0: a point) centred at `centre`, world. Allocates nothing.
-  [[nodiscard]] Touch query(const Vec3& centre, double radius) const {
-    if (kind == Kind::boxes) return on_boxes(centre, radius);
-    if (kind == Kind::heightfield) return on_field(centre, radius);
-    return on_plane(centre, radius);
-  }
-  /// The same for lanes, over a plane.
-  template <class T>
-  [[nodiscard]] BasicTouch<T> query(const Eigen::Matrix<T, 3, 1>& centre, double radius) const {
-    return on_plane(centre, radius);
-  }
+  /// A sphere of `radius` (0: a point) centred at `centre`, world. Allocates nothing. Of Kind::none: as on the plane.
+  [[nodiscard]] Touch query(const Vec3& centre, double radius) const;
 
   /// No solid is higher, m.
   [[nodiscard]] double highest() const;
 
  private:
-  template <class T>
-  [[nodiscard]] BasicTouch<T> on_plane(const Eigen::Matrix<T, 3, 1>& centre, double radius) const {
-    const T lowest = centre.z() - radius;
-    return {-lowest, {T(0.0), T(0.0), T(1.0)}, {centre.x(), centre.y(), lowest}, friction};
-  }
   [[nodiscard]] Touch on_boxes(const Vec3& centre, double radius) const;
   [[nodiscard]] Touch on_field(const Vec3& centre, double radius) const;
 };
