@@ -168,6 +168,11 @@ int approve(const ApproveArguments& arguments) {
   Catalog catalog = standard_catalog();
   const Scenario scenario = read({arguments.file, {}, {}, true}, catalog);
   check_target(folder);
+  if (scenario.contact.solver()) {
+    throw InputError(scenario.place("contact.law"),
+                     "contact.law: bullet has no goldens: its torques do not converge with the step, so that no band around "
+                     "them means anything. Approve the same scenario with contact.law: penalty");
+  }
   const std::optional<Golden> before = golden_before(folder, arguments.replace);
   if (why.empty() && !before) throw no_reason(arguments);
   GoldenRun base = simulate({scenario}, {scenario.file}, arguments.jobs).front();

@@ -10,6 +10,7 @@
 #include "core/laws/hinge_stop.h"
 #include "core/simulation/stability.h"
 #include "physics_bullet/multibody.h"
+#include "physics_bullet/solver_plant.h"
 
 namespace gaitlab {
 
@@ -74,13 +75,7 @@ class BulletPlant final : public Plant, private InverseMass {
   void accelerate(std::size_t, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
                   Acceleration& out) override {
     kinematics_.update(robot_, state);
-    body_.set(state, kinematics_);
-    body_.add_weight(settings_.gravity);
-    for (const BodyWrench& w : wrenches) {
-      const std::size_t link = robot_.bodies[w.body].link;
-      body_.add_force(link, w.point - kinematics_.point(link, robot_.links[link].com), w.force, w.torque);
-    }
-    for (std::size_t j = 0; j < torque.size(); ++j) body_.add_torque(j, torque[j]);
+    body_.load(state, kinematics_, settings_.gravity, torque, wrenches);
     accelerate(state, out);
   }
 
@@ -204,7 +199,11 @@ void register_bullet(Catalog& catalog) {
       2.5e-5,
       {1},
       true,
-      [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<BulletPlant>(s); }});
+      [](const PlantSettings& s) -> std::unique_ptr<Plant> {
+        if (s.solver) return make_solver_plant(s);
+        return std::make_unique<BulletPlant>(s);
+      },
+      1e-3});
 }
 
 std::string bullet_version() {

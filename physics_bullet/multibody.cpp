@@ -150,6 +150,28 @@ void MultiBody::add_weight(const Vec3& gravity) {
   for (std::size_t i = 0; i < robot_.links.size(); ++i) add_force(i, Vec3::Zero(), robot_.links[i].mass * gravity);
 }
 
+void MultiBody::load(const RobotState& s, const Kinematics& k, const Vec3& gravity, In torque,
+                     std::span<const BodyWrench> wrenches) {
+  set(s, k);
+  add_weight(gravity);
+  for (const BodyWrench& w : wrenches) {
+    const std::size_t link = robot_.bodies[w.body].link;
+    add_force(link, w.point - k.point(link, robot_.links[link].com), w.force, w.torque);
+  }
+  for (std::size_t j = 0; j < torque.size(); ++j) add_torque(j, torque[j]);
+}
+
+void MultiBody::read_velocities(RobotState& s) const {
+  if (base_ == Base::planar) {
+    s.velocity = Vec3(body_.getJointVel(0), 0, body_.getJointVel(1));
+    s.angular_velocity = Vec3(0, body_.getJointVel(2), 0);
+  } else if (base_ == Base::floating) {
+    s.angular_velocity = vec(body_.getBaseOmega());
+    s.velocity = vec(body_.getBaseVel()) - s.angular_velocity.cross(base_com_);
+  }
+  for (std::size_t j = 0; j < s.qd.size(); ++j) s.qd[j] = body_.getJointVel(index_of_joint_[j]);
+}
+
 void MultiBody::accelerate(const RobotState& s, Acceleration& out) {
   body_.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r_, scratch_v_, scratch_m_, false, false, false);
   const btScalar* result = &scratch_r_[body_.getNumDofs()];  // base: omega', COM's v' in world axes; then the joints

@@ -30,7 +30,12 @@ class MultiBody {
   void add_force(std::size_t link, const Vec3& arm_from_com, const Vec3& force, const Vec3& torque = Vec3::Zero());
   void add_weight(const Vec3& gravity);
   void add_torque(std::size_t joint, double torque) { body_.addJointTorque(index_of_joint_[joint], torque); }
+  /// set and every force of a Plant::accelerate.
+  void load(const RobotState& state, const Kinematics& kinematics, const Vec3& gravity, In torque,
+            std::span<const BodyWrench> wrenches);
   void accelerate(const RobotState& state, Acceleration& out);
+  /// Velocities as Bullet has them now; s.orientation and s.position are those of the last set.
+  void read_velocities(RobotState& s) const;
   /// y = M^-1 f at the state of the last accelerate (generalised vectors as in stability.h).
   void inverse_mass(In force, Out acceleration);
 
@@ -48,17 +53,27 @@ class MultiBody {
     }
   }
 
- private:
+  /// The shapes of one link: children in Bullet's link frame.
   struct Compound {
     std::size_t link;
     std::unique_ptr<btCompoundShape> shape;
     std::unique_ptr<btMultiBodyLinkCollider> collider;
   };
+  /// Those of the contact elements: spheres (radius 0: points) whose user index is the element's.
+  [[nodiscard]] const std::vector<Compound>& compounds() const { return compounds_; }
+  /// Bullet's link frame (principal axes at the COM) in the link frame, and in the world.
+  [[nodiscard]] Pose frame(std::size_t link) const { return {principal_[link], robot_.links[link].com}; }
+  [[nodiscard]] Pose frame(std::size_t link, const Kinematics& k) const {
+    return {k.R[link] * principal_[link], k.point(link, robot_.links[link].com)};
+  }
+  [[nodiscard]] btMultiBody& bullet() { return body_; }
+  [[nodiscard]] int index_of(std::size_t link) const { return static_cast<int>(link) + (base_ == Base::planar ? 2 : -1); }
+  [[nodiscard]] int index_of_joint(std::size_t joint) const { return index_of_joint_[joint]; }
 
+ private:
   void set_up_root();
   void set_up_link(std::size_t link);
   void set_up_shapes(const std::vector<ContactElement>& elements);
-  [[nodiscard]] int index_of(std::size_t link) const { return static_cast<int>(link) + (base_ == Base::planar ? 2 : -1); }
 
   const Robot& robot_;
   Base base_;

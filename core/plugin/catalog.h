@@ -21,6 +21,7 @@ struct Engine {
   std::vector<std::size_t> lanes{1};     ///< how many rollouts it runs side by side, ascending
   bool rotor_inertia = false;            ///< can add a joint's reflected rotor inertia
   std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
+  double solver_step = 0;  ///< default with contact.law: bullet, s; 0: the engine has no such law
 };
 
 inline constexpr std::string_view kBuiltIn = "built in";  ///< an origin

@@ -165,6 +165,7 @@ class ScenarioReader {
     const TypeMotor motor = motor_of(scenario_.module_documents);
     SectionFields sections(scenario_, &catalog_, &problems_, motor.type);
     sections.has_cpg = root_.find("cpg") != nullptr;
+    sections.physics.solver = asks_for_solver();
     sections.actuator.presets = [&](const Entry& entry, void* settings) {
       if (motor.map == nullptr || !motor.agreed || entry.name != motor.type) return;
       Reader preset(*motor.map, "actuator", problems_, joints);
@@ -177,6 +178,7 @@ class ScenarioReader {
     reader.finish();
     if (const Node* ground = root_.find("ground")) finish_ground(*ground, folder_, scenario_, problems_);
     check_motors(motor);
+    check_law();
     if (sections.actuator.none) refuse_controller();
     check_initial();
     check_base_velocity();
@@ -188,6 +190,37 @@ class ScenarioReader {
     if (node.kind == Node::Kind::list && node.items.empty()) return;
     const std::string what = node.kind == Node::Kind::list ? fmt::format("a list of {}", node.items.size()) : found(node);
     problems_.add(node.place, fmt::format("sensors is {}; expected [], there are no sensor types yet", what));
+  }
+
+  /// Before its section is read: the step's default is above it.
+  [[nodiscard]] bool asks_for_solver() const {
+    const Node* contact = root_.find("contact");
+    const Node* law = contact == nullptr ? nullptr : contact->find("law");
+    return law != nullptr && law->text == "bullet";
+  }
+
+  /// What Bullet's own solver cannot do.
+  void check_law() {
+    const Engine* engine = scenario_.physics.engine;
+    if (!scenario_.contact.solver() || engine == nullptr) return;
+    if (!(engine->solver_step > 0)) {
+      std::vector<std::string> able;
+      for (const std::string& name : catalog_.engines()) {
+        if (catalog_.engine(name)->solver_step > 0) able.push_back(name);
+      }
+      problems_.add(place_of(root_, "contact", "law"),
+                    fmt::format("engine '{}' has no contact law 'bullet'; expected penalty{}", engine->name,
+                                able.empty() ? "" : fmt::format(", or engine: {}", fmt::join(able, " or "))));
+    }
+    if (scenario_.physics.integrator != 0) {
+      problems_.add(place_of(root_, "physics", "integrator"),
+                    fmt::format("contact law 'bullet' takes steps of its own; expected {}", engine->integrators.front()));
+    }
+    constexpr double kSteepest = 10;  // Bullet cuts friction off there
+    if (scenario_.ground.friction > kSteepest) {
+      problems_.add(place_of(root_, "ground", "friction"), fmt::format("friction is {}; contact law 'bullet' has up to {:g}",
+                                                                       number_text(scenario_.ground.friction), kSteepest));
+    }
   }
 
   void check_motors(const TypeMotor& motor) {
@@ -334,6 +367,11 @@ class ScenarioReader {
     const In inertia = actuator.reflected_inertia();
     const Engine* engine = scenario_.physics.engine;
     const bool some = std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; });
+    if (some && scenario_.contact.solver()) {
+      problems_.add(place_of(root_, "actuator", "rotor_inertia"),
+                    "contact law 'bullet' cannot add rotor inertia; expected 0, or contact.law: penalty");
+      return;
+    }
     if (!some || engine == nullptr || engine->rotor_inertia) return;
     std::vector<std::string> able;
     for (const std::string& name : catalog_.engines()) {

@@ -35,10 +35,11 @@ struct Physics {
 };
 
 struct ContactSettings {
-  int law = 0;  ///< penalty
+  int law = 0;  ///< penalty, bullet
   int on = 1;   ///< ContactSet
   PenaltyContact penalty;
-  [[nodiscard]] bool moves_boxes() const { return false; }  ///< whether the law knows boxes that have a mass
+  [[nodiscard]] bool solver() const { return law == 1; }  ///< bullet: constraints, not forces
+  [[nodiscard]] bool moves_boxes() const { return solver(); }  ///< whether the law knows boxes that have a mass
   void fields(Fields& f);
 };
 

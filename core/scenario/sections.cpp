@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPositive = std::numeric_limits<double>::denorm_min();
 constexpr std::array<const char*, 3> kBases{"floating", "fixed", "planar"};
-constexpr std::array<const char*, 1> kLaws{"penalty"};
+constexpr std::array<const char*, 2> kLaws{"penalty", "bullet"};
 constexpr std::array<const char*, 3> kContactSets{"none", "feet", "all"};
 
 std::span<double> span_of(Vec3& v) { return {v.data(), 3}; }
@@ -74,8 +74,10 @@ void PhysicsFields::fields(Fields& f) {
   const bool known = count(problems) == before && !names.texts.empty();
   if (names.texts.empty()) f.problem("engine", "no physics engine is built in");
   if (known && catalog != nullptr) physics.engine = catalog->engine(names.texts[static_cast<std::size_t>(index)]);
-  if (known && physics.step <= 0) physics.step = physics.engine->step;
-  f.number("step", physics.step, {"s", 1e-9, 1, "Time step; default: the engine's."});
+  if (known && physics.step <= 0) {
+    physics.step = solver && physics.engine->solver_step > 0 ? physics.engine->solver_step : physics.engine->step;
+  }
+  f.number("step", physics.step, {"s", 1e-9, 1, "Time step; default: the engine's for the contact law."});
   if (known) {
     const Names integrators(physics.engine->integrators);
     f.choice("integrator", physics.integrator, integrators.pointers, "Integrator of the engine.");
@@ -87,8 +89,11 @@ void PhysicsFields::fields(Fields& f) {
 }
 
 void ContactSettings::fields(Fields& f) {
-  f.choice("law", law, kLaws, "Fn = Kn p^k + Cd p^d p' >= 0; friction -f Fn v/v_lim up to v_lim, then -f Fn v/|v|.");
+  f.choice("law", law, kLaws,
+           "penalty: Fn = Kn p^k + Cd p^d p' >= 0; friction -f Fn v/v_lim up to v_lim, then -f Fn v/|v|. bullet: Bullet's own "
+           "solver, for comparison and clutter; it has none of the keys below but `on`.");
   f.choice("on", on, kContactSets, "Which elements touch: those of the free blocks' feet, of every block, or none.");
+  if (solver()) return;
   f.number("stiffness", penalty.kn, {"N/m^k", 0, 1e12, "Kn."});
   f.number("exponent", penalty.k, {"", 1, 10, "k."});
   f.number("damping", penalty.cd, {"N s/m^(d+1)", 0, 1e12, "Cd."});

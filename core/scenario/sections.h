@@ -20,6 +20,7 @@ struct PhysicsFields {
   Physics& physics;
   const Catalog* catalog;
   const Problems* problems = nullptr;  ///< reading: what shows that the engine's name was wrong
+  bool solver = false;                 ///< reading: contact.law is bullet, whose default step is another
   void fields(Fields& f);
 };
 

@@ -34,17 +34,18 @@ class ExplicitIntegrator {
     }
   }
 
+  /// Positions from the velocities of s: q+ = q (+) h v.
+  static void drift(RobotState& s, double h) {
+    s.position += h * s.velocity;
+    s.orientation = (turn(h * s.angular_velocity) * s.orientation).normalized();
+    for (std::size_t j = 0; j < s.q.size(); ++j) s.q[j] += h * s.qd[j];
+  }
+
  private:
   static void kick(RobotState& s, const Acceleration& a, double h) {
     s.velocity += h * a.linear;
     s.angular_velocity += h * a.angular;
     for (std::size_t j = 0; j < s.q.size(); ++j) s.qd[j] += h * a.joints[j];
-  }
-
-  static void drift(RobotState& s, double h) {
-    s.position += h * s.velocity;
-    s.orientation = (turn(h * s.angular_velocity) * s.orientation).normalized();
-    for (std::size_t j = 0; j < s.q.size(); ++j) s.q[j] += h * s.qd[j];
   }
 
   /// q' = (0, omega) q / 2, as numbers to be added up.

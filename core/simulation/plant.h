@@ -43,9 +43,11 @@ struct PlantSettings : LaneSettings {
   Base base = Base::floating;
   const Actuator* actuator = nullptr;  ///< joint * lanes + lane; nullptr: no motors
   int integrator = 0;                  ///< index into the engine's list
+  bool solver = false;                 ///< contact.law: bullet; `law` is not used
 };
 
-/// Stateless but for caches: the simulation owns the numbers and binds them once; a snapshot is a copy of them.
+/// Stateless but for caches, unless it says otherwise (memoryless): the simulation owns the numbers and binds them once; a
+/// snapshot is a copy of them.
 class Plant {
  public:
   virtual ~Plant() = default;
@@ -57,6 +59,8 @@ class Plant {
   [[nodiscard]] virtual Applied applied() const = 0;
   /// Actuator::report, by an engine that evaluates the law itself; false: it does not.
   virtual bool report(In, In, const Actuator::Report&) { return false; }
+  /// Whether the bound numbers are all it goes by, so that a copy of them is a snapshot and forces follow from them.
+  [[nodiscard]] virtual bool memoryless() const { return true; }
   /// Forward dynamics by the engine's own algorithm at `state`, not the bound one: accelerations under these joint torques, N
   /// m, and wrenches on bodies. Weight acts; motors, stops and contacts do not, but for the motors' rotors.
   virtual void accelerate(std::size_t lane, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
@@ -65,7 +69,7 @@ class Plant {
   virtual void look() {}
   /// Centre of mass, world, m; none: the engine does not have it at hand.
   [[nodiscard]] virtual std::optional<Vec3> com(std::size_t lane) const = 0;
-  /// Forces of every contact element.
+  /// Forces of every contact element; of a plant with a memory, those of its last step.
   virtual void contacts(std::size_t lane, std::span<ContactSample> out) const = 0;
   /// At the present state under these commands. standing: the weight rests in equal parts on the robot's support (support.h),
   /// whatever the contact forces are now.

@@ -26,7 +26,7 @@ bool can_share(const Scenario& a, const Scenario& b) {
   const auto same_place = [](const ContactElement& x, const ContactElement& y) { return x.link == y.link; };
   const auto elements = [](const Scenario& s) { return contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on)); };
   return a.physics.engine == b.physics.engine && a.physics.integrator == b.physics.integrator &&
-         a.physics.step == b.physics.step && a.actuator.entry == b.actuator.entry && a.base == b.base &&
+         a.physics.step == b.physics.step && a.actuator.entry == b.actuator.entry && a.base == b.base && a.contact.solver() == b.contact.solver() &&
          std::ranges::equal(a.robot->links, b.robot->links, same_link) &&
          std::ranges::equal(elements(a), elements(b), same_place);
 }
@@ -138,6 +138,7 @@ PlantSettings Simulation::plant_settings() const {
   settings.base = scenarios_[0].base;
   settings.actuator = actuator_.get();
   settings.integrator = scenarios_[0].physics.integrator;
+  settings.solver = scenarios_[0].contact.solver();
   return settings;
 }
 
@@ -183,6 +184,11 @@ void Simulation::set_start() {
     }
     lane.probes = std::make_unique<Probes>(s, lane.contacts, lane.cpg.get(),
                                            actuator_ == nullptr ? "" : actuator_->command_unit(), sample);
+    if (lane.probes->want_reactions() && !plant_->memoryless()) {
+      throw InputError(s.place("trace.columns"),
+                       "reactions follow from contact forces, and contact.law: bullet has impulses, not all of them at contact "
+                       "elements; remove the columns reaction.*, or take contact.law: penalty");
+    }
     const auto rows = static_cast<std::size_t>(lane.steps / lane.trace_every + 2);
     RunRecord& record = lane.record;
     record.trace.columns = lane.probes->columns();
@@ -492,6 +498,12 @@ void Simulation::close(Lane& lane) {
 }
 
 const std::string& Simulation::failure(std::size_t lane) const { return lanes_[lane]->failure; }
+
+Out Simulation::state() {
+  if (plant_->memoryless()) return state_;
+  throw InputError(scenarios_[0].place("contact.law"),
+                   "contact.law: bullet gives no snapshot: its contact points and boxes are no part of the state");
+}
 
 RunRecord Simulation::take_record(std::size_t lane) {
   if (lanes_[lane]->running) close(*lanes_[lane]);

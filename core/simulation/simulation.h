@@ -71,8 +71,8 @@ class Simulation {
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
 
   /// Everything that changes: step counter, plant, held set points and commands, plugins' states, the ledger's sums. A copy is
-  /// a snapshot.
-  Out state() { return state_; }
+  /// a snapshot. Throws InputError where the plant keeps more than that (Plant::memoryless).
+  Out state();
   [[nodiscard]] std::int64_t step_number() const { return static_cast<std::int64_t>(state_[0]); }
   [[nodiscard]] double time() const { return static_cast<double>(step_number()) * h_; }
   /// What lane `lane` has recorded so far. The trace is moved out: call it once, at the end.

@@ -1,0 +1,61 @@
+#include "physics_bullet/shapes.h"
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gaitlab::bullet {
+
+namespace {
+
+// Bullet's shapes are a core and a rounding of this radius about it. Its default, 40 mm, is meant for crates; its own rule for
+// small boxes is a tenth of the smallest half size, which this follows.
+double margin_of(double smallest) { return 0.1 * smallest; }
+
+}  // namespace
+
+HalfCylinderShape::HalfCylinderShape(double radius, double length) {
+  const double margin = margin_of(std::min(radius, length) / 2);
+  m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
+  setMargin(margin);
+  radius_ = radius - margin;
+  half_length_ = length / 2 - margin;
+}
+
+btVector3 HalfCylinderShape::localGetSupportingVertexWithoutMargin(const btVector3& d) const {
+  const double flat = getMargin();  // the core's flat side, so that the rounded one is at x = 0
+  const double y = d.y() < 0 ? -half_length_ : half_length_;
+  const double size = std::sqrt(d.x() * d.x() + d.z() * d.z());
+  // The round side is the arc of radius_ with x >= flat; beyond its ends the corners are farthest.
+  const double corner = std::sqrt(radius_ * radius_ - flat * flat);
+  if (size > 0 && d.x() * radius_ >= flat * size) return {radius_ * d.x() / size, y, radius_ * d.z() / size};
+  return {flat, y, d.z() < 0 ? -corner : corner};
+}
+
+void HalfCylinderShape::batchedUnitVectorGetSupportingVertexWithoutMargin(const btVector3* directions, btVector3* vertices,
+                                                                          int count) const {
+  for (int i = 0; i < count; ++i) vertices[i] = localGetSupportingVertexWithoutMargin(directions[i]);
+}
+
+/// Links have their own inertia, and nothing else is made of this.
+void HalfCylinderShape::calculateLocalInertia(btScalar /*mass*/, btVector3& inertia) const { inertia.setZero(); }
+
+std::unique_ptr<btConvexInternalShape> make_shape(const Shape& shape) {
+  const Vec3& size = shape.size;
+  switch (shape.kind) {
+    case Shape::Kind::box:
+      return std::make_unique<btBoxShape>(btVector3(size.x() / 2, size.y() / 2, size.z() / 2));
+    case Shape::Kind::cylinder:
+      return std::make_unique<btCylinderShape>(btVector3(size.x(), size.y() / 2, size.x()));
+    case Shape::Kind::half_cylinder:
+      return std::make_unique<HalfCylinderShape>(size.x(), size.y());
+    case Shape::Kind::sphere:
+      break;
+  }
+  return std::make_unique<btSphereShape>(size.x());
+}
+
+}  // namespace gaitlab::bullet

@@ -1,0 +1,29 @@
+// A body's outline as Bullet's collision shapes. Inside physics_bullet only.
+#pragma once
+#include <BulletCollision/CollisionShapes/btConvexInternalShape.h>
+
+#include <memory>
+
+#include "core/model/module_type.h"
+
+namespace gaitlab::bullet {
+
+/// Half a cylinder about y, bulging towards +x: what Bullet has no shape for. Exact but for its edges, which are rounded by the
+/// margin, inside the outline. Convex, any collision algorithm for convex shapes takes it.
+class HalfCylinderShape final : public btConvexInternalShape {
+ public:
+  HalfCylinderShape(double radius, double length);
+  btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override;
+  void batchedUnitVectorGetSupportingVertexWithoutMargin(const btVector3* directions, btVector3* vertices,
+                                                         int count) const override;
+  void calculateLocalInertia(btScalar mass, btVector3& inertia) const override;
+  const char* getName() const override { return "HalfCylinder"; }
+
+ private:
+  double radius_, half_length_;  ///< less the margin, m
+};
+
+/// Axes as in Shape: y is the axis of cylinders, in Bullet too.
+std::unique_ptr<btConvexInternalShape> make_shape(const Shape& shape);
+
+}  // namespace gaitlab::bullet

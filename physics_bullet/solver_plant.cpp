@@ -1,0 +1,186 @@
+#include "physics_bullet/solver_plant.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/laws/hinge_stop.h"
+#include "core/simulation/integrator.h"
+#include "physics_bullet/world.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kUnlimited = 1e30;  // N m: no limit of a row
+constexpr double kFast = 1e5;        // rad/s: no joint is faster (a run stops there), and a motor with a limit is at it
+
+class SolverPlant final : public Plant {
+ public:
+  explicit SolverPlant(const PlantSettings& s)
+      : settings_(s),
+        robot_(*s.robot),
+        layout_{robot_.joints.size(), 1},
+        body_(robot_, s.base, s.contacts),
+        world_(s, body_),
+        kinematics_(robot_),
+        after_(robot_),
+        samples_(s.contacts.size()) {
+    const std::size_t n = robot_.joints.size();
+    state_.q.resize(n);
+    state_.qd.resize(n);
+    for (auto* values : {&torque_, &slope_, &limited_, &limited_slope_, &applied_, &start_speed_}) values->resize(n);
+    least_.assign(n, -kUnlimited);
+    most_.assign(n, kUnlimited);
+    for (const double sign : {-1.0, 1.0}) find_limits(sign, sign < 0 ? most_ : least_);
+    elements_of_body_.resize(robot_.bodies.size());
+    for (std::size_t e = 0; e < s.contacts.size(); ++e) elements_of_body_[s.contacts[e].body].push_back(e);
+  }
+
+  [[nodiscard]] std::size_t lanes() const override { return 1; }
+  void bind(Out numbers) override { numbers_ = numbers; }
+  [[nodiscard]] bool memoryless() const override { return false; }
+
+  void advance(In command, double h) override {
+    layout_.read(numbers_, 0, state_);
+    start_speed_ = state_.qd;
+    kinematics_.update(robot_, state_);
+    body_.set(state_, kinematics_);
+    drive(command, h);
+    world_.step(kinematics_, h);
+    body_.read_velocities(state_);
+    settle(h);
+    ExplicitIntegrator::drift(state_, h);
+    layout_.write(state_, 0, numbers_);
+  }
+
+  [[nodiscard]] Applied applied() const override {
+    const In speed = numbers_.subspan(layout_.speeds(), layout_.joints);
+    return {applied_, speed, In(work_).subspan(0, 1), In(work_).subspan(1, 1), In(work_).subspan(2, 1)};
+  }
+
+  void accelerate(const RobotState& state, In torque, std::span<const BodyWrench> wrenches, Acceleration& out) override {
+    kinematics_.update(robot_, state);
+    body_.load(state, kinematics_, settings_.gravity, torque, wrenches);
+    body_.accelerate(state, out);
+  }
+
+  void contacts(std::size_t, std::span<ContactSample> out) const override {
+    std::copy(samples_.begin(), samples_.end(), out.begin());
+  }
+
+  [[nodiscard]] Stability stability(std::size_t, In, bool) override { return {}; }  // all that damps is implicit
+
+ private:
+  /// The largest torque that way which a motor with a limit ever gives, into `limit`: what is left of it driven backwards at
+  /// any speed.
+  void find_limits(double sign, std::vector<double>& limit) {
+    if (settings_.actuator == nullptr) return;
+    const std::vector<double> off(limit.size(), 0.0);
+    const std::vector<double> fast(limit.size(), sign * kFast);
+    settings_.actuator->effort(off, fast, limited_, limited_slope_);
+    settings_.actuator->unlimited(off, fast, torque_, slope_);
+    for (std::size_t j = 0; j < limit.size(); ++j) {
+      if (limited_[j] != torque_[j]) limit[j] = limited_[j];
+    }
+  }
+
+  /// Motors and stops as rows of the solver; a torque that no speed changes as it is.
+  void drive(In command, double h) {
+    if (settings_.actuator != nullptr) {
+      settings_.actuator->unlimited(command, state_.qd, torque_, slope_);
+      settings_.actuator->effort(command, state_.qd, limited_, limited_slope_);
+    }
+    for (std::size_t j = 0; j < torque_.size(); ++j) {
+      const bool damps = slope_[j] > 0;
+      if (damps) {
+        // The limit in force at this speed, where it binds; else that of any speed.
+        const bool above = torque_[j] > limited_[j];
+        const bool below = torque_[j] < limited_[j];
+        world_.motor(j).set(slope_[j], state_.qd[j] + torque_[j] / slope_[j], below ? limited_[j] : least_[j],
+                            above ? limited_[j] : most_[j]);
+      } else {
+        world_.motor(j).set(0, 0, 0, 0);
+        body_.add_torque(j, limited_[j]);
+      }
+      applied_[j] = damps ? 0 : limited_[j];
+      stop(j, h);
+    }
+  }
+
+  /// -ks (q + h qd+ - q_lim) - cs qd+, only ever opposing.
+  void stop(std::size_t j, double h) {
+    const Joint& joint = robot_.joints[j];
+    const double excess = state_.q[j] - std::clamp(state_.q[j], joint.lo, joint.hi);
+    const double slope = HingeStop::kDamping + h * HingeStop::kStiffness;
+    world_.stop(j).set(excess == 0 ? 0 : slope, -HingeStop::kStiffness * excess / slope, excess > 0 ? -kUnlimited : 0,
+                       excess > 0 ? 0 : kUnlimited);
+  }
+
+  /// After a step, state_ with its new velocities: torques, works, contact forces. An impulse works at the mean of the
+  /// velocities it joins: that is what it changes the kinetic energy by.
+  void settle(double h) {
+    after_.update(robot_, state_);
+    work_ = {};
+    for (std::size_t j = 0; j < applied_.size(); ++j) {
+      applied_[j] += world_.motor(j).torque(h);
+      work_[2] -= h * world_.stop(j).torque(h) * (start_speed_[j] + state_.qd[j]) / 2;
+    }
+    for (ContactSample& sample : samples_) sample = {};
+    world_.for_each_touch([&](const bullet::WorldTouch& touch) {
+      settle(touch, touch.a, 1, h);
+      settle(touch, touch.b, -1, h);
+    });
+  }
+
+  void settle(const bullet::WorldTouch& touch, const bullet::WorldTouch::Side& side, double sign, double h) {
+    if (side.link < 0) return;
+    const auto link = static_cast<std::size_t>(side.link);
+    const Vec3 v = (kinematics_.velocity(link, side.point) + after_.velocity(link, side.point)) / 2;
+    work_[0] -= sign * touch.push * touch.normal.dot(v);
+    work_[1] -= sign * touch.friction.dot(v);
+    const bool alone = touch.a.link < 0 || touch.b.link < 0;  // not two parts of the robot
+    if (!alone || !(touch.push > 0)) return;
+    const int element = side.element >= 0 ? side.element : nearest(side);
+    if (element < 0) return;
+    ContactSample& sample = samples_[static_cast<std::size_t>(element)];
+    if (touch.push / h > sample.fn) sample.point = side.point;
+    sample.force += sign / h * (touch.push * touch.normal + touch.friction);
+    sample.fn += touch.push / h;
+    sample.penetration = std::max(sample.penetration, -touch.distance);
+  }
+
+  /// The element of a body whose surface is nearest to where its outline touches; -1: it has none.
+  [[nodiscard]] int nearest(const bullet::WorldTouch::Side& side) const {
+    int best = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t e : elements_of_body_[static_cast<std::size_t>(side.body)]) {
+      const ContactElement& element = settings_.contacts[e];
+      const Vec3 centre = kinematics_.point(element.link, element.centre);
+      const double distance = std::abs((side.point - centre).norm() - element.radius);
+      if (distance >= least) continue;
+      least = distance;
+      best = static_cast<int>(e);
+    }
+    return best;
+  }
+
+  PlantSettings settings_;
+  const Robot& robot_;
+  StateLayout layout_;
+  Out numbers_;
+  bullet::MultiBody body_;
+  bullet::World world_;
+  Kinematics kinematics_, after_;
+  RobotState state_;
+  std::vector<double> torque_, slope_, limited_, limited_slope_, applied_, start_speed_, least_, most_;
+  std::vector<ContactSample> samples_;
+  std::vector<std::vector<std::size_t>> elements_of_body_;
+  std::array<double, 3> work_ = {};  ///< of the last step: contact, friction, stops
+};
+
+}  // namespace
+
+std::unique_ptr<Plant> make_solver_plant(const PlantSettings& settings) { return std::make_unique<SolverPlant>(settings); }
+
+}  // namespace gaitlab

@@ -1,0 +1,160 @@
+#include "physics_bullet/world.h"
+
+#include <algorithm>
+
+namespace gaitlab::bullet {
+
+namespace {
+
+// Who may touch whom, as Bullet's collision groups.
+enum Group : int { kPlane = 1, kElements = 2, kOutlines = 4 };
+
+constexpr int kJointsBetween = 3;
+
+// Sequential impulses until no row changes a velocity by more than kSettled, or kIterations.
+constexpr int kIterations = 200;
+constexpr double kSettled = 1e-7;  // m/s, rad/s
+
+btTransform bt(const Pose& pose) {
+  const Mat3& R = pose.R;
+  return btTransform(btMatrix3x3(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
+                     bullet::bt(pose.p));
+}
+
+}  // namespace
+
+void OneIslandWorld::solveConstraints(btContactSolverInfo& info) {
+  solveExternalForces(info);
+  btCollisionObjectArray& objects = getCollisionObjectArray();
+  btDispatcher& dispatcher = *getDispatcher();
+  m_multiBodyConstraintSolver->solveMultiBodyGroup(
+      objects.size() > 0 ? &objects[0] : nullptr, objects.size(), dispatcher.getInternalManifoldPointer(),
+      dispatcher.getNumManifolds(), nullptr, 0, m_multiBodyConstraints.size() > 0 ? &m_multiBodyConstraints[0] : nullptr,
+      m_multiBodyConstraints.size(), info, nullptr, &dispatcher);
+  for (int i = 0; i < m_multiBodies.size(); ++i) m_multiBodies[i]->processDeltaVeeMultiDof2();
+}
+
+World::Neighbours::Neighbours(const Robot& robot) : links_(robot.links.size()), near_(links_ * links_) {
+  // Links within reach of one joint after the other.
+  for (std::size_t i = 0; i < links_; ++i) near_[i * links_ + i] = true;
+  for (int joint = 1; joint < kJointsBetween; ++joint) {
+    const std::vector<bool> before = near_;
+    for (std::size_t child = 1; child < links_; ++child) {
+      const auto parent = static_cast<std::size_t>(robot.links[child].parent);
+      for (std::size_t i = 0; i < links_; ++i) {
+        if (before[child * links_ + i]) near_[parent * links_ + i] = near_[i * links_ + parent] = true;
+        if (before[parent * links_ + i]) near_[child * links_ + i] = near_[i * links_ + child] = true;
+      }
+    }
+  }
+}
+
+bool World::Neighbours::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
+  if ((a->m_collisionFilterGroup & b->m_collisionFilterMask) == 0 ||
+      (b->m_collisionFilterGroup & a->m_collisionFilterMask) == 0)
+    return false;
+  const int i = static_cast<const btCollisionObject*>(a->m_clientObject)->getUserIndex();
+  const int j = static_cast<const btCollisionObject*>(b->m_clientObject)->getUserIndex();
+  return i < 0 || j < 0 || !near_[static_cast<std::size_t>(i) * links_ + static_cast<std::size_t>(j)];
+}
+
+World::World(const PlantSettings& s, MultiBody& body)
+    : body_(body),
+      dispatcher_(&configuration_),
+      neighbours_(*s.robot),
+      plane_shape_(btVector3(0, 0, 1), 0),
+      world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+  world_.getPairCache()->setOverlapFilterCallback(&neighbours_);
+  world_.setGravity(bullet::bt(s.gravity));
+  btContactSolverInfo& info = world_.getSolverInfo();  // two friction directions and their cone: the multibody world's default
+  info.m_numIterations = kIterations;
+  info.m_leastSquaresResidualThreshold = kSettled * kSettled;
+  body.bullet().setHasSelfCollision(true);
+  world_.addMultiBody(&body.bullet());
+  if (!s.contacts.empty()) add_robot(*s.robot);
+  if (s.ground.kind != Ground::Kind::none) add_plane(s.ground);
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    for (auto* rows : {&motors_, &stops_}) {
+      rows->push_back(std::make_unique<JointRow>(body.bullet(), body.index_of_joint(j)));
+      world_.addMultiBodyConstraint(rows->back().get());
+    }
+  }
+}
+
+World::~World() {
+  // In the opposite order: the broadphase's pairs refer to the objects.
+  for (auto* rows : {&motors_, &stops_}) {
+    for (const auto& row : *rows) world_.removeMultiBodyConstraint(row.get());
+  }
+  for (int i = world_.getNumCollisionObjects(); i-- > 0;) world_.removeCollisionObject(world_.getCollisionObjectArray()[i]);
+  world_.removeMultiBody(&body_.bullet());
+}
+
+void World::add_robot(const Robot& robot) {
+  for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
+    const Body& of = robot.bodies[b];
+    const BodyType& type = robot.types[robot.modules[of.module].type].bodies[of.type];
+    if (type.shapes.empty()) continue;
+    auto outline = std::find_if(outlines_.begin(), outlines_.end(), [&](const auto& o) { return o.link == of.link; });
+    if (outline == outlines_.end()) {
+      outlines_.push_back({of.link, std::make_unique<btCompoundShape>(),
+                           std::make_unique<btMultiBodyLinkCollider>(&body_.bullet(), body_.index_of(of.link))});
+      outline = outlines_.end() - 1;
+    }
+    for (const Shape& shape : type.shapes) {
+      shapes_.push_back(make_shape(shape));
+      shapes_.back()->setUserIndex(static_cast<int>(b));
+      outline->shape->addChildShape(bt(body_.frame(of.link).inverse() * of.in_link * shape.in_body), shapes_.back().get());
+    }
+  }
+  const auto add = [&](const MultiBody::Compound& compound, Group group, int mask) {
+    btMultiBodyLinkCollider& collider = *compound.collider;
+    collider.setCollisionShape(compound.shape.get());
+    collider.setUserIndex(static_cast<int>(compound.link));
+    collider.setFriction(1);  // Bullet multiplies the two
+    collider.setActivationState(DISABLE_DEACTIVATION);
+    world_.addCollisionObject(&collider, group, mask);
+  };
+  for (const MultiBody::Compound& elements : body_.compounds()) add(elements, kElements, kPlane);
+  for (const MultiBody::Compound& outline : outlines_) add(outline, kOutlines, kOutlines);
+}
+
+void World::add_plane(const Ground& ground) {
+  plane_.emplace(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &plane_shape_));
+  plane_->setFriction(ground.friction);
+  world_.addRigidBody(&*plane_, kPlane, kElements);
+}
+
+void World::step(const Kinematics& k, double h) {
+  for (const std::vector<MultiBody::Compound>* compounds : {&body_.compounds(), &std::as_const(outlines_)}) {
+    for (const MultiBody::Compound& compound : *compounds) {
+      compound.collider->setWorldTransform(bt(body_.frame(compound.link, k)));
+      compound.collider->setInterpolationWorldTransform(compound.collider->getWorldTransform());
+    }
+  }
+  world_.stepSimulation(h, 0);  // 0: one step of exactly h
+}
+
+WorldTouch World::touch(const btPersistentManifold& manifold, const btManifoldPoint& p) {
+  const auto side = [](const btCollisionObject& object, int child, const btVector3& point) {
+    WorldTouch::Side s;
+    s.point = vec(point);
+    s.link = object.getUserIndex();
+    if (s.link < 0) return s;
+    const auto& compound = *static_cast<const btCompoundShape*>(object.getCollisionShape());
+    const int index = compound.getChildShape(child)->getUserIndex();
+    const bool element = (object.getBroadphaseHandle()->m_collisionFilterGroup & kElements) != 0;
+    (element ? s.element : s.body) = index;
+    return s;
+  };
+  WorldTouch t;
+  t.a = side(*manifold.getBody0(), p.m_index0, p.getPositionWorldOnA());
+  t.b = side(*manifold.getBody1(), p.m_index1, p.getPositionWorldOnB());
+  t.normal = vec(p.m_normalWorldOnB);
+  t.push = p.m_appliedImpulse;
+  t.friction = vec(p.m_appliedImpulseLateral1 * p.m_lateralFrictionDir1 + p.m_appliedImpulseLateral2 * p.m_lateralFrictionDir2);
+  t.distance = p.getDistance();
+  return t;
+}
+
+}  // namespace gaitlab::bullet

@@ -1,0 +1,99 @@
+// Bullet's own collision world and contact solver around one robot: contact.law bullet. Inside physics_bullet only.
+#pragma once
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "physics_bullet/joint_row.h"
+#include "physics_bullet/multibody.h"
+#include "physics_bullet/shapes.h"
+
+namespace gaitlab::bullet {
+
+/// A btMultiBodyDynamicsWorld that solves everything as one island. (Bullet's way of not splitting islands hands the solver as
+/// many multibody constraints as there are others: none. And to split them, every link would need a collider.)
+class OneIslandWorld final : public btMultiBodyDynamicsWorld {
+ public:
+  using btMultiBodyDynamicsWorld::btMultiBodyDynamicsWorld;
+  void solveConstraints(btContactSolverInfo& info) override;
+};
+
+/// One point of a contact after a step.
+struct WorldTouch {
+  struct Side {
+    int link = -1;     ///< -1: not the robot
+    int element = -1;  ///< contact element, or
+    int body = -1;     ///< body whose outline touches
+    Vec3 point = Vec3::Zero();
+  };
+  Side a, b;
+  Vec3 normal = Vec3::Zero();    ///< from b to a
+  double push = 0;               ///< impulse on a along the normal, N s
+  Vec3 friction = Vec3::Zero();  ///< impulse on a across it, N s
+  double distance = 0;           ///< m, negative: penetration
+};
+
+/// Who touches whom:
+/// - the contact elements (points and spheres, as `on` chooses) touch the plane z = 0, as with the penalty law;
+/// - the outlines of the bodies touch one another, where at least three joints lie between them (what is docked or of one
+///   module meets at its hinges by construction).
+/// The place and the velocities of the robot are the caller's: step() takes them from the MultiBody as it was set, and leaves
+/// velocities in it.
+class World {
+ public:
+  World(const PlantSettings& settings, MultiBody& body);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  [[nodiscard]] JointRow& motor(std::size_t joint) { return *motors_[joint]; }
+  [[nodiscard]] JointRow& stop(std::size_t joint) { return *stops_[joint]; }
+  /// h seconds from the state that `body` was set to, whose kinematics these are.
+  void step(const Kinematics& kinematics, double h);
+  /// Contacts of the last step: visit(const WorldTouch&).
+  template <class Visit>
+  void for_each_touch(Visit&& visit) const {
+    for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
+      const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(m);
+      for (int p = 0; p < manifold.getNumContacts(); ++p) visit(touch(manifold, manifold.getContactPoint(p)));
+    }
+  }
+
+ private:
+  /// Bodies of the robot that have too few joints between them to touch.
+  class Neighbours final : public btOverlapFilterCallback {
+   public:
+    explicit Neighbours(const Robot& robot);
+    bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
+
+   private:
+    std::size_t links_;
+    std::vector<bool> near_;  ///< link * links + link
+  };
+
+  void add_robot(const Robot& robot);
+  void add_plane(const Ground& ground);
+  static WorldTouch touch(const btPersistentManifold& manifold, const btManifoldPoint& point);
+
+  MultiBody& body_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_;
+  Neighbours neighbours_;
+  btDbvtBroadphase broadphase_;
+  btMultiBodyConstraintSolver solver_;
+  std::vector<std::unique_ptr<btConvexInternalShape>> shapes_;
+  std::vector<MultiBody::Compound> outlines_;
+  btStaticPlaneShape plane_shape_;
+  std::optional<btRigidBody> plane_;
+  OneIslandWorld world_;
+  std::vector<std::unique_ptr<JointRow>> motors_, stops_;
+};
+
+}  // namespace gaitlab::bullet
