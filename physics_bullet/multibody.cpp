@@ -161,13 +161,15 @@ void MultiBody::load(const RobotState& s, const Kinematics& k, const Vec3& gravi
   for (std::size_t j = 0; j < torque.size(); ++j) add_torque(j, torque[j]);
 }
 
-void MultiBody::read_velocities(RobotState& s) const {
+void MultiBody::read_velocities(RobotState& s, double h) const {
   if (base_ == Base::planar) {
     s.velocity = Vec3(body_.getJointVel(0), 0, body_.getJointVel(1));
     s.angular_velocity = Vec3(0, body_.getJointVel(2), 0);
   } else if (base_ == Base::floating) {
+    // v + h v' of the base frame's origin: Bullet's v' is that of the COM, of which the last term is no part.
+    const Vec3 before = s.angular_velocity;
     s.angular_velocity = vec(body_.getBaseOmega());
-    s.velocity = vec(body_.getBaseVel()) - s.angular_velocity.cross(base_com_);
+    s.velocity = vec(body_.getBaseVel()) - s.angular_velocity.cross(base_com_) - h * before.cross(before.cross(base_com_));
   }
   for (std::size_t j = 0; j < s.qd.size(); ++j) s.qd[j] = body_.getJointVel(index_of_joint_[j]);
 }

@@ -34,8 +34,8 @@ class MultiBody {
   void load(const RobotState& state, const Kinematics& kinematics, const Vec3& gravity, In torque,
             std::span<const BodyWrench> wrenches);
   void accelerate(const RobotState& state, Acceleration& out);
-  /// Velocities as Bullet has them now; s.orientation and s.position are those of the last set.
-  void read_velocities(RobotState& s) const;
+  /// Velocities as Bullet has them h seconds after set(s): the rest of s is still as it was then.
+  void read_velocities(RobotState& s, double h) const;
   /// y = M^-1 f at the state of the last accelerate (generalised vectors as in stability.h).
   void inverse_mass(In force, Out acceleration);
 

@@ -48,7 +48,7 @@ class SolverPlant final : public Plant {
     body_.set(state_, kinematics_);
     drive(command, h);
     world_.step(kinematics_, h);
-    body_.read_velocities(state_);
+    body_.read_velocities(state_, h);
     settle(h);
     ExplicitIntegrator::drift(state_, h);
     layout_.write(state_, 0, numbers_);
