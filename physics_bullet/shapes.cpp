@@ -11,9 +11,9 @@ namespace gaitlab::bullet {
 
 namespace {
 
-// Bullet's shapes are a core and a rounding of this radius about it. Its default, 40 mm, is meant for crates; its own rule for
-// small boxes is a tenth of the smallest half size, which this follows.
-double margin_of(double smallest) { return 0.1 * smallest; }
+// Bullet's shapes are a core and a rounding of this radius about it, both inside the outline. Its default, 40 mm, is meant for
+// crates.
+double margin_of(double half_size) { return std::min(1e-3, 0.1 * half_size); }
 
 }  // namespace
 
@@ -43,13 +43,22 @@ void HalfCylinderShape::batchedUnitVectorGetSupportingVertexWithoutMargin(const 
 /// Links have their own inertia, and nothing else is made of this.
 void HalfCylinderShape::calculateLocalInertia(btScalar /*mass*/, btVector3& inertia) const { inertia.setZero(); }
 
+std::unique_ptr<btConvexInternalShape> make_box(const Vec3& size) {
+  auto box = std::make_unique<btBoxShape>(btVector3(size.x() / 2, size.y() / 2, size.z() / 2));
+  box->setMargin(margin_of(size.minCoeff() / 2));
+  return box;
+}
+
 std::unique_ptr<btConvexInternalShape> make_shape(const Shape& shape) {
   const Vec3& size = shape.size;
   switch (shape.kind) {
     case Shape::Kind::box:
-      return std::make_unique<btBoxShape>(btVector3(size.x() / 2, size.y() / 2, size.z() / 2));
-    case Shape::Kind::cylinder:
-      return std::make_unique<btCylinderShape>(btVector3(size.x(), size.y() / 2, size.x()));
+      return make_box(size);
+    case Shape::Kind::cylinder: {
+      auto cylinder = std::make_unique<btCylinderShape>(btVector3(size.x(), size.y() / 2, size.x()));
+      cylinder->setMargin(margin_of(std::min(size.x(), size.y() / 2)));
+      return cylinder;
+    }
     case Shape::Kind::half_cylinder:
       return std::make_unique<HalfCylinderShape>(size.x(), size.y());
     case Shape::Kind::sphere:

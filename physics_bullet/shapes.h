@@ -23,6 +23,8 @@ class HalfCylinderShape final : public btConvexInternalShape {
   double radius_, half_length_;  ///< less the margin, m
 };
 
+/// Edges in m, along its own axes.
+std::unique_ptr<btConvexInternalShape> make_box(const Vec3& size);
 /// Axes as in Shape: y is the axis of cylinders, in Bullet too.
 std::unique_ptr<btConvexInternalShape> make_shape(const Shape& shape);
 

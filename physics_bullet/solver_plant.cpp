@@ -69,6 +69,8 @@ class SolverPlant final : public Plant {
     std::copy(samples_.begin(), samples_.end(), out.begin());
   }
 
+  void boxes(std::span<BoxMotion> out) const override { world_.boxes(out); }
+
   [[nodiscard]] Stability stability(std::size_t, In, bool) override { return {}; }  // all that damps is implicit
 
  private:

@@ -7,7 +7,15 @@ namespace gaitlab::bullet {
 namespace {
 
 // Who may touch whom, as Bullet's collision groups.
-enum Group : int { kPlane = 1, kElements = 2, kOutlines = 4 };
+enum Group : int { kPlane = 1, kElements = 2, kOutlines = 4, kFixed = 8, kMoving = 16 };
+
+bool robots(const btCollisionObject& object) { return object.getUserIndex() >= 0; }
+
+double friction_between(const btCollisionObject& a, const btCollisionObject& b) {
+  if (robots(a)) return b.getFriction();
+  if (robots(b)) return a.getFriction();
+  return std::min(a.getFriction(), b.getFriction());
+}
 
 constexpr int kJointsBetween = 3;
 
@@ -28,6 +36,11 @@ void OneIslandWorld::solveConstraints(btContactSolverInfo& info) {
   solveExternalForces(info);
   btCollisionObjectArray& objects = getCollisionObjectArray();
   btDispatcher& dispatcher = *getDispatcher();
+  for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
+    btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
+    const double friction = friction_between(*manifold.getBody0(), *manifold.getBody1());
+    for (int p = 0; p < manifold.getNumContacts(); ++p) manifold.getContactPoint(p).m_combinedFriction = friction;
+  }
   m_multiBodyConstraintSolver->solveMultiBodyGroup(
       objects.size() > 0 ? &objects[0] : nullptr, objects.size(), dispatcher.getInternalManifoldPointer(),
       dispatcher.getNumManifolds(), nullptr, 0, m_multiBodyConstraints.size() > 0 ? &m_multiBodyConstraints[0] : nullptr,
@@ -63,7 +76,7 @@ World::World(const PlantSettings& s, MultiBody& body)
     : body_(body),
       dispatcher_(&configuration_),
       neighbours_(*s.robot),
-      plane_shape_(btVector3(0, 0, 1), 0),
+      plane_(btVector3(0, 0, 1), 0),
       world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
   world_.getPairCache()->setOverlapFilterCallback(&neighbours_);
   world_.setGravity(bullet::bt(s.gravity));
@@ -72,8 +85,8 @@ World::World(const PlantSettings& s, MultiBody& body)
   info.m_leastSquaresResidualThreshold = kSettled * kSettled;
   body.bullet().setHasSelfCollision(true);
   world_.addMultiBody(&body.bullet());
-  if (!s.contacts.empty()) add_robot(*s.robot);
-  if (s.ground.kind != Ground::Kind::none) add_plane(s.ground);
+  if (!s.contacts.empty()) add_robot(*s.robot, s.ground.friction);
+  add_ground(s.ground);
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
     for (auto* rows : {&motors_, &stops_}) {
       rows->push_back(std::make_unique<JointRow>(body.bullet(), body.index_of_joint(j)));
@@ -91,7 +104,7 @@ World::~World() {
   world_.removeMultiBody(&body_.bullet());
 }
 
-void World::add_robot(const Robot& robot) {
+void World::add_robot(const Robot& robot, double friction) {
   for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
     const Body& of = robot.bodies[b];
     const BodyType& type = robot.types[robot.modules[of.module].type].bodies[of.type];
@@ -112,18 +125,48 @@ void World::add_robot(const Robot& robot) {
     btMultiBodyLinkCollider& collider = *compound.collider;
     collider.setCollisionShape(compound.shape.get());
     collider.setUserIndex(static_cast<int>(compound.link));
-    collider.setFriction(1);  // Bullet multiplies the two
+    collider.setFriction(friction);  // of one part of the robot on another
     collider.setActivationState(DISABLE_DEACTIVATION);
     world_.addCollisionObject(&collider, group, mask);
   };
   for (const MultiBody::Compound& elements : body_.compounds()) add(elements, kElements, kPlane);
-  for (const MultiBody::Compound& outline : outlines_) add(outline, kOutlines, kOutlines);
+  for (const MultiBody::Compound& outline : outlines_) add(outline, kOutlines, kOutlines | kFixed | kMoving);
 }
 
-void World::add_plane(const Ground& ground) {
-  plane_.emplace(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &plane_shape_));
-  plane_->setFriction(ground.friction);
-  world_.addRigidBody(&*plane_, kPlane, kElements);
+btRigidBody& World::add_body(double mass, btCollisionShape& shape, const Pose& pose, double friction, int group, int mask) {
+  btVector3 inertia(0, 0, 0);
+  if (mass > 0) shape.calculateLocalInertia(mass, inertia);
+  ground_.push_back(std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(mass, nullptr, &shape, inertia)));
+  btRigidBody& body = *ground_.back();
+  body.setWorldTransform(bt(pose));
+  body.setInterpolationWorldTransform(bt(pose));
+  body.setFriction(friction);
+  body.setActivationState(DISABLE_DEACTIVATION);
+  world_.addRigidBody(&body, group, mask);
+  return body;
+}
+
+void World::add_ground(const Ground& ground) {
+  if (ground.kind == Ground::Kind::none) return;
+  add_body(0, plane_, {}, ground.friction, kPlane, kElements | kMoving);
+  for (std::size_t b = 0; b < ground.boxes.size(); ++b) {
+    const Box& box = ground.boxes[b];
+    shapes_.push_back(make_box(box.size));
+    if (box.mass > 0) {
+      moving_.emplace_back(b, &add_body(box.mass, *shapes_.back(), {box.R, box.center}, box.friction, kMoving,
+                                        kPlane | kFixed | kMoving | kOutlines));
+    } else {
+      add_body(0, *shapes_.back(), {box.R, box.center}, box.friction, kFixed, kMoving | kOutlines);
+    }
+  }
+}
+
+void World::boxes(std::span<BoxMotion> out) const {
+  for (const auto& [b, body] : moving_) {
+    const btQuaternion turn = body->getWorldTransform().getRotation();
+    out[b] = {vec(body->getWorldTransform().getOrigin()), Quat(turn.w(), turn.x(), turn.y(), turn.z()),
+              vec(body->getLinearVelocity())};
+  }
 }
 
 void World::step(const Kinematics& k, double h) {

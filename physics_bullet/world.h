@@ -8,7 +8,6 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "physics_bullet/joint_row.h"
@@ -18,7 +17,8 @@
 namespace gaitlab::bullet {
 
 /// A btMultiBodyDynamicsWorld that solves everything as one island. (Bullet's way of not splitting islands hands the solver as
-/// many multibody constraints as there are others: none. And to split them, every link would need a collider.)
+/// many multibody constraints as there are others: none. And to split them, every link would need a collider.) Friction is the
+/// ground's, not Bullet's product of two: of what the robot touches; between two others the smaller one.
 class OneIslandWorld final : public btMultiBodyDynamicsWorld {
  public:
   using btMultiBodyDynamicsWorld::btMultiBodyDynamicsWorld;
@@ -42,8 +42,9 @@ struct WorldTouch {
 
 /// Who touches whom:
 /// - the contact elements (points and spheres, as `on` chooses) touch the plane z = 0, as with the penalty law;
-/// - the outlines of the bodies touch one another, where at least three joints lie between them (what is docked or of one
-///   module meets at its hinges by construction).
+/// - the outlines of the bodies touch the ground's boxes, and one another where at least three joints lie between them (what is
+///   docked or of one module meets at its hinges by construction);
+/// - boxes that have a mass move, and touch one another, fixed boxes and the plane. They are Bullet's alone.
 /// The place and the velocities of the robot are the caller's: step() takes them from the MultiBody as it was set, and leaves
 /// velocities in it.
 class World {
@@ -57,6 +58,8 @@ class World {
   [[nodiscard]] JointRow& stop(std::size_t joint) { return *stops_[joint]; }
   /// h seconds from the state that `body` was set to, whose kinematics these are.
   void step(const Kinematics& kinematics, double h);
+  /// Boxes that have a mass.
+  void boxes(std::span<BoxMotion> out) const;
   /// Contacts of the last step: visit(const WorldTouch&).
   template <class Visit>
   void for_each_touch(Visit&& visit) const {
@@ -78,8 +81,9 @@ class World {
     std::vector<bool> near_;  ///< link * links + link
   };
 
-  void add_robot(const Robot& robot);
-  void add_plane(const Ground& ground);
+  void add_robot(const Robot& robot, double friction);
+  void add_ground(const Ground& ground);
+  btRigidBody& add_body(double mass, btCollisionShape& shape, const Pose& pose, double friction, int group, int mask);
   static WorldTouch touch(const btPersistentManifold& manifold, const btManifoldPoint& point);
 
   MultiBody& body_;
@@ -90,8 +94,9 @@ class World {
   btMultiBodyConstraintSolver solver_;
   std::vector<std::unique_ptr<btConvexInternalShape>> shapes_;
   std::vector<MultiBody::Compound> outlines_;
-  btStaticPlaneShape plane_shape_;
-  std::optional<btRigidBody> plane_;
+  btStaticPlaneShape plane_;
+  std::vector<std::unique_ptr<btRigidBody>> ground_;
+  std::vector<std::pair<std::size_t, const btRigidBody*>> moving_;  ///< with their places in Ground::boxes
   OneIslandWorld world_;
   std::vector<std::unique_ptr<JointRow>> motors_, stops_;
 };

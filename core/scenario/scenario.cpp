@@ -216,10 +216,9 @@ class ScenarioReader {
       problems_.add(place_of(root_, "physics", "integrator"),
                     fmt::format("contact law 'bullet' takes steps of its own; expected {}", engine->integrators.front()));
     }
-    constexpr double kSteepest = 10;  // Bullet cuts friction off there
-    if (scenario_.ground.friction > kSteepest) {
-      problems_.add(place_of(root_, "ground", "friction"), fmt::format("friction is {}; contact law 'bullet' has up to {:g}",
-                                                                       number_text(scenario_.ground.friction), kSteepest));
+    if (scenario_.ground.kind == Ground::Kind::heightfield) {
+      problems_.add(place_of(root_, "ground", "type"),
+                    "contact law 'bullet' knows no heightfield; expected none, plane or boxes");
     }
   }
 

@@ -27,6 +27,13 @@ struct ContactSample {
   Vec3 point = Vec3::Zero();  ///< where the force acts, m, world
 };
 
+/// A box of the ground that has a mass, as it moves: its middle, world axes.
+struct BoxMotion {
+  Vec3 position = Vec3::Zero();
+  Quat orientation = Quat::Identity();
+  Vec3 velocity = Vec3::Zero();
+};
+
 /// What one rollout has of its own.
 struct LaneSettings {
   std::shared_ptr<const Robot> robot;
@@ -71,6 +78,8 @@ class Plant {
   [[nodiscard]] virtual std::optional<Vec3> com(std::size_t lane) const = 0;
   /// Forces of every contact element; of a plant with a memory, those of its last step.
   virtual void contacts(std::size_t lane, std::span<ContactSample> out) const = 0;
+  /// Where the boxes of Ground::boxes that have a mass are now; the others' entries stay as they are.
+  virtual void boxes(std::span<BoxMotion> /*out*/) const {}
   /// At the present state under these commands. standing: the weight rests in equal parts on the robot's support (support.h),
   /// whatever the contact forces are now.
   [[nodiscard]] virtual Stability stability(std::size_t lane, In command, bool standing) = 0;

@@ -35,6 +35,15 @@ void Sample::place(const Robot& robot) {
   sums = gaitlab::sums(robot, kinematics, gravity);
 }
 
+void Sample::place_boxes(const Plant& plant) {
+  for (BoxMotion& box : boxes) before_.push_back(box.orientation);
+  plant.boxes(boxes);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (boxes[i].orientation.dot(before_[i]) < 0) boxes[i].orientation.coeffs() *= -1;
+  }
+  before_.clear();
+}
+
 void Sample::react(const std::vector<ContactElement>& elements, Plant& plant, std::size_t lane) {
   for (std::size_t j = 0; j < applied_.size(); ++j) applied_[j] = torque[j] + stop_torque[j];
   ground_.clear();
@@ -55,6 +64,7 @@ Probes::Probes(const Scenario& scenario, const std::vector<ContactElement>& cont
   add_vector("com", "m", "centre of mass, world axes", [](const Sample& s) { return s.sums.com; });
   add_contacts(contacts);
   add_bodies(robot, sample);
+  add_boxes(scenario.ground);
   for (std::size_t i = 0; cpg != nullptr && i < cpg->states(); ++i) {
     add("cpg." + cpg->state_name(i), "", "state of the CPG", [i](const Sample& s) { return s.cpg[i]; });
   }
@@ -144,6 +154,22 @@ void Probes::add_bodies(const Robot& robot, const Sample& first) {
   }
 }
 
+void Probes::add_boxes(const Ground& ground) {
+  for (std::size_t b = 0; b < ground.boxes.size(); ++b) {
+    if (!(ground.boxes[b].mass > 0)) continue;  // it is where the scenario says
+    const std::string name = fmt::format("box.{}.", b);
+    const std::string of = fmt::format(" of ground.boxes[{}]", b);
+    add_vector(name, "m", "middle" + of + ", world axes", [b](const Sample& s) { return s.boxes[b].position; });
+    constexpr const char* kPart[] = {"qx", "qy", "qz", "qw"};  // Eigen's order of coefficients
+    for (const Eigen::Index i : {3, 0, 1, 2}) {
+      add(name + kPart[i], "", "quaternion box -> world, sign continuous," + of,
+          [b, i](const Sample& s) { return s.boxes[b].orientation.coeffs()[i]; });
+    }
+    add_vector(name + "v", "m/s", "velocity of the middle" + of + ", world axes",
+               [b](const Sample& s) { return s.boxes[b].velocity; });
+  }
+}
+
 void Probes::add_energy() {
   add("energy.kinetic", "J", "kinetic energy of all links", [](const Sample& s) { return s.sums.kinetic; });
   add("energy.potential", "J", "weight times height of the centre of mass", [](const Sample& s) { return s.sums.potential; });
@@ -202,7 +228,7 @@ void Probes::select(const Scenario& scenario) {
     const std::string near = nearest(pattern, names);
     problems.add(scenario.place("trace.columns"),
                  fmt::format("'{}' matches no column{}", pattern,
-                             near.empty() ? "; groups are t, joint, base, com, contact, body, cpg, "
+                             near.empty() ? "; groups are t, joint, base, com, contact, body, box, cpg, "
                                             "energy, momentum, angular_momentum, reaction"
                                           : "; did you mean '" + near + "'?"));
   }

@@ -16,6 +16,8 @@ namespace gaitlab {
 struct Sample {
   explicit Sample(const Robot& robot, std::size_t contacts, std::size_t cpg_states);
   void place(const Robot& robot);  ///< fills kinematics, link orientations and sums from state
+  /// The ground's boxes as `plant` has them; the signs of their quaternions continuous.
+  void place_boxes(const Plant& plant);
   /// Fills reactions from what is known here and the accelerations that `plant` gives for it.
   void react(const std::vector<ContactElement>& elements, Plant& plant, std::size_t lane);
 
@@ -27,6 +29,7 @@ struct Sample {
   Vec3 gravity = Vec3::Zero();
   std::vector<double> setpoint, command, voltage, current, saturation, torque, stop_torque, power_in, copper, gear;
   std::vector<ContactSample> contacts;
+  std::vector<BoxMotion> boxes;  ///< of Ground::boxes
   std::vector<double> cpg;
   Ledger ledger;
   InverseDynamics reactions;  ///< at hinges, docks and base: motors, stops and contacts acting; only after react
@@ -35,6 +38,7 @@ struct Sample {
   Acceleration acceleration_;
   std::vector<double> applied_;
   std::vector<BodyWrench> ground_;
+  std::vector<Quat> before_;
 };
 
 class Probes {
@@ -61,6 +65,7 @@ class Probes {
   void add_base();
   void add_contacts(const std::vector<ContactElement>& contacts);
   void add_bodies(const Robot& robot, const Sample& first);
+  void add_boxes(const Ground& ground);
   void add_energy();
   void add_wrench(const std::string& name, const std::string& of, std::function<const Wrench&(const Sample&)> read);
   void add_reactions(const Robot& robot);

@@ -177,6 +177,11 @@ void Simulation::set_start() {
     place_at_start(lane);
     sample.place(lane.robot);
     lane.energy_at_start = energy(lane);
+    for (const Box& box : s.ground.boxes) {
+      Quat turned = Quat(box.R);
+      if (turned.w() < 0) turned.coeffs() *= -1;
+      sample.boxes.push_back({box.center, turned});
+    }
     if (lane.cpg != nullptr) lane.cpg->start(lane.cpg_state);
     if (lane.controller != nullptr) lane.controller->start(lane.controller_state);
     for (std::size_t j = 0; actuator_ != nullptr && j < layout_.joints; ++j) {
@@ -311,6 +316,7 @@ Sample& Simulation::take_sample(Lane& lane, bool whole) {
   if (whole || !com || lane.probes->want_places()) s.place(lane.robot);
   if (com) s.sums.com = *com;
   plant_->contacts(l, s.contacts);
+  s.place_boxes(*plant_);
   for (std::size_t j = 0; j < layout_.joints; ++j) {
     const std::size_t i = j * lanes + l;
     s.setpoint[j] = setpoint_[i];
