@@ -89,12 +89,16 @@ std::vector<MotorLimits> motor_limits(const Scenario& scenario) {
 std::string left_out(const Scenario& s) {
   std::string out;
   if (s.ground.kind != Ground::Kind::none && s.contact.on != static_cast<int>(ContactSet::none)) {
-    out += fmt::format(
-        " Contact: a penalty force Fn = Kn p^k + Cd p^d p', Kn = {}, k = {}, Cd = {}, d = {}, and friction {} Fn with its "
-        "slope up to "
-        "{} m/s, on the contact elements.",
-        number_text(s.contact.penalty.kn), number_text(s.contact.penalty.k), number_text(s.contact.penalty.cd),
-        number_text(s.contact.penalty.d), number_text(s.ground.friction), number_text(s.contact.penalty.v_lim));
+    out += s.contact.solver()
+               ? fmt::format(" Contact: Bullet's own solver, friction {}, on the contact elements.",
+                             number_text(s.ground.friction))
+               : fmt::format(
+                     " Contact: a penalty force Fn = Kn p^k + Cd p^d p', Kn = {}, k = {}, Cd = {}, d = {}, and friction {} Fn "
+                     "with its "
+                     "slope up to "
+                     "{} m/s, on the contact elements.",
+                     number_text(s.contact.penalty.kn), number_text(s.contact.penalty.k), number_text(s.contact.penalty.cd),
+                     number_text(s.contact.penalty.d), number_text(s.ground.friction), number_text(s.contact.penalty.v_lim));
   }
   const auto name = [](const Choice& choice) { return choice.entry == nullptr ? "none" : std::string(choice.entry->name); };
   if (s.actuator.entry != nullptr) {

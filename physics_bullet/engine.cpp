@@ -194,7 +194,14 @@ void register_bullet(Catalog& catalog) {
       "bullet",
       "One btMultiBody, Bullet's articulated-body algorithm, penalty contacts, explicit integration.\n\n"
       "Contacts act on the points and spheres of the compound shapes of the multibody. Every step must be at most 1 / lambda\n"
-      "long (lambda: largest eigenvalue of M^-1 (B + sum J^T G J), checked at the start and watched at every control tick).",
+      "long (lambda: largest eigenvalue of M^-1 (B + sum J^T G J), checked at the start and watched at every control tick).\n\n"
+      "contact.law: bullet takes Bullet's own collision world and constraint solver instead, for comparison and clutter: "
+      "boxes\n"
+      "that move, blocks that touch boxes and one another. Motors, stops and contacts are rows of one solve, stable at 1 ms,\n"
+      "which is its default step. Its torques do not converge with the step (docs/equations.md, 7, has the table): take the\n"
+      "penalty law for torques. It has no snapshots, goldens, reaction columns, rotor inertia and heightfield.\n\n"
+      "    contact: {law: bullet, on: all}\n"
+      "    ground: {type: boxes, boxes: [{center: [0.5, 0, 0.05], size: [0.1, 0.1, 0.1], mass: 0.2}]}",
       {"semi_implicit", "rk4"},
       2.5e-5,
       {1},

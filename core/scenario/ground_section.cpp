@@ -28,7 +28,7 @@ struct BoxFields {
     f.vector("size", span_of(box.size), {"m", kPositive, 1e6, "Its edges, along its own axes; required."});
     f.vector("rpy", span_of(box.rpy), {"rad", -100, 100, "Its axes in the world: roll, pitch, yaw."});
     f.number("friction", box.friction, {"", 0, 100, "Coulomb coefficient f; default: the ground's."});
-    f.number("mass", box.mass, {"kg", 0, 1e6, "0: it never moves."});
+    f.number("mass", box.mass, {"kg", 0, 1e6, "0: it never moves; more: with contact.law: bullet."});
   }
 };
 
@@ -70,8 +70,10 @@ void finish_boxes(const Node& section, Scenario& scenario, Problems& problems) {
     if (node.find("size") == nullptr)
       problems.add(node.place, fmt::format("boxes[{}] has no size; expected size: [x, y, z]", i));
     if (boxes[i].mass > 0 && !scenario.contact.moves_boxes()) {
-      problems.add(node.find("mass")->place,
-                   fmt::format("boxes[{}] has a mass, and contact.law: penalty moves no box; expected mass: 0", i));
+      problems.add(
+          node.find("mass")->place,
+          fmt::format("boxes[{}] has a mass, and contact.law: penalty moves no box; expected mass: 0, or contact.law: bullet",
+                      i));
     }
   }
 }
