@@ -38,7 +38,7 @@ struct ContactSettings {
   int law = 0;  ///< penalty, bullet
   int on = 1;   ///< ContactSet
   PenaltyContact penalty;
-  [[nodiscard]] bool solver() const { return law == 1; }  ///< bullet: constraints, not forces
+  [[nodiscard]] bool solver() const { return law == 1; }       ///< bullet: constraints, not forces
   [[nodiscard]] bool moves_boxes() const { return solver(); }  ///< whether the law knows boxes that have a mass
   void fields(Fields& f);
 };
