@@ -67,7 +67,8 @@ TEST_F(GroundSection, RefusesBoxesAtTheirPlace) {
   EXPECT_EQ(wrong("{type: boxes, boxes: [{size: [1, 1, 1], centre: [0, 0, 0]}]}"),
             "s.yaml:3:49: error: unknown key 'centre'; did you mean 'center'?");
   EXPECT_EQ(wrong("{type: boxes, boxes: [{size: [1, 1, 1], mass: 2}]}"),
-            "s.yaml:3:55: error: boxes[0] has a mass, and contact.law: penalty moves no box; expected mass: 0");
+            "s.yaml:3:55: error: boxes[0] has a mass, and contact.law: penalty moves no box; expected mass: 0, or contact.law: "
+            "bullet");
   EXPECT_EQ(wrong("{type: boxes, boxes: [{size: [1, 1, 1], friction: -1}]}"),
             "s.yaml:3:59: error: friction is -1; allowed are 0 to 100");
 }
