@@ -48,8 +48,8 @@ void add_mujoco(Field& field, const Engine* engine) {
 void add_articulated(Field& field, const Engine& engine, std::vector<std::string>& left_out) {
   field.references.push_back({"articulated", sets("articulated", "extrapolated"), {1e-4, 5e-5}});
   for (const std::size_t lanes : {1, 4, 8}) {
-    if (lanes > engine.max_lanes) {
-      left_out.push_back(fmt::format("articulated in {} lanes: the engine has {} here", lanes, engine.max_lanes));
+    if (lanes > engine.lanes.back()) {
+      left_out.push_back(fmt::format("articulated in {} lanes: the engine has {} here", lanes, engine.lanes.back()));
       continue;
     }
     for (const char* integrator : {"implicit", "extrapolated"}) {

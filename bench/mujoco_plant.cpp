@@ -140,7 +140,8 @@ class MujocoPlant final : public Plant {
     return {torque_, speed_, {works_.data(), 1}, {works_.data(), 1}, {works_.data(), 1}};
   }
 
-  void accelerate(const RobotState&, In, std::span<const BodyWrench>, Acceleration&) override {
+  [[nodiscard]] std::optional<Vec3> com(std::size_t) const override { return {}; }
+  void accelerate(std::size_t, const RobotState&, In, std::span<const BodyWrench>, Acceleration&) override {
     throw RunError("engine mujoco of the benchmarks gives no accelerations: leave out the columns reaction.*");
   }
 

@@ -59,7 +59,9 @@ class SolverPlant final : public Plant {
     return {applied_, speed, In(work_).subspan(0, 1), In(work_).subspan(1, 1), In(work_).subspan(2, 1)};
   }
 
-  void accelerate(const RobotState& state, In torque, std::span<const BodyWrench> wrenches, Acceleration& out) override {
+  [[nodiscard]] std::optional<Vec3> com(std::size_t) const override { return {}; }
+  void accelerate(std::size_t, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
+                  Acceleration& out) override {
     kinematics_.update(robot_, state);
     body_.load(state, kinematics_, settings_.gravity, torque, wrenches);
     body_.accelerate(state, out);
