@@ -35,6 +35,14 @@ void Sample::place(const Robot& robot) {
   sums = gaitlab::sums(robot, kinematics, gravity);
 }
 
+void Sample::set_boxes(const Ground& ground) {
+  for (const Box& box : ground.boxes) {
+    Quat turned(box.R);
+    if (turned.w() < 0) turned.coeffs() *= -1;
+    boxes.push_back({box.center, turned});
+  }
+}
+
 void Sample::place_boxes(const Plant& plant) {
   for (BoxMotion& box : boxes) before_.push_back(box.orientation);
   plant.boxes(boxes);
@@ -249,6 +257,10 @@ void Probes::select(const Scenario& scenario) {
   want_reactions_ = want(kReaction);
   want_places_ = want_reactions_ || want("body.") || want("energy.") || want("momentum.") || want("angular_momentum.");
   sources_.resize(kept);
+  if (!want_reactions_ || !scenario.contact.solver()) return;
+  throw InputError(scenario.place("trace.columns"),
+                   "reactions follow from contact forces, and contact.law: bullet has impulses, not all of them at contact "
+                   "elements; remove the columns reaction.*, or take contact.law: penalty");
 }
 
 void Probes::fill(Out row) const {

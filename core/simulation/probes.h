@@ -15,7 +15,8 @@ namespace gaitlab {
 /// One lane at a trace tick: the state at t_k and the actuator law at that state under the command in force just before t_k.
 struct Sample {
   explicit Sample(const Robot& robot, std::size_t contacts, std::size_t cpg_states);
-  void place(const Robot& robot);  ///< fills kinematics, link orientations and sums from state
+  void place(const Robot& robot);        ///< fills kinematics, link orientations and sums from state
+  void set_boxes(const Ground& ground);  ///< as they start
   /// The ground's boxes as `plant` has them; the signs of their quaternions continuous.
   void place_boxes(const Plant& plant);
   /// Fills reactions from what is known here and the accelerations that `plant` gives for it.
@@ -44,7 +45,8 @@ struct Sample {
 class Probes {
  public:
   /// The columns that match the scenario's patterns, in the order of docs/conventions. Throws InputError: a pattern that
-  /// matches nothing. `sample`: outlives this, and is as at the start; it fixes the signs of the bodies' quaternions (qw >= 0).
+  /// matches nothing; reactions under contact.law: bullet. `sample`: outlives this, and is as at the start; it fixes the signs
+  /// of the bodies' quaternions (qw >= 0).
   Probes(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg, std::string_view command_unit,
          const Sample& sample);
 

@@ -14,4 +14,10 @@ RobotState RunRecord::state(const Robot& robot, std::size_t tick) const {
   return s;
 }
 
+Out Simulation::state() {
+  if (plant_->memoryless()) return state_;
+  throw InputError(scenarios_[0].place("contact.law"),
+                   "contact.law: bullet gives no snapshot: its contact points and boxes are no part of the state");
+}
+
 }  // namespace gaitlab

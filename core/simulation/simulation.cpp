@@ -177,11 +177,7 @@ void Simulation::set_start() {
     place_at_start(lane);
     sample.place(lane.robot);
     lane.energy_at_start = energy(lane);
-    for (const Box& box : s.ground.boxes) {
-      Quat turned = Quat(box.R);
-      if (turned.w() < 0) turned.coeffs() *= -1;
-      sample.boxes.push_back({box.center, turned});
-    }
+    sample.set_boxes(s.ground);
     if (lane.cpg != nullptr) lane.cpg->start(lane.cpg_state);
     if (lane.controller != nullptr) lane.controller->start(lane.controller_state);
     for (std::size_t j = 0; actuator_ != nullptr && j < layout_.joints; ++j) {
@@ -189,11 +185,6 @@ void Simulation::set_start() {
     }
     lane.probes = std::make_unique<Probes>(s, lane.contacts, lane.cpg.get(),
                                            actuator_ == nullptr ? "" : actuator_->command_unit(), sample);
-    if (lane.probes->want_reactions() && !plant_->memoryless()) {
-      throw InputError(s.place("trace.columns"),
-                       "reactions follow from contact forces, and contact.law: bullet has impulses, not all of them at contact "
-                       "elements; remove the columns reaction.*, or take contact.law: penalty");
-    }
     const auto rows = static_cast<std::size_t>(lane.steps / lane.trace_every + 2);
     RunRecord& record = lane.record;
     record.trace.columns = lane.probes->columns();
@@ -504,12 +495,6 @@ void Simulation::close(Lane& lane) {
 }
 
 const std::string& Simulation::failure(std::size_t lane) const { return lanes_[lane]->failure; }
-
-Out Simulation::state() {
-  if (plant_->memoryless()) return state_;
-  throw InputError(scenarios_[0].place("contact.law"),
-                   "contact.law: bullet gives no snapshot: its contact points and boxes are no part of the state");
-}
 
 RunRecord Simulation::take_record(std::size_t lane) {
   if (lanes_[lane]->running) close(*lanes_[lane]);
