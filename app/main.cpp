@@ -193,7 +193,9 @@ int program(int argc, char** argv) {
   test_command->add_option("-j,--jobs", test_arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
   test_command->add_option("--junit", test_arguments.junit, "also write the result as JUnit XML to this file")
       ->check(not_empty);
-  test_command->add_option("--engine", test_arguments.engine, "run with this engine, at its own step");
+  test_command->add_option("--engine", test_arguments.engine,
+                           "run with this engine, at the golden's step (articulated: extrapolated); torque peaks, which depend "
+                           "on the method, are left out");
   test_command->add_option("--golden", test_arguments.golden, "golden folder to compare one scenario with, not its own")
       ->check(not_empty);
   test_command->add_option("--out", test_arguments.out, "folder for figures of what failed (default runs/test)");

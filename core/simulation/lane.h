@@ -1,0 +1,71 @@
+// One rollout within a simulation: what is scalar of it.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scenario/plugin_instance.h"
+#include "core/simulation/simulation.h"
+
+namespace gaitlab {
+
+/// Its CPG, controller, sensors, trace row.
+struct Simulation::Lane {
+  Lane(const Scenario& s, std::size_t lane_index)
+      : Lane(s, lane_index, info(*s.robot), contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on))) {}
+  Lane(const Scenario& s, std::size_t lane_index, const RobotInfo& info, std::vector<ContactElement> elements)
+      : scenario(s),
+        robot(*s.robot),
+        index(lane_index),
+        steps(whole(s.duration, s.physics.step)),
+        control_every(whole(s.control_period, s.physics.step)),
+        trace_every(whole(s.trace.period, s.physics.step)),
+        contacts(std::move(elements)),
+        cpg(make_cpg(s.cpg, info)),
+        controller(make_controller(s.controller, info)),
+        sample(*s.robot, contacts.size(), cpg == nullptr ? 0 : cpg->states()) {
+    const std::size_t n = info.joints.size();
+    for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit}) values->assign(n, 0.0);
+    touching.assign(info.modules.size(), 0.0);
+    for (auto* values : {&k1, &k2, &k3, &k4, &stage}) values->assign(sample.cpg.size(), 0.0);
+  }
+
+  [[nodiscard]] Measured measured(double t) const { return {t, scenario.control_period, angle, speed, torque, touching}; }
+
+  /// CPG states from t to t + Ts: classical Runge-Kutta, sub-step cpg.step, inputs held.
+  void integrate_cpg(double t) {
+    const std::int64_t sub_steps = whole(scenario.control_period, scenario.cpg_step);
+    const double h = scenario.cpg_step;
+    for (std::int64_t i = 0; i < sub_steps && !cpg_state.empty(); ++i) {
+      const auto slope = [&](double reach, In k, Out out) {
+        const Measured m = measured(t + (static_cast<double>(i) + reach) * h);
+        for (std::size_t j = 0; j < stage.size(); ++j) stage[j] = cpg_state[j] + (k.empty() ? 0 : reach * h * k[j]);
+        cpg->derivative(m, stage, out);
+      };
+      slope(0, {}, k1);
+      slope(0.5, k1, k2);
+      slope(0.5, k2, k3);
+      slope(1, k3, k4);
+      for (std::size_t j = 0; j < stage.size(); ++j) cpg_state[j] += h / 6 * (k1[j] + 2 * (k2[j] + k3[j]) + k4[j]);
+    }
+  }
+
+  const Scenario& scenario;
+  const Robot& robot;
+  std::size_t index;
+  std::int64_t steps, control_every, trace_every;
+  bool running = true;  ///< else its numbers are of no use to anyone
+  std::string failure;
+  std::vector<ContactElement> contacts;
+  std::unique_ptr<Cpg> cpg;
+  std::unique_ptr<Controller> controller;
+  Out cpg_state, controller_state, ledger;                                       // parts of the one state array
+  double energy_at_start = 0;                                                    // J
+  std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // one lane, contiguous, for the plugins
+  std::vector<double> k1, k2, k3, k4, stage;
+  Sample sample;
+  std::unique_ptr<Probes> probes;
+  RunRecord record;
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,146 @@
+// How a simulation is made from scenarios, and where it starts.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/simulation/lane.h"
+#include "core/simulation/start.h"
+#include "core/simulation/start_check.h"
+#include "core/simulation/step_advice.h"
+
+namespace gaitlab {
+
+bool can_share(const Scenario& a, const Scenario& b) {
+  const auto same_link = [](const Link& x, const Link& y) { return x.parent == y.parent && x.joint == y.joint; };
+  const auto same_place = [](const ContactElement& x, const ContactElement& y) { return x.link == y.link; };
+  const auto elements = [](const Scenario& s) { return contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on)); };
+  return a.physics.engine == b.physics.engine && a.physics.integrator == b.physics.integrator &&
+         a.physics.step == b.physics.step && a.actuator.entry == b.actuator.entry && a.base == b.base &&
+         a.contact.solver() == b.contact.solver() && std::ranges::equal(a.robot->links, b.robot->links, same_link) &&
+         std::ranges::equal(elements(a), elements(b), same_place);
+}
+
+Simulation::Simulation(std::span<const Scenario> lanes) try
+    : scenarios_(lanes.begin(), lanes.end()),
+      h_(scenarios_.at(0).physics.step),
+      layout_{scenarios_[0].robot->joints.size(), scenarios_.size()},
+      meter_(scenarios_) {
+  std::vector<const Choice*> actuators;
+  for (const Scenario& s : scenarios_) {
+    if (!can_share(scenarios_[0], s)) throw std::invalid_argument("these scenarios cannot run side by side");
+    actuators.push_back(&s.actuator);
+    lanes_.push_back(std::make_unique<Lane>(s, lanes_.size()));
+    steps_ = std::max(steps_, lanes_.back()->steps);
+  }
+  const Scenario& first = scenarios_[0];
+  const auto& widths = first.physics.engine->lanes;
+  if (std::find(widths.begin(), widths.end(), lanes_.size()) == widths.end()) {
+    throw std::invalid_argument(fmt::format("engine {} runs {} rollouts side by side, not {}", first.physics.engine->name,
+                                            fmt::join(widths, " or "), lanes_.size()));
+  }
+  actuator_ = make_actuator(actuators, info(*first.robot));
+  plant_ = first.physics.engine->make(plant_settings());
+  for (auto* values : {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_, &angle_, &speed_}) {
+    values->assign(layout_.joints * lanes_.size(), 0.0);
+  }
+  cut_state();
+  set_start();
+  check_standing();
+} catch (const PluginError& error) {
+  throw InputError(lanes[0].place(std::string(word(error.kind)) + ".type"), error.what());
+}
+
+Simulation::~Simulation() = default;
+
+PlantSettings Simulation::plant_settings() const {
+  const auto own = [](const Lane& lane) {
+    const Scenario& s = lane.scenario;
+    return LaneSettings{s.robot, s.physics.gravity, s.ground, lane.contacts, s.contact.penalty};
+  };
+  PlantSettings settings;
+  static_cast<LaneSettings&>(settings) = own(*lanes_[0]);
+  for (std::size_t l = 1; l < lanes_.size(); ++l) settings.others.push_back(own(*lanes_[l]));
+  settings.base = scenarios_[0].base;
+  settings.actuator = actuator_.get();
+  settings.integrator = scenarios_[0].physics.integrator;
+  settings.solver = scenarios_[0].contact.solver();
+  return settings;
+}
+
+/// step counter | plant | set points | commands | per lane: CPG states, controller states, ledger's sums.
+void Simulation::cut_state() {
+  const std::size_t joints = layout_.joints * lanes_.size();
+  std::size_t size = 1 + layout_.size() + 2 * joints;
+  for (const auto& lane : lanes_) {
+    size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states()) + Ledger::kSums;
+  }
+  state_.assign(size, 0.0);
+  std::size_t at = 1;
+  const auto cut = [&](std::size_t count) {
+    const Out part = Out(state_).subspan(at, count);
+    at += count;
+    return part;
+  };
+  plant_state_ = cut(layout_.size());
+  setpoint_ = cut(joints);
+  command_ = cut(joints);
+  for (const auto& lane : lanes_) {
+    lane->cpg_state = cut(lane->sample.cpg.size());
+    lane->controller_state = cut(lane->controller == nullptr ? 0 : lane->controller->states());
+    lane->ledger = cut(Ledger::kSums);
+  }
+  plant_->bind(plant_state_);
+}
+
+void Simulation::set_start() {
+  for (const auto& one : lanes_) {
+    Lane& lane = *one;
+    const std::size_t l = lane.index;
+    const Scenario& s = lane.scenario;
+    Sample& sample = lane.sample;
+    sample.gravity = s.physics.gravity;
+    place_at_start(lane);
+    sample.place(lane.robot);
+    lane.energy_at_start = energy(lane);
+    sample.set_boxes(s.ground);
+    if (lane.cpg != nullptr) lane.cpg->start(lane.cpg_state);
+    if (lane.controller != nullptr) lane.controller->start(lane.controller_state);
+    for (std::size_t j = 0; actuator_ != nullptr && j < layout_.joints; ++j) {
+      lane.limit[j] = actuator_->command_limit()[j * lanes_.size() + l];
+    }
+    lane.probes = std::make_unique<Probes>(s, lane.contacts, lane.cpg.get(),
+                                           actuator_ == nullptr ? "" : actuator_->command_unit(), sample);
+    const auto rows = static_cast<std::size_t>(lane.steps / lane.trace_every + 2);
+    RunRecord& record = lane.record;
+    record.trace.columns = lane.probes->columns();
+    record.trace.values.reserve(rows * record.trace.columns.size());
+    for (auto* series : {&record.com_x, &record.com_y, &record.com_z}) series->reserve(rows);
+    record.poses.reserve(rows * 7);
+    for (auto* series : {&record.angles, &record.setpoints, &record.torques}) series->reserve(rows * layout_.joints);
+    record.loads.reserve(rows * lane.robot.modules.size());
+  }
+}
+
+/// No command yet: set point = angle, command 0.
+void Simulation::place_at_start(Lane& lane) {
+  const RobotState start = start_state(lane.scenario);
+  lane.sample.state = start;  // copied, not moved: the probes read its vectors where they are
+  layout_.write(lane.sample.state, lane.index, plant_state_);
+  for (std::size_t j = 0; j < layout_.joints; ++j) {
+    setpoint_[j * lanes_.size() + lane.index] = lane.sample.state.q[j];
+    command_[j * lanes_.size() + lane.index] = 0;
+  }
+}
+
+void Simulation::check_standing() {
+  const In rotors = actuator_ == nullptr ? In{} : actuator_->reflected_inertia();
+  for (const auto& lane : lanes_) {
+    const Scenario& s = lane->scenario;
+    check_inertia(s, lane->sample.kinematics, rotors, lanes_.size(), lane->index, s.place("robot"));
+    const Stability one = plant_->stability(lane->index, command_, true);
+    if (one.rate > standing_.rate) standing_ = one;
+    if (h_ * one.rate > 1) throw InputError(s.place("physics.step"), step_advice(s, lane->contacts, one, "standing"));
+  }
+}
+
+}  // namespace gaitlab
