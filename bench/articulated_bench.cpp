@@ -1,14 +1,13 @@
 // What engine `articulated` costs: a step of the kernel, a control tick, a whole run; chains of 10 to 1000 modules.
 #include <benchmark/benchmark.h>
 
-#include <array>
+#include <algorithm>
 #include <string>
 
 #include "app/app.h"
 #include "core/scenario/plugin_instance.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
-#include "physics_articulated/stepper.h"
 
 namespace gaitlab {
 namespace {
@@ -36,34 +35,46 @@ Scenario chain(std::size_t modules) {
   return s;
 }
 
-/// Steps of the implicit method alone: standing on the ground, motors without a command.
-void kernel(benchmark::State& state, const Scenario& s) {
-  const std::vector<ContactElement> contacts = contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on));
-  const std::unique_ptr<Actuator> motors = make_actuator(std::array{&s.actuator}, info(*s.robot));
-  PlantSettings settings{s.robot,      s.base,   s.physics.gravity,
-                         s.ground,     contacts, s.contact.penalty,
-                         motors.get(), 1,        articulated::Stepper<double>::implicit};
-  const articulated::Tree tree(*s.robot, s.base, contacts);
-  articulated::Stepper<double> stepper(tree, settings);
-  const StateLayout layout{s.robot->joints.size(), 1};
+/// Steps of the implicit method alone, of `lanes` rollouts: standing on the ground, motors without a command. Time a pack.
+void kernel(benchmark::State& state, const Scenario& s, std::size_t lanes) {
+  const auto& widths = s.physics.engine->lanes;
+  if (std::find(widths.begin(), widths.end(), lanes) == widths.end()) {
+    state.SkipWithError("this processor has no such lanes");
+    return;
+  }
+  const std::vector<const Choice*> choices(lanes, &s.actuator);
+  const std::unique_ptr<Actuator> motors = make_actuator(choices, info(*s.robot));
+  const LaneSettings own{s.robot, s.physics.gravity, s.ground,
+                         contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on)), s.contact.penalty};
+  PlantSettings settings;
+  static_cast<LaneSettings&>(settings) = own;
+  settings.others.assign(lanes - 1, own);
+  settings.base = s.base;
+  settings.actuator = motors.get();
+  const std::unique_ptr<Plant> plant = s.physics.engine->make(settings);
+  const StateLayout layout{s.robot->joints.size(), lanes};
   std::vector<double> x(layout.size());
-  const std::vector<double> command(s.robot->joints.size());
-  layout.write(start_state(s), 0, x);
-  for (int i = 0; i < 200; ++i) stepper.step(x, command, kStep);  // until it stands
+  const std::vector<double> command(s.robot->joints.size() * lanes);
+  for (std::size_t l = 0; l < lanes; ++l) layout.write(start_state(s), l, x);
+  plant->bind(x);
+  for (int i = 0; i < 200; ++i) plant->advance(command, kStep);  // until it stands
   const std::vector<double> standing = x;
   for ([[maybe_unused]] auto once : state) {
     std::copy(standing.begin(), standing.end(), x.begin());  // every call does the same
-    stepper.step(x, command, kStep);
+    plant->advance(command, kStep);
     benchmark::DoNotOptimize(x.data());
     benchmark::ClobberMemory();
   }
 }
 
-void kernel_of(benchmark::State& state, const char* file) { kernel(state, shipped(file)); }
+/// Argument: lanes.
+void kernel_of(benchmark::State& state, const char* file) {
+  kernel(state, shipped(file), static_cast<std::size_t>(state.range(0)));
+}
 
 /// Argument: modules. The exponent of the cost is fitted.
 void kernel_of_chain(benchmark::State& state) {
-  kernel(state, chain(static_cast<std::size_t>(state.range(0))));
+  kernel(state, chain(static_cast<std::size_t>(state.range(0))), 1);
   state.SetComplexityN(state.range(0));
 }
 
@@ -87,8 +98,8 @@ void run_of(benchmark::State& state, const char* file) {
   state.counters["sim_s/s"] = benchmark::Counter(2, benchmark::Counter::kIsIterationInvariantRate);
 }
 
-BENCHMARK_CAPTURE(kernel_of, hexapod, "hexapod.yaml");
-BENCHMARK_CAPTURE(kernel_of, caterpillar, "caterpillar.yaml");
+BENCHMARK_CAPTURE(kernel_of, hexapod, "hexapod.yaml")->Arg(1)->Arg(4)->Arg(8);
+BENCHMARK_CAPTURE(kernel_of, caterpillar, "caterpillar.yaml")->Arg(1)->Arg(4)->Arg(8);
 BENCHMARK(kernel_of_chain)->Arg(10)->Arg(100)->Arg(1000)->Complexity(benchmark::oN);
 BENCHMARK_CAPTURE(tick_of, hexapod, "hexapod.yaml")->Iterations(2000);
 BENCHMARK_CAPTURE(tick_of, caterpillar, "caterpillar.yaml")->Iterations(2000);

@@ -16,7 +16,7 @@ const std::vector<std::vector<std::string>> kOwn{
     {"ground.friction=0.3", "contact.stiffness=2e4", "contact.exponent=1.2"},
     {"actuator.i_max=0.1"},
     {"duration=0.21"},
-    {"actuator.Kt=1000", "actuator.i_max=1e6", "actuator.u_max=1e6"},
+    {"robot.on_ground=false", "robot.position=[99000, 0, 1]", "initial.base_velocity=[9999, 0, 0]", "ground.type=none"},
     {"controller.period=0.03", "trace.period=0.01"},
     {"cpg.frequency=0.6", "actuator.efficiency_model=directional"},
     {"physics.gravity=[0.5, 0, -9]", "initial.angles=0.1"},
