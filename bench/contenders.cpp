@@ -47,7 +47,7 @@ void add_mujoco(Field& field, const Engine* engine) {
 
 void add_articulated(Field& field, const Engine& engine, std::vector<std::string>& left_out) {
   field.references.push_back({"articulated", sets("articulated", "extrapolated"), {1e-4, 5e-5}});
-  for (const std::size_t lanes : {1, 4, 8}) {
+  for (const std::size_t lanes : {1U, 4U, 8U}) {
     if (lanes > engine.lanes.back()) {
       left_out.push_back(fmt::format("articulated in {} lanes: the engine has {} here", lanes, engine.lanes.back()));
       continue;

@@ -268,8 +268,10 @@ void register_mujoco(Catalog& catalog) {
 #if mjVERSION_HEADER >= 300
   set_ups.emplace_back("implicitfast");
 #endif
-  catalog.add(Engine{"mujoco", "MuJoCo, for comparison.", set_ups, 1e-3, {1}, true,
-                     [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<MujocoPlant>(s); }});
+  catalog.add(Engine{
+      "mujoco", "MuJoCo, for comparison.", set_ups, 1e-3, {1}, true, [](const PlantSettings& s) -> std::unique_ptr<Plant> {
+        return std::make_unique<MujocoPlant>(s);
+      }});
 }
 
 std::string mujoco_version() {

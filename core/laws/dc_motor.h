@@ -16,7 +16,7 @@ namespace gaitlab {
 /// steps of torque at w = 0 would make any explicit method chatter; `turn` spreads it, as v_lim does for friction.
 template <class V>
 struct BasicDcMotor {
-  V R, Kt, Ks, gear, efficiency, u_max, i_max;
+  V R = 1.0, Kt = 0.0, Ks = 0.0, gear = 1.0, efficiency = 1.0, u_max = 0.0, i_max = 0.0;
   V turn = 0.0;  ///< rad/s on the joint; 0: eq. 2 as printed
   V steep = Kt * Ks * gear * gear / R;
 

@@ -52,7 +52,7 @@ TEST(Batch, EndsEveryRolloutAsAlone) {
   for (const Scenario& one : all) expected.push_back(alone(one));
   EXPECT_NE(expected[4].find("diverged"), std::string::npos) << expected[4];
   EXPECT_NE(expected[2], expected[0]);
-  for (const std::size_t lanes : {1, 4, 8}) {
+  for (const std::size_t lanes : {1U, 4U, 8U}) {
     for (const int threads : {1, 2}) {
       std::mutex lock;
       std::vector<std::string> ends(all.size());

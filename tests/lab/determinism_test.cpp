@@ -109,12 +109,16 @@ TEST_P(DeterminismOf, SnapshotGoesOnAsIfNothingHadHappened) {
 }
 
 TEST_P(DeterminismOf, AllocatesNothingInTheSteadyState) {
-  const Scenario s = shipped("caterpillar.yaml", {"duration=1", set()});
-  Simulation simulation({&s, 1});
-  for (int i = 0; i < 1000; ++i) simulation.step();  // first ticks size Bullet's scratch
-  const Allocations allocations;
-  for (int i = 0; i < 1000; ++i) simulation.step();  // trace rows and control ticks among them
-  EXPECT_EQ(allocations.count(), 0);
+  for (const char* file : {"caterpillar.yaml", "hexapod.yaml", "rubble.yaml"}) {
+    for (const std::size_t lanes : catalog().engine(GetParam())->lanes) {
+      const std::vector<Scenario> s(lanes, shipped(file, {"duration=1", set()}));
+      Simulation simulation(s);
+      for (int i = 0; i < 1000; ++i) simulation.step();  // first ticks size Bullet's scratch
+      const Allocations allocations;
+      for (int i = 0; i < 1000; ++i) simulation.step();  // trace rows and control ticks among them
+      EXPECT_EQ(allocations.count(), 0) << file << ", " << lanes << " lanes";
+    }
+  }
 }
 
 }  // namespace

@@ -144,10 +144,10 @@ TEST(Solver, FeetCarryTheWeight) {
 }
 
 TEST(Solver, WalksAsThePenaltyLawDoes) {
-  for (const auto& [file, duration, within] :
-       {std::tuple("hexapod.yaml", "4", 0.10), std::tuple("caterpillar.yaml", "4", 0.05)}) {
+  for (const auto& [name, within] : {std::pair("hexapod.yaml", 0.10), std::pair("caterpillar.yaml", 0.05)}) {
+    const std::string file = name;
     const auto walk = [&](const std::vector<std::string>& sets) {
-      std::vector<std::string> all{std::string("duration=") + duration};
+      std::vector<std::string> all{"duration=4"};
       all.insert(all.end(), sets.begin(), sets.end());
       const RunRecord r = run(shipped(file, all));
       return r.com_x.back() - r.com_x.front();
