@@ -72,7 +72,7 @@ void kernel_of(benchmark::State& state, const char* file) {
   kernel(state, shipped(file), static_cast<std::size_t>(state.range(0)));
 }
 
-/// Argument: modules. The exponent of the cost is fitted.
+/// Argument: modules. The cost a module is fitted; the exponent is log10(t(1000) / t(10)) / 2.
 void kernel_of_chain(benchmark::State& state) {
   kernel(state, chain(static_cast<std::size_t>(state.range(0))), 1);
   state.SetComplexityN(state.range(0));

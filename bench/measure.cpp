@@ -57,6 +57,9 @@ Measured measure(const std::vector<Scenario>& lanes, double least) {
     const double wall = wall_seconds();
     const double cpu = cpu_seconds();
     simulation.run();
+    for (std::size_t l = 0; l < lanes.size(); ++l) {
+      if (!simulation.failure(l).empty()) throw RunError(simulation.failure(l));
+    }
     sum.cpu += cpu_seconds() - cpu;
     sum.wall += wall_seconds() - wall;
     if (++runs > 1) continue;

@@ -109,8 +109,11 @@ class Motors {
   static void store(const T& value, std::size_t j, Out to) {
     std::copy_n(math::numbers(std::span<const T>(&value, 1)).begin(), math::kLanes<T>, to.data() + j * math::kLanes<T>);
   }
+  /// By the plugin, which hold has asked.
   Limit asked(std::size_t j) const {
-    return {limited_[j], limited_slope_[j], math::either(limited_[j]<unlimited_[j], limited_[j]> unlimited_[j])};
+    const auto above = limited_[j] > unlimited_[j];
+    const auto below = unlimited_[j] > limited_[j];
+    return {limited_[j], limited_slope_[j], math::either(above, below)};
   }
   Limit evaluated(std::size_t j, const T& command, const T& speed) const {
     const auto effort = dc_[j](command, speed);

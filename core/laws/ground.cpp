@@ -101,9 +101,9 @@ class Sum {
   /// Keeps them from the deepest on.
   void add(const Push& push) {
     if (count_ > 0 && !(push.penetration > std::min(0.0, pushes_[0].penetration))) return;
+    if (count_ == kMost && pushes_[kMost - 1].penetration >= push.penetration) return;
     count_ = std::min(count_ + 1, kMost);
     std::size_t at = count_ - 1;
-    if (at + 1 == kMost && pushes_[at].penetration >= push.penetration) return;
     for (; at > 0 && pushes_[at - 1].penetration < push.penetration; --at) pushes_[at] = pushes_[at - 1];
     pushes_[at] = push;
   }

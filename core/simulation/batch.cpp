@@ -1,6 +1,7 @@
 #include "core/simulation/batch.h"
 
 #include <algorithm>
+#include <exception>
 
 #include "core/parallel.h"
 
@@ -51,22 +52,49 @@ std::vector<Pack> packs(std::span<const Scenario> rollouts, std::size_t most) {
 void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings,
                const std::function<void(std::size_t, RolloutEnd&&)>& end) {
   const std::vector<Pack> all = packs(rollouts, settings.lanes);
+  std::vector<std::exception_ptr> refused(rollouts.size());
+  const auto alone = [&](std::size_t i) {
+    try {
+      Simulation simulation({&rollouts[i], 1});
+      std::string outcome = "done";
+      try {
+        simulation.run();
+      } catch (const SimulationError& error) {
+        outcome = error.what();
+      }
+      end(i, {simulation.take_record(0), std::move(outcome)});
+    } catch (const InputError&) {
+      refused[i] = std::current_exception();
+    }
+  };
   parallel(all.size(), settings.threads, [&](std::size_t p) {
-    const Pack& pack = all[p];
+    Pack pack = all[p];
     std::vector<Scenario> lanes;
     for (const std::size_t i : pack) lanes.push_back(rollouts[i]);
-    Simulation simulation(lanes);
-    std::string stopped;  // where a lane is alone
+    pack.erase(std::unique(pack.begin(), pack.end()), pack.end());
+    std::unique_ptr<Simulation> simulation;
     try {
-      simulation.run();
-    } catch (const SimulationError& error) {
-      stopped = error.what();
+      if (pack.size() > 1) {
+        simulation = std::make_unique<Simulation>(lanes);
+        simulation->run();
+      }
+    } catch (const RunError&) {  // one lane's, or of what all share: each tells for itself
+      simulation.reset();
+    } catch (const InputError&) {
+      simulation.reset();
     }
-    for (std::size_t l = 0; l < pack.size() && (l == 0 || pack[l] != pack[l - 1]); ++l) {
-      const std::string& failure = stopped.empty() ? simulation.failure(l) : stopped;
-      end(pack[l], {simulation.take_record(l), failure.empty() ? "done" : failure});
+    for (std::size_t l = 0; l < pack.size(); ++l) {
+      if (simulation == nullptr) {
+        alone(pack[l]);
+        continue;
+      }
+      const std::string& failure = simulation->failure(l);
+      end(pack[l], {simulation->take_record(l), failure.empty() ? "done" : failure});
     }
   });
+  for (const std::exception_ptr& error : refused) {
+    if (error) std::rethrow_exception(error);
+  }
 }
 
 std::vector<Scenario> rollouts(const std::string& file, const std::vector<std::string>& sets,

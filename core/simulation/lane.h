@@ -54,8 +54,8 @@ struct Simulation::Lane {
   const Robot& robot;
   std::size_t index;
   std::int64_t steps, control_every, trace_every;
-  bool running = true;  ///< else its numbers are of no use to anyone
-  std::string failure;
+  bool closed = false;  ///< its record is complete
+  std::string failure;  ///< why it ended early
   std::vector<ContactElement> contacts;
   std::unique_ptr<Cpg> cpg;
   std::unique_ptr<Controller> controller;

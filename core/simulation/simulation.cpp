@@ -23,9 +23,12 @@ std::int64_t whole(double period, double step) { return std::llround(period / st
 SimulationError::SimulationError(std::int64_t at_step, double at_time, std::string at, const std::string& what)
     : RunError(what), step(at_step), time(at_time), where(std::move(at)) {}
 
-bool Simulation::control_tick(const Lane& lane) const { return lane.running && step_number() % lane.control_every == 0; }
+bool Simulation::control_tick(const Lane& lane) const {
+  return lane.failure.empty() && step_number() < lane.steps && step_number() % lane.control_every == 0;
+}
 bool Simulation::trace_tick(const Lane& lane) const {
-  return lane.running && (step_number() % lane.trace_every == 0 || step_number() == lane.steps);
+  if (!lane.failure.empty() || step_number() > lane.steps) return false;
+  return step_number() % lane.trace_every == 0 || step_number() == lane.steps;
 }
 bool Simulation::any(bool (Simulation::*tick)(const Lane&) const) const {
   return std::any_of(lanes_.begin(), lanes_.end(), [&](const auto& lane) { return (this->*tick)(*lane); });
@@ -39,6 +42,11 @@ void Simulation::step() {
   }
   advance();
   check();
+}
+
+bool Simulation::done() const {
+  return step_number() >= steps_ ||
+         std::none_of(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane->failure.empty(); });
 }
 
 bool Simulation::run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) try {
@@ -78,7 +86,6 @@ void Simulation::fail(Lane& lane, const SimulationError& error) {
 
 /// Closes its record. Its numbers go on from the start, without commands, so that they stay numbers.
 void Simulation::end(Lane& lane) {
-  lane.running = false;
   close(lane);
   if (lanes_.size() > 1) place_at_start(lane);
 }
@@ -260,7 +267,7 @@ void Simulation::keep_ledger() {
 
 void Simulation::check() {
   for (const auto& lane : lanes_) {
-    if (!lane->running) continue;
+    if (!lane->failure.empty() || step_number() > lane->steps) continue;
     bool fine = true;
     for (std::size_t i = lane->index; i < plant_state_.size(); i += lanes_.size()) {
       fine = fine && std::abs(plant_state_[i]) < kLargestSpeed;  // false for NaN too
@@ -293,6 +300,8 @@ SimulationError Simulation::diverged(const Lane& lane) const {
 
 /// What is known of it at this step, beside the rows.
 void Simulation::close(Lane& lane) {
+  lane.closed = true;
+  plant_->look();
   lane.record.steps = step_number();
   lane.record.ledger = take_sample(lane, true).ledger;
   lane.record.joints.clear();
@@ -302,7 +311,7 @@ void Simulation::close(Lane& lane) {
 const std::string& Simulation::failure(std::size_t lane) const { return lanes_[lane]->failure; }
 
 RunRecord Simulation::take_record(std::size_t lane) {
-  if (lanes_[lane]->running) close(*lanes_[lane]);
+  if (!lanes_[lane]->closed) close(*lanes_[lane]);
   return std::move(lanes_[lane]->record);
 }
 

@@ -64,14 +64,15 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   void step();
-  [[nodiscard]] bool done() const { return step_number() == steps_; }
+  [[nodiscard]] bool done() const;  ///< every lane has ended
   /// Why a lane ended early; empty: it did not.
   [[nodiscard]] const std::string& failure(std::size_t lane) const;
   /// Steps to the end; `progress(share)` about 200 times; stops early (returns false) once `stop` is set.
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
 
   /// Everything that changes: step counter, plant, held set points and commands, plugins' states, the ledger's sums. A copy is
-  /// a snapshot. Throws InputError where the plant keeps more than that (Plant::memoryless).
+  /// a snapshot (what was recorded is no part of it: a run that is put back records on). Throws InputError where the plant
+  /// keeps more than that (Plant::memoryless).
   Out state();
   [[nodiscard]] std::int64_t step_number() const { return static_cast<std::int64_t>(state_[0]); }
   [[nodiscard]] double time() const { return static_cast<double>(step_number()) * h_; }

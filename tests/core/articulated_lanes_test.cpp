@@ -2,6 +2,8 @@
 // same structure, motors at their limit, numbers that are none any more.
 #include <gtest/gtest.h>
 
+#include <bit>
+
 #include "actuators/dc_motor.h"
 #include "core/simulation/plant.h"
 #include "physics_articulated/engine.h"
@@ -76,8 +78,15 @@ TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
     for (int i = 0; i < 4; ++i) {
       const Robot first = random.robot_of(4);
       const std::size_t n = first.joints.size();
+      const Base base = std::array{Base::floating, Base::fixed, Base::planar, Base::floating}[static_cast<std::size_t>(i)];
       std::vector<Lane> lanes;
-      for (std::size_t l = 0; l < width; ++l) lanes.push_back(lane(random, first, Base::floating, l));
+      for (std::size_t l = 0; l < width; ++l) {
+        lanes.push_back(lane(random, first, base, l));
+        if (i == 3) {  // grounds of every kind in one pack
+          lanes[l].settings.ground.kind = std::array{Ground::Kind::none, Ground::Kind::boxes, Ground::Kind::plane}[l % 3];
+          lanes[l].settings.ground.boxes = {Box{.center = {0.1, 0, 0}, .size = {0.4, 0.4, 0.02}, .friction = 0.4}};
+        }
+      }
       if (width > 1) lanes[1].numbers[StateLayout::kVelocity] = std::numeric_limits<double>::infinity();  // diverged
 
       const StateLayout beside{n, width};
@@ -86,6 +95,7 @@ TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
       std::vector<const DcMotorActuator::Settings*> motors;
       PlantSettings together;
       together.integrator = GetParam();
+      together.base = base;
       for (std::size_t l = 0; l < width; ++l) {
         for (std::size_t e = 0; e < lanes[l].numbers.size(); ++e) numbers[e * width + l] = lanes[l].numbers[e];
         for (std::size_t j = 0; j < n; ++j) commands[j * width + l] = lanes[l].command[j];
@@ -103,19 +113,21 @@ TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
         PlantSettings own;
         static_cast<LaneSettings&>(own) = lanes[l].settings;
         own.integrator = GetParam();
+        own.base = base;
         const DcMotorActuator motor(info(first), {&lanes[l].motors});
         own.actuator = &motor;
         const std::unique_ptr<Plant> alone = engine().make(own);
         alone->bind(lanes[l].numbers);
         for (int step = 0; step < kSteps; ++step) alone->advance(lanes[l].command, h);
         for (std::size_t e = 0; e < lanes[l].numbers.size(); ++e) {
-          EXPECT_EQ(numbers[e * width + l], lanes[l].numbers[e])
+          EXPECT_EQ(std::bit_cast<std::uint64_t>(numbers[e * width + l]), std::bit_cast<std::uint64_t>(lanes[l].numbers[e]))
               << width << " lanes, robot " << i << ", lane " << l << ", entry " << e;
           EXPECT_LT(std::abs(lanes[l].numbers[e]), 1e5);
         }
         const Applied a = pack->applied();
         const Applied b = alone->applied();
         for (std::size_t j = 0; j < n; ++j) EXPECT_EQ(a.torque[j * width + l], b.torque[j]);
+        EXPECT_EQ(a.contact[l], b.contact[0]);
         EXPECT_EQ(a.friction[l], b.friction[0]);
         EXPECT_EQ(a.stops[l], b.stops[0]);
         rubbed += b.friction[0];

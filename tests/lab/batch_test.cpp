@@ -82,6 +82,19 @@ TEST(Batch, MixesRobotsOfOneStructureAndKeepsOthersApart) {
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(ends[i], alone(all[i])) << i;
 }
 
+TEST(Batch, TellsOfTheOthersBesideOneThatIsRefused) {
+  // rk4 has a largest step; a motor of a tenth of the resistance needs a tenth of it.
+  const std::vector<std::vector<std::string>> own{{}, {"actuator.R=0.4"}, {}, {"ground.friction=0.7"}};
+  const std::vector<Scenario> all = rollouts(
+      kScenarios + "hexapod.yaml",
+      {"physics.engine=articulated", "physics.integrator=rk4", "physics.step=2.5e-5", "duration=0.01"}, own, catalog());
+  std::vector<std::string> ends(all.size());
+  EXPECT_THROW(run_batch(all, {}, [&](std::size_t i, RolloutEnd&& end) { ends[i] = bits(end.record, end.outcome); }),
+               InputError);
+  EXPECT_TRUE(ends[1].empty()) << ends[1];
+  for (const std::size_t i : {0U, 2U, 3U}) EXPECT_EQ(ends[i], alone(all[i]));
+}
+
 TEST(Batch, RunsEveryEngine) {
   const std::vector<Scenario> all =
       rollouts(kScenarios + "pendulum.yaml", {"duration=0.05"}, std::vector<std::vector<std::string>>(3), catalog());
