@@ -266,5 +266,17 @@ TEST(GroundField, FindsTheNearestPointOfACurvedSurface) {
   }
 }
 
+// More solids than one touch can have at once: the nearest counts, whatever stands before it in the list.
+TEST(GroundOfBoxes, GapIsThatToTheNearestOfMany) {
+  Ground ground;
+  ground.kind = Ground::Kind::boxes;
+  double highest = 0;
+  for (const double top : {0.01, 0.02, 0.03, 0.025}) {
+    ground.boxes.push_back({Vec3(0, 0, top / 2), Vec3(0.2, 0.2, top)});
+    highest = std::max(highest, top);
+    EXPECT_NEAR(ground.query(Vec3(0, 0, 0.05), 0).penetration, highest - 0.05, 1e-15) << "rounding of 0.05";
+  }
+}
+
 }  // namespace
 }  // namespace gaitlab
