@@ -1,6 +1,6 @@
 // The kernel over a scalar T. Included by one translation unit a width, compiled for its processor.
 #pragma once
-#include <cstring>
+#include <algorithm>
 
 #include "physics_articulated/kernel.h"
 
@@ -21,7 +21,7 @@ class Pack final : public Kernel {
   void step(Out state, In command, double h) override {
     load(state);
     stepper_.step(x_, command, h);
-    std::memcpy(state.data(), x_.data(), state.size_bytes());
+    std::ranges::copy(math::numbers(std::span<const T>(x_)), state.begin());
   }
 
   [[nodiscard]] Applied applied() const override {
@@ -86,7 +86,7 @@ class Pack final : public Kernel {
   static Vec<double> of_lane(const Vec<T>& v, std::size_t lane) {
     return {math::lane(v.x, lane), math::lane(v.y, lane), math::lane(v.z, lane)};
   }
-  void load(In state) { std::memcpy(static_cast<void*>(x_.data()), state.data(), state.size_bytes()); }
+  void load(In state) { std::ranges::copy(state, math::numbers(std::span<T>(x_)).begin()); }
 
   Tree<T> tree_;
   Site<T> site_;

@@ -190,7 +190,7 @@ class Stepper {
   /// Orientation of `out` = (w, v) times that of x.
   static void turn(std::span<const T> x, const T& w, const Vec<T>& v, std::span<T> out) {
     constexpr std::size_t o = StateLayout::kOrientation;
-    const T qw = x[o];
+    const T& qw = x[o];  // out may be x: last read where it is overwritten
     const Vec<T> q{x[o + 1], x[o + 2], x[o + 3]};
     const Vec<T> turned = w * q + qw * v + cross(v, q);
     out[o] = w * qw - dot(v, q);

@@ -49,6 +49,7 @@ std::string alone(const Scenario& scenario) {
 TEST(Batch, EndsEveryRolloutAsAlone) {
   const std::vector<Scenario> all = rollouts(kScenarios + "hexapod.yaml", kCommon, kOwn, catalog());
   std::vector<std::string> expected;
+  expected.reserve(all.size());
   for (const Scenario& one : all) expected.push_back(alone(one));
   EXPECT_NE(expected[4].find("diverged"), std::string::npos) << expected[4];
   EXPECT_NE(expected[2], expected[0]);
