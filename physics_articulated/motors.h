@@ -15,7 +15,8 @@ namespace gaitlab::articulated {
 template <class T>
 class Motors {
  public:
-  Motors(const Actuator* actuator, std::size_t joints) : torque(joints), slope(joints), actuator_(actuator), held_(joints) {
+  Motors(const Actuator* actuator, std::size_t joints)
+      : torque(joints), slope(joints), actuator_(actuator), held_(joints), some_(joints), all_(joints) {
     for (auto* values : {&start_torque_, &start_slope_, &limited_, &limited_slope_, &unlimited_, &unlimited_slope_})
       values->resize(joints);
     if (actuator == nullptr) return;
@@ -43,6 +44,27 @@ class Motors {
       actuator_->unlimited(command, math::numbers(speed), numbers(start_torque_), numbers(start_slope_));
     }
   }
+  /// After start: joints whose limit binds there, and then, by remember after each solve, those that were held: has_corner
+  /// tells of the joints for which it is not all the same.
+  void watch(In command, std::span<const T> speed) {
+    if (actuator_ != nullptr && dc_.empty()) {
+      actuator_->effort(command, math::numbers(speed), numbers(limited_), numbers(limited_slope_));
+    }
+    for (std::size_t j = 0; j < held_.size(); ++j) {
+      if (actuator_ == nullptr) break;
+      unlimited_[j] = start_torque_[j];
+      const Limit limit = dc_.empty() ? asked(j) : evaluated(j, of_joint(command, j), speed[j]);
+      some_[j].yes = all_[j].yes = limit.passed;
+    }
+  }
+  void remember() {
+    for (std::size_t j = 0; j < held_.size(); ++j) {
+      some_[j].yes = math::either(some_[j].yes, held_[j].yes);
+      all_[j].yes = math::both(all_[j].yes, held_[j].yes);
+    }
+  }
+  [[nodiscard]] math::Mask<T> has_corner(std::size_t j) const { return math::fresh(some_[j].yes, all_[j].yes); }
+
   /// What start found, none held.
   void begin() {
     torque = start_torque_;
@@ -124,7 +146,7 @@ class Motors {
   std::vector<BasicDcMotor<T>> dc_;                                       // empty: asks the actuator
   std::vector<T> start_torque_, start_slope_;                             // at the step's start
   std::vector<T> limited_, limited_slope_, unlimited_, unlimited_slope_;  // asked at its end
-  std::vector<Held> held_;
+  std::vector<Held> held_, some_, all_;
 };
 
 }  // namespace gaitlab::articulated

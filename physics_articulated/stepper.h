@@ -58,9 +58,10 @@ class Stepper {
         tree_(tree),
         method_(method),
         joints_(tree.lo.size()),
-        part_(joints_) {
+        part_(joints_),
+        whole_part_(joints_) {
     for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_}) values->assign(joints_, T(0.0));
-    for (auto* state : {&start_, &prepared_, &stage_, &rate_, &sum_}) state->assign(StateLayout::kAngles + 2 * joints_, T(0.0));
+    for (auto* state : {&whole_, &prepared_, &stage_, &rate_, &sum_}) state->assign(StateLayout::kAngles + 2 * joints_, T(0.0));
     a_.assign(6 + joints_, T(0.0));
     const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
     std::copy(inertia.begin(), inertia.end(), math::numbers(std::span<T>(rotor)).begin());
@@ -90,15 +91,18 @@ class Stepper {
       done.add(part_, 1, 1);
       return;
     }
-    std::copy(x.begin(), x.end(), start_.begin());
-    finish(start_, command, h);
-    done.add(part_, -1, -1);
-    finish(x, command, h / 2);
-    done.add(part_, 1, 2);  // means of half the step: 2 / 2
-    begin(x, command);
-    finish(x, command, h / 2);
-    done.add(part_, 1, 2);
-    for (std::size_t e = 0; e < x.size(); ++e) x[e] = T(2.0) * x[e] - start_[e];
+    motors.watch(command, speeds(x));
+    std::copy(x.begin(), x.end(), whole_.begin());
+    finish(whole_, command, h);
+    motors.remember();
+    whole_part_ = part_;
+    for (int half = 0; half < 2; ++half) {
+      if (half == 1) begin(x, command);
+      finish(x, command, h / 2);
+      motors.remember();
+      done.add(part_, 1, 2);  // means of half the step: 2 / 2
+    }
+    extrapolate(x);
     normalise(x);
   }
 
@@ -115,6 +119,24 @@ class Stepper {
   void begin(std::span<T> x, In command) {
     place(x);
     motors.start(command, speeds(x));
+  }
+
+  /// x, at the end of two half steps, and done, their sum: less those of the whole step. A joint whose motor passed its limit
+  /// in the step, one way or the other, stays with its half steps: its motion has a corner there, and beyond a corner an
+  /// extrapolation overshoots.
+  void extrapolate(std::span<T> x) {
+    using math::select;
+    const auto minus_whole = [&](std::size_t e) { return T(2.0) * x[e] - whole_[e]; };
+    for (std::size_t e = 0; e < StateLayout::kAngles; ++e) x[e] = minus_whole(e);
+    done.add(whole_part_, 0, -1);
+    for (std::size_t j = 0; j < joints_; ++j) {
+      const auto corner = motors.has_corner(j);
+      for (const std::size_t e : {StateLayout::kAngles + j, StateLayout::kAngles + joints_ + j}) {
+        x[e] = select(corner, x[e], minus_whole(e));
+      }
+      done.torque[j] = select(corner, 0.5 * done.torque[j], done.torque[j] - whole_part_.torque[j]);
+      done.speed[j] = select(corner, 0.5 * done.speed[j], done.speed[j] - whole_part_.speed[j]);
+    }
   }
 
   /// An implicit step of h from where begin left off; begin serves several.
@@ -246,9 +268,9 @@ class Stepper {
   Method method_;
   std::size_t joints_;
   std::vector<T> stop_, stop_slope_, force_, diagonal_, end_, a_;  // a joint; end_: speeds
-  Done<T> part_;
+  Done<T> part_, whole_part_;
   bool placed_ = false;
-  std::vector<T> start_, prepared_, stage_, rate_, sum_;
+  std::vector<T> whole_, prepared_, stage_, rate_, sum_;
 };
 
 }  // namespace gaitlab::articulated
