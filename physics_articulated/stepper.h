@@ -121,22 +121,24 @@ class Stepper {
     motors.start(command, speeds(x));
   }
 
-  /// x, at the end of two half steps, and done, their sum: less those of the whole step. A joint whose motor passed its limit
-  /// in the step, one way or the other, stays with its half steps: its motion has a corner there, and beyond a corner an
-  /// extrapolation overshoots.
+  /// x, at the end of two half steps, and done, their sum: less those of the whole step. Where a motor passed its limit in the
+  /// step, one way or the other, the half steps stand: beyond a corner an extrapolation overshoots. (All of the robot stays
+  /// with them: a joint by itself would not fit the others.)
   void extrapolate(std::span<T> x) {
     using math::select;
-    const auto minus_whole = [&](std::size_t e) { return T(2.0) * x[e] - whole_[e]; };
-    for (std::size_t e = 0; e < StateLayout::kAngles; ++e) x[e] = minus_whole(e);
-    done.add(whole_part_, 0, -1);
+    math::Mask<T> corner{};
+    for (std::size_t j = 0; j < joints_; ++j) corner = math::either(corner, motors.has_corner(j));
+    const auto less = [&](const T& halves, const T& whole, double mean) {
+      return select(corner, T(mean) * halves, T(2.0 * mean) * halves - whole);
+    };
+    for (std::size_t e = 0; e < x.size(); ++e) x[e] = less(x[e], whole_[e], 1);
     for (std::size_t j = 0; j < joints_; ++j) {
-      const auto corner = motors.has_corner(j);
-      for (const std::size_t e : {StateLayout::kAngles + j, StateLayout::kAngles + joints_ + j}) {
-        x[e] = select(corner, x[e], minus_whole(e));
-      }
-      done.torque[j] = select(corner, 0.5 * done.torque[j], done.torque[j] - whole_part_.torque[j]);
-      done.speed[j] = select(corner, 0.5 * done.speed[j], done.speed[j] - whole_part_.speed[j]);
+      done.torque[j] = less(done.torque[j], whole_part_.torque[j], 0.5);
+      done.speed[j] = less(done.speed[j], whole_part_.speed[j], 0.5);
     }
+    done.contact = less(done.contact, whole_part_.contact, 0.5);
+    done.friction = less(done.friction, whole_part_.friction, 0.5);
+    done.stops = less(done.stops, whole_part_.stops, 0.5);
   }
 
   /// An implicit step of h from where begin left off; begin serves several.

@@ -246,6 +246,39 @@ TEST_P(WalkOfTwoEngines, IsOneWalk) {
   EXPECT_LT(std::abs(ours.ledger.residual()), 0.005 * ours.ledger.electrical);
 }
 
+// A chain that swings from its first module; most motors are at their limit in every half period.
+TEST(Articulated, IsRightWhereManyMotorsAreLimited) {
+  const auto swung = [](const std::string& physics) {
+    return run(scenario(fmt::format(R"(
+gaitlab: 1
+robot: {{modules: mtran, build: robots/caterpillar-8.dat, base: fixed, position: [0, 0, 1]}}
+ground: {{type: none}}
+contact: {{on: none}}
+physics: {{gravity: [0, 0, -0.5], {}}}
+cpg: {{type: phase_oscillator, frequency: 0.5, amplitude: 0.6, phase_lag: 1.2}}
+duration: 2
+trace: {{columns: [joint.*]}}
+)",
+                                    physics)));
+  };
+  const RunRecord bullet = swung("engine: bullet, step: 1e-5");
+  const RunRecord ours = swung("engine: articulated, integrator: extrapolated, step: 1e-4");
+  double limited = 0;
+  double worst = 0;
+  for (std::size_t j = 0; j < bullet.joints.size(); ++j) {
+    double square = 0;
+    double peak = 0;
+    for (std::size_t i = j; i < bullet.torques.size(); i += bullet.joints.size()) {
+      square += std::pow(bullet.torques[i] - ours.torques[i], 2);
+      peak = std::max(peak, std::abs(bullet.torques[i]));
+    }
+    worst = std::max(worst, std::sqrt(square / static_cast<double>(bullet.trace.rows())) / peak);
+    limited = std::max(limited, bullet.joints[j].saturated_current);
+  }
+  EXPECT_GT(limited, 0.05) << "share of the time";
+  EXPECT_LT(worst, 0.005) << "as on the ground; with the limit's corners extrapolated it is 0.014";
+}
+
 TEST(Articulated, IsThereForTheProgram) {
   const Folder folder;
   const std::string engine = " --set physics.engine=articulated";
