@@ -38,8 +38,8 @@ Pose docked(const FaceType& child, const FaceType& parent, int orientation) {
   return {R, parent.origin - R * child.origin};
 }
 
-/// Builds modules in the order of their numbers where possible, parents first; joints are numbered afterwards, module by
-/// module.
+/// Places modules parents first, siblings in the order of their numbers; bodies and joints are numbered module by module,
+/// whatever hangs on what.
 class Builder {
  public:
   Builder(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of) {
@@ -227,9 +227,12 @@ RobotInfo info(const Robot& robot) {
       const Body& on = robot.bodies[parent.first_body + face.body];
       one.parent_face = face.id;
       one.normal = array(kinematics.R[on.link] * (on.in_link.R * face.normal));
-      result.modules[static_cast<std::size_t>(module.parent)].children.push_back(static_cast<std::int64_t>(m));
     }
     result.modules.push_back(std::move(one));
+  }
+  for (std::size_t m = 0; m < robot.modules.size(); ++m) {  // now that all are there: a parent may be numbered above its child
+    const int parent = robot.modules[m].parent;
+    if (parent >= 0) result.modules[static_cast<std::size_t>(parent)].children.push_back(static_cast<std::int64_t>(m));
   }
   for (const ContactElement& foot : contact_elements(robot, ContactSet::feet)) {
     result.modules[robot.bodies[foot.body].module].feet.push_back(array(kinematics.point(foot.link, foot.centre)));

@@ -53,6 +53,23 @@ inline void measure(const RobotInfo& robot, Leg& leg) {
   }
 }
 
+/// All modules, each after its parent, else in the order of their numbers.
+inline std::vector<std::size_t> parents_first(const RobotInfo& robot) {
+  std::vector<std::size_t> order;
+  std::vector<bool> listed(robot.modules.size(), false);
+  for (std::size_t m = 0; m < robot.modules.size(); ++m) {
+    const auto first = static_cast<std::ptrdiff_t>(order.size());
+    for (auto at = static_cast<std::int64_t>(m); at >= 0 && !listed[static_cast<std::size_t>(at)];) {
+      const auto one = static_cast<std::size_t>(at);
+      listed[one] = true;
+      order.push_back(one);
+      at = robot.modules[one].parent;
+    }
+    std::reverse(order.begin() + first, order.end());
+  }
+  return order;
+}
+
 /// A side dock further out on a chain that is a leg already: its knee, not another leg.
 inline bool hangs_on_a_leg(const RobotInfo& robot, const std::vector<Leg>& legs, std::size_t module) {
   for (auto at = static_cast<std::int64_t>(module); at >= 0; at = robot.modules[static_cast<std::size_t>(at)].parent) {
@@ -69,7 +86,7 @@ inline bool hangs_on_a_leg(const RobotInfo& robot, const std::vector<Leg>& legs,
 /// below the ankle; other side chains are no legs.
 inline std::vector<Leg> find_legs(const RobotInfo& robot) {
   std::vector<Leg> legs;
-  for (std::size_t m = 0; m < robot.modules.size(); ++m) {
+  for (const std::size_t m : detail::parents_first(robot)) {
     const ModuleInfo& module = robot.modules[m];
     if (module.parent < 0 || std::abs(module.normal[1]) < 0.7 || detail::hangs_on_a_leg(robot, legs, m)) continue;
     Leg leg;

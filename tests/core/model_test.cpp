@@ -1,6 +1,7 @@
 // Module geometry, docking and fusion, against closed forms and the table of the hexapod in docs/conventions.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "core/model/kinematics.h"
@@ -123,6 +124,58 @@ TEST(Docking, HingesTurnTheOtherWayWhereTheModuleIsDockedByItsPassiveBlock) {
   const JointInfo joint = info(robot).joints[2];
   const ModuleInfo module = info(robot).modules[1];
   EXPECT_NEAR(joint.axis[1], column(module, 1).y(), kRounding);
+}
+
+/// The rows with module m under number[m].
+std::vector<std::array<int, 5>> renumbered(std::vector<std::array<int, 5>> rows, const std::vector<int>& number) {
+  for (auto& row : rows) {
+    for (const std::size_t i : {1U, 3U}) row[i] = number[static_cast<std::size_t>(row[i])];
+  }
+  return rows;
+}
+
+/// What plugins know of a robot and of the same robot under other numbers. Rounding depends on the order of sums only: none.
+void expect_same(const RobotInfo& a, const RobotInfo& b, const std::vector<int>& number) {
+  ASSERT_EQ(a.modules.size(), b.modules.size());
+  ASSERT_EQ(a.joints.size(), b.joints.size());
+  const auto in_b = [&](std::int64_t m) { return m < 0 ? m : number[static_cast<std::size_t>(m)]; };
+  std::vector<std::int64_t> joint(a.joints.size());
+  for (std::size_t m = 0; m < a.modules.size(); ++m) {
+    const ModuleInfo& one = a.modules[m];
+    const ModuleInfo& other = b.modules[static_cast<std::size_t>(number[m])];
+    EXPECT_EQ(other.type, one.type) << m;
+    EXPECT_EQ(other.parent, in_b(one.parent)) << m;
+    EXPECT_EQ(other.parent_face, one.parent_face) << m;
+    EXPECT_EQ(other.normal, one.normal) << m;
+    EXPECT_EQ(other.position, one.position) << m;
+    EXPECT_EQ(other.rotation, one.rotation) << m;
+    EXPECT_EQ(other.feet, one.feet) << m;
+    std::vector<std::int64_t> children;
+    for (const std::int64_t child : one.children) children.push_back(in_b(child));
+    std::sort(children.begin(), children.end());
+    EXPECT_EQ(other.children, children) << m;
+    ASSERT_EQ(other.joints.size(), one.joints.size()) << m;
+    for (std::size_t i = 0; i < one.joints.size(); ++i) joint[static_cast<std::size_t>(one.joints[i])] = other.joints[i];
+  }
+  for (std::size_t j = 0; j < a.joints.size(); ++j) {
+    const JointInfo& one = a.joints[j];
+    const JointInfo& other = b.joints[static_cast<std::size_t>(joint[j])];
+    EXPECT_EQ(other.module, in_b(one.module)) << j;
+    EXPECT_EQ(other.parent, one.parent < 0 ? -1 : joint[static_cast<std::size_t>(one.parent)]) << j;
+    EXPECT_EQ(other.lo, one.lo) << j;
+    EXPECT_EQ(other.hi, one.hi) << j;
+    EXPECT_EQ(other.origin, one.origin) << j;
+    EXPECT_EQ(other.axis, one.axis) << j;
+  }
+}
+
+TEST(Docking, AParentMayBeNumberedAboveItsChild) {
+  const auto expect_same_under = [](const std::vector<std::array<int, 5>>& rows, const std::vector<int>& number) {
+    expect_same(info(robot_of(rows)), info(robot_of(renumbered(rows, number))), number);
+  };
+  expect_same_under({{1, 1, 4, 0, 0}, {1, 2, 4, 1, 0}}, {0, 2, 1});
+  expect_same_under(kHexapod, {0, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1});
+  expect_same_under(kHexapod, {0, 7, 2, 9, 4, 1, 6, 3, 8, 5, 10});
 }
 
 TEST(Fusion, EqualsTheSumOfTheBodies) {

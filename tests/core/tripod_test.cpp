@@ -84,5 +84,26 @@ TEST(Tripod, ASideDockOnALegIsItsKnee) {
   EXPECT_EQ(legs.size(), 6U);
 }
 
+TEST(Tripod, AKneeNumberedBelowItsHipIsAKnee) {
+  // A leg of two modules in a row with a third one sideways on the second; then the same legs with the numbers turned round.
+  std::vector<std::array<int, 5>> rows = kQuadruped;
+  rows.push_back({1, 7, 4, 3, 0});
+  rows.push_back({0, 8, 5, 7, 0});
+  const std::vector<Leg> legs = find_legs(robot_of(rows));
+  ASSERT_EQ(legs.size(), 4U);
+  for (auto& row : rows) {
+    for (const std::size_t i : {1U, 3U}) row[i] = row[i] == 0 ? 0 : 9 - row[i];
+  }
+  const std::vector<Leg> turned = find_legs(robot_of(rows));
+  ASSERT_EQ(turned.size(), 4U);
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    EXPECT_EQ(turned[i].modules.size(), legs[i].modules.size()) << i;
+    EXPECT_EQ(turned[i].modules.front(), 9 - legs[i].modules.front()) << i;
+    EXPECT_EQ(turned[i].left, legs[i].left) << i;
+    EXPECT_EQ(turned[i].x, legs[i].x) << i;
+    EXPECT_EQ(turned[i].length, legs[i].length) << i;
+  }
+}
+
 }  // namespace
 }  // namespace gaitlab
