@@ -1,10 +1,15 @@
-// Random assemblies and states: modules of the shipped type and of types made up here, docked at random. Numbers come from the
-// bits of std::mt19937, which the standard fixes, so a seed means the same robot everywhere.
+// Random assemblies and states: modules of the shipped type and of types made up here, docked and numbered at random; motors,
+// contacts and steps. Numbers come from the bits of std::mt19937, which the standard fixes, so a seed means the same robot
+// everywhere: nothing here is drawn in the arguments of one call, whose order is the compiler's.
 #pragma once
+#include <algorithm>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "actuators/dc_motor.h"
+#include "core/math/functions.h"
 #include "core/model/kinematics.h"
 #include "core/scenario/scenario.h"
 
@@ -15,6 +20,8 @@ class RandomRobots {
   explicit RandomRobots(std::uint32_t seed) : bits_(seed) {}
 
   double uniform(double lo, double hi) { return lo + (hi - lo) * (static_cast<double>(bits_()) / 4294967296.0); }
+  /// As likely between 1 and 2 as between 10 and 20.
+  double scaled(double lo, double hi) { return lo * math::pow(hi / lo, uniform(0, 1)); }
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits_()) % n; }
   Vec3 vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
   Vec3 direction() {
@@ -23,9 +30,17 @@ class RandomRobots {
       if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
     }
   }
-  Mat3 rotation() { return turn(direction(), uniform(-3, 3)).toRotationMatrix(); }
+  Mat3 rotation() {
+    const Vec3 axis = direction();
+    return turn(axis, uniform(-3, 3)).toRotationMatrix();
+  }
+  template <class T>
+  void shuffle(std::vector<T>& list) {
+    for (std::size_t i = list.size(); i > 1; --i) std::swap(list[i - 1], list[below(i)]);
+  }
 
-  /// 1 to `largest` modules; every second robot has modules of made-up types among them.
+  /// 1 to `largest` modules, numbered in any order but for the root; every second robot has modules of made-up types among
+  /// them.
   Robot robot(std::size_t largest = 10) { return robot_of(1 + below(largest)); }
   Robot robot_of(std::size_t count) {
     for (;;) {
@@ -63,8 +78,50 @@ class RandomRobots {
       const std::size_t on = below(2) == 1 ? 0 : count - 1;  // bodies that have mass
       t.faces.push_back({id, on, id < 3 ? Gender::active : Gender::passive, vector(0.1), R.col(0), R.col(1)});
     }
+    for (const std::size_t on : {count - 1, std::size_t{0}, count - 1}) {
+      t.all.push_back({on, vector(0.1), below(2) == 1 ? uniform(0.01, 0.05) : 0});
+    }
+    t.feet = {t.all.front()};
     return t;
   }
+
+  /// Motors of every kind, one a joint: from the shipped one's size to a hundredth of its torque, every third with a current
+  /// limit that it lives at, every second with a rotor; gears as printed or directional. Their back-EMF damps up to about as
+  /// much as the shipped one's (0.9 N m s). A directional gear damps more, so that an explicit method asks for the rate.
+  DcMotorActuator::Settings motors(std::size_t joints) {
+    DcMotorActuator::Settings m;
+    const auto each = [&](PerJoint& value, const auto& draw) {
+      value.each.clear();
+      for (std::size_t j = 0; j < joints; ++j) value.each.push_back(draw());
+    };
+    each(m.R, [&] { return uniform(4, 20); });
+    each(m.Kt, [&] { return scaled(0.002, 0.004); });
+    m.Ks = m.Kt;
+    each(m.gear, [&] { return scaled(60, 600); });
+    each(m.efficiency, [&] { return uniform(0.4, 0.75); });
+    each(m.u_max, [&] { return uniform(2, 12); });
+    each(m.i_max, [&] { return below(3) == 0 ? uniform(0.02, 0.2) : uniform(0.5, 3); });
+    each(m.rotor_inertia, [&] { return below(2) == 0 ? 0 : scaled(1e-10, 1e-8); });
+    m.efficiency_model = static_cast<int>(below(2));
+    m.turn_speed = scaled(0.3, 3);
+    return m;
+  }
+
+  /// Ground from soft to twice the default's stiffness, linear and not, with and without damping; friction viscous up to 10
+  /// mm/s (the default) and more. Damping exponents between 0 and 0.5 are left out: with them a depth that is nothing but
+  /// rounding makes a force.
+  PenaltyContact contact() {
+    PenaltyContact law;
+    law.k = below(3) == 0 ? uniform(1, 1.5) : 1;
+    law.kn = scaled(2e3, 2e4);
+    const std::size_t damping = below(5);
+    law.d = damping == 0 ? 0 : damping == 1 ? uniform(0.5, 1.5) : 1;
+    law.cd = damping == 0 ? scaled(1, 30) : damping == 2 ? 0 : scaled(1e3, 1e5);  // p^d, p being some mm
+    law.v_lim = scaled(0.01, 0.1);
+    return law;
+  }
+  /// Coulomb coefficient of a ground.
+  double friction() { return below(5) == 0 ? 0 : scaled(0.05, 3); }
 
   /// Angles within the stops, speeds up to 3 rad/s, base anywhere (planar: in its plane).
   RobotState state(const Robot& robot, Base base) {
@@ -110,15 +167,21 @@ class RandomRobots {
     return {name, mass, vector(0.05), R * moments * R.transpose(), {}};
   }
 
+  /// One module after the other is docked to any one before it, their numbers and rows being in no order.
   std::vector<Dock> docks(const std::vector<ModuleType>& types, const std::vector<std::size_t>& type_of) {
+    std::vector<std::size_t> number(type_of.size() - 1);
+    std::iota(number.begin(), number.end(), 1);
+    shuffle(number);
+    number.insert(number.begin(), 0);
     std::vector<Dock> rows;
     std::vector<std::vector<bool>> taken(type_of.size(), std::vector<bool>(6, false));
-    for (std::size_t child = 1; child < type_of.size(); ++child) {
+    for (std::size_t i = 1; i < number.size(); ++i) {
+      const std::size_t child = number[i];
       std::size_t parent = 0;
       std::size_t child_face = 0;
       std::size_t parent_face = 0;
       do {  // a module has six faces and takes one itself: there is always a free one
-        parent = below(child);
+        parent = number[below(i)];
         child_face = below(6);
         parent_face = (types[type_of[child]].faces[child_face].gender == Gender::active ? 3 : 0) + below(3);
       } while (taken[parent][parent_face]);
@@ -130,6 +193,7 @@ class RandomRobots {
                       static_cast<int>(below(4)),
                       {}});
     }
+    shuffle(rows);
     return rows;
   }
 

@@ -1,8 +1,7 @@
 // Engine `articulated` against engine `bullet`, against its own orders, and at the corners of the motor's law.
 #include <cmath>
 
-#include "fixture.h"
-#include "tests/random_robots.h"
+#include "random_scenario.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
@@ -103,6 +102,32 @@ trace: {{period: 5e-3, columns: ["*"]}}
     EXPECT_NEAR(a.worst.rate, b.worst.rate, 1e-6 * b.worst.rate);
     EXPECT_EQ(a.worst.source, b.worst.source);
   }
+}
+
+// Robots numbered in any order, motors at their limits and far below, grounds soft and stiff, rough and smooth.
+TEST(Engines, TraceRandomRobotsUnderTheSameMethod) {
+  RandomRobots random(71);
+  double worst = 0;
+  double rubbed = 0;
+  double stopped = 0;
+  double limited = 0;  // joints times their share of the time
+  for (std::size_t i = 0; i < 40; ++i) {
+    const Base base = std::array{Base::floating, Base::floating, Base::planar, Base::fixed}[i % 4];
+    Scenario s = random_run(random, base, 40, random.uniform(0.05, 0.2));
+    s.physics.integrator = 1;  // rk4
+    const RunRecord b = run(s);
+    s.physics.engine = catalog().engine("articulated");
+    s.physics.integrator = 2;  // rk4
+    const RunRecord a = run(s);
+    worst = std::max(worst, difference(a.trace, b.trace));
+    rubbed += a.ledger.friction;
+    stopped += std::abs(a.ledger.stops);
+    for (const JointFigures& joint : a.joints) limited += joint.saturated_current;
+  }
+  EXPECT_GT(rubbed, 0.1) << "J";
+  EXPECT_GT(stopped, 0.1) << "J";
+  EXPECT_GT(limited, 3) << "joints, all the time";
+  EXPECT_LT(worst, 1e-9) << "rounding times the condition of M, 1e-16 * 1e5, which 400 steps multiply by up to a hundred";
 }
 
 TEST(Engines, JudgeAnExplicitStepAlike) {

@@ -32,7 +32,9 @@ TEST(Urdf, HasOurMassesInertiasAndJointOrigins) {
   RandomRobots random(31);
   double worst = 0;
   for (int i = 0; i < 30; ++i) {
-    const Scenario s = random_scenario(random, Base::floating);
+    Scenario s = random_scenario(random, Base::floating);
+    add_motors(random, s);
+    const auto& motors = *static_cast<const DcMotorActuator::Settings*>(s.actuator.settings.get());
     const Robot& robot = *s.robot;
     const auto model = urdf::parseURDF(to_urdf(s));
     ASSERT_NE(model, nullptr);
@@ -56,13 +58,20 @@ TEST(Urdf, HasOurMassesInertiasAndJointOrigins) {
       const Pose com = Pose{k.R[body.link], k.p[body.link]} * body.in_link * Pose{Mat3::Identity(), type.com};
       worst = std::max(worst, difference(frame(*link) * pose(in.origin), com));
     }
-    for (const Joint& joint : robot.joints) {
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+      const Joint& joint = robot.joints[j];
       const urdf::Joint& read = *model->getJoint(joint.name);
       const urdf::Link& child = *model->getLink(read.child_link_name);
       worst = std::max(worst, difference(frame(child), {k.R[joint.link], k.p[joint.link]}));
       EXPECT_EQ(Vec3(read.axis.x, read.axis.y, read.axis.z), robot.links[joint.link].axis);
       EXPECT_EQ(read.limits->lower, joint.lo);
       EXPECT_EQ(read.limits->upper, joint.hi);
+      const double back_emf = motors.Ks[j] * motors.gear[j];
+      EXPECT_NEAR(read.limits->velocity, motors.u_max[j] / back_emf, 1e-13 * read.limits->velocity) << joint.name;
+      const double current = std::min(motors.i_max[j], motors.u_max[j] / motors.R[j]);
+      const double eta = motors.efficiency_model == 0 ? motors.efficiency[j] : 1;  // at rest nothing is lost yet
+      EXPECT_NEAR(read.limits->effort, eta * motors.Kt[j] * motors.gear[j] * current, 1e-13 * read.limits->effort)
+          << joint.name;
     }
   }
   validate_below({"format.urdf",
