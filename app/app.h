@@ -28,6 +28,8 @@ struct ScenarioArguments {
 
 /// Reads it with --set and --seed applied; prints its notes on stderr unless quiet.
 Scenario read(const ScenarioArguments& arguments, Catalog& catalog);
+/// Prints on stderr that part of the robot starts below the ground, where it does.
+void warn_of_start(const Scenario& scenario);
 
 struct RunArguments : ScenarioArguments {
   std::optional<std::string> out;

@@ -2,6 +2,7 @@
 
 #include "app/app.h"
 #include "core/simulation/simulation.h"
+#include "core/simulation/start.h"
 
 namespace gaitlab::app {
 
@@ -25,6 +26,11 @@ int check(const ScenarioArguments& arguments) {
              s.physics.engine->integrators[static_cast<std::size_t>(s.physics.integrator)], s.physics.step,
              rate > 0 ? fmt::format("h lambda = {:.2f} standing (at most 1)", s.physics.step * rate)
                       : "no limit on the step: nothing damps, or implicitly");
+  const Vec3 start = start_state(s).position;
+  fmt::print("  base frame at [{:.4g}, {:.4g}, {:.4g}] m at the start: {}\n", start.x(), start.y(), start.z(),
+             s.ground.kind == Ground::Kind::none ? "there is no ground"
+             : s.on_ground                       ? "lowered onto the ground"
+                                                 : "position gives the height, on_ground is off");
   fmt::print("  cpg {}, controller {}, actuator {}, {} contact elements\n", name_of(s.cpg), name_of(s.controller),
              name_of(s.actuator), contacts.size());
   for (const PluginFile& plugin : s.plugins) fmt::print("  plugin {} ({})\n", plugin.path, plugin.hash);
@@ -32,6 +38,7 @@ int check(const ScenarioArguments& arguments) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     fmt::print("  {:5}  {:<16} {:+.4f} {:+.4f}\n", j, robot.joints[j].name, robot.joints[j].lo, robot.joints[j].hi);
   }
+  warn_of_start(s);
   return 0;
 }
 

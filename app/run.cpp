@@ -83,8 +83,9 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
     fmt::print("{}  {:<13} {}: trace.{}, summary.json, scenario.resolved.yaml, figure.svg\n",
                to_text(summary, scenario, record), "files", folder.path().string(), arguments.format);
   }
-  for (const std::string& posture : posture_warnings(scenario, record))
-    fmt::print(stderr, "{}: warning: {}\n", scenario.file, posture);
+  warn_of_start(scenario);
+  if (const std::string fall = fall_warning(scenario, record); !fall.empty())
+    fmt::print(stderr, "{}: warning: {}\n", scenario.file, fall);
   const std::string warning = stability_warning(summary, scenario, record);
   if (!warning.empty()) fmt::print(stderr, "{}: warning: {}\n", to_string(scenario.place("physics.step")), warning);
   if (failure.empty()) return 0;

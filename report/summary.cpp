@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/scenario/value.h"
+#include "core/simulation/start.h"
 #include "core/simulation/step_advice.h"
 #include "report/build_id.h"
 
@@ -231,29 +233,44 @@ std::string to_text(const Summary& s, const Scenario& scenario, const RunRecord&
   return text;
 }
 
-std::vector<std::string> posture_warnings(const Scenario& scenario, const RunRecord& r) {
-  std::vector<std::string> warnings;
-  const Ground::Kind ground = scenario.ground.kind;
-  // A field's height says nothing about how high the robot stands above it.
-  if (ground == Ground::Kind::none || ground == Ground::Kind::heightfield || r.poses.empty()) return warnings;
+namespace {
+
+/// A field's height says nothing about how high the robot stands above it.
+bool has_height(const Ground& ground) { return ground.kind == Ground::Kind::plane || ground.kind == Ground::Kind::boxes; }
+
+}  // namespace
+
+std::string start_warning(const Scenario& scenario) {
+  if (!has_height(scenario.ground)) return "";
+  const RobotState start = start_state(scenario);
+  Kinematics k(*scenario.robot);
+  k.update(*scenario.robot, start);
+  constexpr double kSunk = 1e-3;  // m
+  const double lowest = lowest_point(*scenario.robot, k, {});
+  if (lowest >= -kSunk) return "";
+  const std::string deep = fmt::format("the robot starts {:.3g} m deep in the ground: ", -lowest);
+  if (!scenario.on_ground) {
+    return deep + fmt::format(
+                      "on_ground is off (a position of three numbers turns it off) and the base frame starts at z = {} m; "
+                      "position: [{}, {}] lowers the robot onto the ground there",
+                      number_text(start.position.z()), number_text(start.position.x()), number_text(start.position.y()));
+  }
+  return deep + fmt::format("only the elements of contact.on: {} touch it; is it upside down?",
+                            scenario.contact.on == static_cast<int>(ContactSet::feet) ? "feet" : "none");
+}
+
+std::string fall_warning(const Scenario& scenario, const RunRecord& r) {
+  if (!has_height(scenario.ground) || r.poses.empty() || scenario.base != Base::floating) return "";
   const Robot& robot = *scenario.robot;
   Kinematics k(robot);
   k.update(robot, r.state(robot, 0));
-  constexpr double kSunk = 1e-3;  // m
-  const double lowest = lowest_point(robot, k, {});
-  if (lowest < -kSunk) {
-    warnings.push_back(fmt::format(
-        "the robot starts {:.3g} m deep in the ground: only the elements of contact.on: {} touch it; is it upside down?",
-        -lowest, scenario.contact.on == static_cast<int>(ContactSet::feet) ? "feet" : "none"));
-  }
   const double start = sums(robot, k, Vec3::Zero()).com.z();
-  for (std::size_t tick = 0; start > 0 && scenario.base == Base::floating && tick < r.com_z.size(); ++tick) {
+  for (std::size_t tick = 0; start > 0 && tick < r.com_z.size(); ++tick) {
     if (r.com_z[tick] > 0.5 * start) continue;
-    warnings.push_back(fmt::format("it fell: at t = {:.2f} s the centre of mass is at {:.3f} m, from {:.3f} m at the start",
-                                   static_cast<double>(tick) * scenario.trace.period, r.com_z[tick], start));
-    break;
+    return fmt::format("it fell: at t = {:.2f} s the centre of mass is at {:.3f} m, from {:.3f} m at the start",
+                       static_cast<double>(tick) * scenario.trace.period, r.com_z[tick], start);
   }
-  return warnings;
+  return "";
 }
 
 std::string stability_warning(const Summary& s, const Scenario& scenario, const RunRecord& r) {

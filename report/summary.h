@@ -33,9 +33,12 @@ std::string to_json(const Summary& summary, const Scenario& scenario, const RunR
 /// What `gaitlab run` prints.
 std::string to_text(const Summary& summary, const Scenario& scenario, const RunRecord& record);
 
-/// Warnings about how the robot stood, one sentence each: part of it started below the ground because only contact elements
-/// touch it; it fell (the centre of mass came below half its height at the start).
-std::vector<std::string> posture_warnings(const Scenario& scenario, const RunRecord& record);
+/// The warning about a part of the robot that starts below the ground, or "": its height was given, or only contact elements
+/// touch the ground.
+std::string start_warning(const Scenario& scenario);
+
+/// The warning about a robot that fell (the centre of mass came below half its height at the start), or "".
+std::string fall_warning(const Scenario& scenario, const RunRecord& record);
 
 /// The warning about a step that was too long for more than 1 % of the control ticks, or "".
 std::string stability_warning(const Summary& summary, const Scenario& scenario, const RunRecord& record);

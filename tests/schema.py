@@ -98,6 +98,8 @@ SHORT = HEAD + "duration: 1\n"
 RIGHT = [
     SHORT,
     "robot: {}\nduration: 0.1\n",
+    "robot: {position: [1, 2]}\nduration: 0.1\n",
+    "robot: {position: [1, 2, 3]}\nduration: 0.1\n",
     SHORT + "name: 8\n",
     SHORT + "cpg: {}\n",
     SHORT + "cpg: {amplitude: 0.3, model: {coupling: 2}}\n",
@@ -152,6 +154,8 @@ WRONG = [
     SHORT + "sensors: [imu]\n",
     SHORT + "plugins: ./a.so\n",
     "robot: {modules: mtran, on_ground: 1}\nduration: 1\n",
+    "robot: {modules: mtran, position: [1]}\nduration: 1\n",
+    "robot: {modules: mtran, position: [1, 2, 3, 4]}\nduration: 1\n",
     "robot: {modules: mtran, docks: [[1, 1, 4, 0]]}\nduration: 1\n",
     "robot: {modules: {zero: mtran}}\nduration: 1\n",
     "robot: {modules: {name: one, bodies: {b: {mas: 1}}}}\nduration: 1\n",

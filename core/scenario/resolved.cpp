@@ -23,7 +23,8 @@ Node plugins_node(const std::vector<PluginFile>& files) {
 Node robot_node(Scenario& scenario, const std::vector<std::string>& joints) {
   Writer writer(joints);
   for (auto& [key, node] : robot_nodes(*scenario.robot, scenario.module_documents)) writer.add(key, std::move(node));
-  BaseFields{scenario, !scenario.on_ground}.fields(writer);
+  const bool placed = !scenario.on_ground || scenario.position != Vec3::Zero();
+  BaseFields{scenario, placed}.fields(writer);
   return writer.take();
 }
 

@@ -141,19 +141,26 @@ class ScenarioReader {
     Reader reader(*node, "robot", problems_, nullptr);
     if (node->kind != Node::Kind::map) return;
     RobotParts parts = read_robot(reader, node->place, folder_, problems_);
-    BaseFields{scenario_}.fields(reader);
+    BaseFields base{scenario_};
+    base.fields(reader);
     reader.finish();
-    if (const Node* position = node->find("position")) {
-      const Node* on_ground = node->find("on_ground");
-      if (on_ground != nullptr && scenario_.on_ground) {
-        problems_.add(position->place, "robot has a position and on_ground: true; expected one of them")
-            .notes.emplace_back(on_ground->place, "on_ground is here");
-      }
-      scenario_.on_ground = false;
-    }
+    const bool counted = base.numbers == 2 || base.numbers == 3;
+    const Node* position = node->find("position");
+    if (position != nullptr && counted) check_height(*position, base.numbers == 3, node->find("on_ground"));
     scenario_.robot = std::move(parts.robot);
     scenario_.module_documents = std::move(parts.documents);
     if (scenario_.robot) joints_ = joint_names(*scenario_.robot);
+  }
+
+  /// A height and on_ground exclude one another; whoever gives a height need not turn on_ground off.
+  void check_height(const Node& position, bool given, const Node* on_ground) {
+    if (on_ground != nullptr && scenario_.on_ground == given) {
+      problems_
+          .add(position.place, given ? "position has a height and on_ground is true; expected [x, y], or no on_ground"
+                                     : "position has no height and on_ground is false; expected [x, y, z], or no on_ground")
+          .notes.emplace_back(on_ground->place, "on_ground is here");
+    }
+    scenario_.on_ground = !given;
   }
 
   void read_sections() {

@@ -61,8 +61,8 @@ struct Scenario {
   std::shared_ptr<const Robot> robot;
   std::vector<Node> module_documents;  ///< one a Robot::types entry, as read (for the resolved scenario)
   Base base = Base::floating;
-  bool on_ground = true;            ///< false: `position` holds
-  Vec3 position = Vec3::Zero();     ///< of the base frame, m
+  bool on_ground = true;            ///< lowered onto the ground at x, y; false: at `position`
+  Vec3 position = Vec3::Zero();     ///< of the base frame, m; z: 0 where on_ground
   Vec3 orientation = Vec3::Zero();  ///< roll pitch yaw, rad
   Initial initial;
   Physics physics;

@@ -155,6 +155,8 @@ Json robot_section() {
   BaseFields{scenario}.fields(base);
   Json properties = Json::parse(kRobot);
   properties.update(base.properties());
+  properties["position"]["minItems"] = 2;
+  properties["position"]["maxItems"] = 3;
   Json robot = object_schema(std::move(properties));
   robot["description"] = "The robot; required.";
   return robot;

@@ -1,5 +1,7 @@
 #include "core/scenario/sections.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -52,9 +54,24 @@ void BaseFields::fields(Fields& f) {
   int base = static_cast<int>(scenario.base);
   f.choice("base", base, kBases, "floating; fixed; planar: world x, world z and rotation about world y.");
   scenario.base = static_cast<Base>(base);
-  f.flag("on_ground", scenario.on_ground, "The lowest point starts on the ground; else `position` holds.");
+  f.flag("on_ground", scenario.on_ground,
+         "Whether the robot is lowered onto the ground until its first contact element touches; false where `position` has a "
+         "height.");
   if (with_position) {
-    f.vector("position", span_of(scenario.position), {"m", -1e6, 1e6, "Start of the base frame's origin, world."});
+    std::vector<double> position{scenario.position.x(), scenario.position.y()};
+    if (!scenario.on_ground) position.push_back(scenario.position.z());
+    f.numbers("position", position,
+              {"m", -1e6, 1e6,
+               "Start of the base frame's origin, world: [x, y], where on_ground sets the height, or [x, y, z], which turns "
+               "on_ground off."});
+    numbers = position.size();
+    if (numbers == 2 || numbers == 3) {
+      scenario.position = {position[0], position[1], numbers == 3 ? position[2] : 0};
+    } else {
+      f.problem("position", fmt::format("position has {} number{}; expected [x, y] (on_ground gives the height) or [x, y, z] "
+                                        "(on_ground is off)",
+                                        numbers, numbers == 1 ? "" : "s"));
+    }
   }
   f.vector("orientation", span_of(scenario.orientation), {"rad", -100, 100, "Start of the base frame: roll, pitch, yaw."});
 }

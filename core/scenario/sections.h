@@ -11,7 +11,8 @@ namespace gaitlab {
 /// The robot's keys on how it stands.
 struct BaseFields {
   Scenario& scenario;
-  bool with_position = true;  ///< writing: only where it holds
+  bool with_position = true;  ///< writing: only where it says something
+  std::size_t numbers = 2;    ///< out: of the position
   void fields(Fields& f);
 };
 

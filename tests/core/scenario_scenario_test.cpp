@@ -152,9 +152,45 @@ TEST_F(ScenarioTest, WhereTheBaseStands) {
   EXPECT_EQ(s.position.z(), 1.2);
   expect_stable(s);
   EXPECT_TRUE(read("robot: {modules: duo, base: planar, on_ground: true}\nduration: 1\n").on_ground);
+}
+
+TEST_F(ScenarioTest, APositionOfTwoNumbersKeepsOnGround) {
+  for (const char* on_ground : {"", ", on_ground: true"}) {
+    const Scenario s = read(std::string("robot: {modules: duo, position: [0.5, -2]") + on_ground + "}\nduration: 1\n");
+    EXPECT_TRUE(s.on_ground);
+    EXPECT_EQ(s.position, Vec3(0.5, -2, 0));
+    expect_stable(s);
+    EXPECT_NE(resolved(s).find("\n  on_ground: true\n  position: [0.5, -2]\n"), std::string::npos) << resolved(s);
+  }
+  const Scenario high = read("robot: {modules: duo, position: [0.5, -2, 3], on_ground: false}\nduration: 1\n");
+  EXPECT_FALSE(high.on_ground);
+  EXPECT_EQ(high.position, Vec3(0.5, -2, 3));
+  EXPECT_NE(resolved(high).find("\n  on_ground: false\n  position: [0.5, -2, 3]\n"), std::string::npos);
+  // At the origin, as without: nothing to write.
+  const Scenario origin = read("robot: {modules: duo, position: [0, 0]}\nduration: 1\n");
+  EXPECT_TRUE(origin.on_ground);
+  EXPECT_EQ(resolved(origin), resolved(read("robot: {modules: duo}\nduration: 1\n")));
+  EXPECT_EQ(read("robot: {modules: duo, on_ground: false}\nduration: 1\n").position, Vec3(0, 0, 0));
+}
+
+TEST_F(ScenarioTest, ErrorsOfAPositionNameBothForms) {
   EXPECT_EQ(error("robot: {modules: duo, on_ground: true, position: [0, 0, 1]}\nduration: 1\n"),
-            "DIR/s.yaml:1:50: error: robot has a position and on_ground: true; expected one of them\n"
+            "DIR/s.yaml:1:50: error: position has a height and on_ground is true; expected [x, y], or no on_ground\n"
             "DIR/s.yaml:1:34: note: on_ground is here");
+  EXPECT_EQ(error("robot: {modules: duo, on_ground: false, position: [0, 1]}\nduration: 1\n"),
+            "DIR/s.yaml:1:51: error: position has no height and on_ground is false; expected [x, y, z], or no on_ground\n"
+            "DIR/s.yaml:1:34: note: on_ground is here");
+  const std::string forms = "; expected [x, y] (on_ground gives the height) or [x, y, z] (on_ground is off)";
+  EXPECT_EQ(error("robot: {modules: duo, position: []}\nduration: 1\n"),
+            "DIR/s.yaml:1:33: error: position has 0 numbers" + forms);
+  EXPECT_EQ(error("robot: {modules: duo, position: [1]}\nduration: 1\n"),
+            "DIR/s.yaml:1:33: error: position has 1 number" + forms);
+  EXPECT_EQ(error("robot: {modules: duo, on_ground: false, position: [1, 2, 3, 4]}\nduration: 1\n"),
+            "DIR/s.yaml:1:51: error: position has 4 numbers" + forms);
+  EXPECT_EQ(error("robot: {modules: duo, position: 3}\nduration: 1\n"),
+            "DIR/s.yaml:1:33: error: position is 3; expected a list of numbers in m");
+  EXPECT_EQ(error("robot: {modules: duo, position: [0, far]}\nduration: 1\n"),
+            "DIR/s.yaml:1:37: error: position[1] is 'far'; expected a number in m");
 }
 
 TEST_F(ScenarioTest, PeriodsAreWholeMultiples) {

@@ -113,6 +113,62 @@ physics: {{engine: {}, step: 2.5e-5, gravity: [3, 0, -9.81]}}
            "the same");
 }
 
+TEST(GroundStart, LowersTheRobotAtItsPlace) {
+  const auto start = [](const std::string& ground, const std::string& position) {
+    return start_state(scenario("gaitlab: 1\nrobot: {modules: mtran, position: " + position +
+                                "}\ncontact: {on: all}\nground: " + ground + "\nduration: 1\n"))
+        .position;
+  };
+  const std::string box = "{type: boxes, boxes: [{center: [3, -1, 0.05], size: [1, 1, 0.1]}]}";
+  EXPECT_EQ(start("{type: plane}", "[3, -1]").head<2>(), Vec3(3, -1, 0).head<2>());
+  EXPECT_NEAR(start("{type: plane}", "[3, -1]").z(), 0.0325, 1e-12);
+  EXPECT_NEAR(start(box, "[3, -1]").z(), 0.1325, 1e-12);
+  EXPECT_NEAR(start(box, "[3.3, -0.8]").z(), 0.1325, 1e-12);
+  EXPECT_NEAR(start(box, "[0, 0]").z(), 0.0325, 1e-12);
+  EXPECT_EQ(start(box, "[3, -1, 0.7]"), Vec3(3, -1, 0.7));
+  EXPECT_EQ(start("{type: none}", "[3, -1]"), Vec3(3, -1, 0));
+  // A field that rises to the front by 0.1 a metre: the foremost points touch first.
+  const std::string row = "[0, 0.1, 0.2, 0.3]";
+  const std::string field =
+      "{type: heightfield, heightfield: {values: [" + row + ", " + row + ", " + row + "], origin: [0, -1, 0], spacing: 1}}";
+  for (const double x : {0.5, 1.2, 2.4}) {
+    EXPECT_NEAR(start(field, fmt::format("[{}, 0.3]", x)).z(), 0.1 * (x + 0.065) + 0.0325, 1e-12) << x;
+  }
+}
+
+TEST(GroundStart, SaysWhyTheRobotIsDeepInTheGround) {
+  const Folder folder;
+  std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
+  std::filesystem::create_directory_symlink(kScenarios + "robots", folder / "robots");
+  const auto stands = [&](const std::string& start) {
+    folder.write("s.yaml", "gaitlab: 1\nrobot: {modules: mtran, build: robots/hexapod.dat" + start + "}\nduration: 0.015\n");
+    const Result check = gaitlab("check s.yaml", folder / "");
+    std::filesystem::remove_all(folder / "runs");
+    const Result run = gaitlab("run s.yaml --quiet", folder / "");
+    EXPECT_EQ(check.code, 0) << check.err;
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.err.substr(0, check.err.size()), check.err);
+    return check;
+  };
+  const Result deep = stands(", position: [0.5, 0.25, 0]");
+  EXPECT_EQ(
+      deep.err,
+      "s.yaml:2:62: warning: the robot starts 0.0975 m deep in the ground: on_ground is off (a position of three numbers "
+      "turns it off) and the base frame starts at z = 0 m; position: [0.5, 0.25] lowers the robot onto the ground there\n");
+  EXPECT_NE(deep.out.find("  base frame at [0.5, 0.25, 0] m at the start: position gives the height, on_ground is off\n"),
+            std::string::npos)
+      << deep.out;
+  const Result lowered = stands(", position: [0.5, 0.25]");
+  EXPECT_EQ(lowered.err, "");
+  EXPECT_NE(lowered.out.find("  base frame at [0.5, 0.25, 0.0975] m at the start: lowered onto the ground\n"),
+            std::string::npos)
+      << lowered.out;
+  EXPECT_EQ(
+      stands(", orientation: [3.141592653589793, 0, 0]").err,
+      "s.yaml: warning: the robot starts 0.13 m deep in the ground: only the elements of contact.on: feet touch it; is it "
+      "upside down?\n");
+}
+
 TEST(GroundStart, LowersTheRobotOntoWhatIsBelow) {
   const auto height = [](const std::string& ground, const std::string& more = "") {
     return start_state(scenario("gaitlab: 1\nrobot: {modules: mtran" + more + "}\ncontact: {on: all}\nground: " + ground +
