@@ -157,6 +157,29 @@ TEST(Oracle, PidByHand) {
   EXPECT_EQ(pid(-1), -7.5);
 }
 
+TEST(Oracle, PidSumsAreThePidByHand) {
+  // As above, without a limit; then with one of 1, beyond which the commands of the first and the last but one tick are:
+  //   e     P     I                 u
+  //   1     2     0                 2      held
+  //  -1/4  -1/2   0                -1/2
+  //  -2    -4     -1/8             -33/8   held
+  //   3     6     -1/8              47/8   held
+  //  -1    -2     -1/8             -17/8
+  PidSums pid(2, 4, 1, 8, 0.125, 1e9);
+  EXPECT_EQ(pid(1), 2);
+  EXPECT_EQ(pid(0.5), -0.5);
+  EXPECT_EQ(pid(0.5), 0.75);
+  EXPECT_EQ(pid(-1), -7.5);
+  PidSums limited(2, 4, 0, 8, 0.125, 1);
+  EXPECT_EQ(limited(1), 2);
+  EXPECT_EQ(limited(-0.25), -0.5);
+  EXPECT_EQ(limited(-2), -4.125);
+  EXPECT_EQ(limited(3), 5.875);
+  EXPECT_EQ(limited(-1), -2.125);
+  EXPECT_TRUE(limited.held(0));
+  EXPECT_FALSE(limited.held(1));
+}
+
 TEST(Oracle, PhasePairObeysItsEquation) {
   const PhasePair pair{2, 1.2};
   EXPECT_NEAR(pair.lag(0), 0, 1e-15);

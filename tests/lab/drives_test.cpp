@@ -134,6 +134,36 @@ trace: {period: 0.015, columns: [joint.*]}
                  worst, 1e-13, "rounding of 200 sums of numbers of 1");
 }
 
+TEST(PidLoop, DoesNotWindUp) {
+  // A supply of 1 V: the command is beyond it for most of the time, also where the error changes its sign.
+  const RunRecord record = run(scenario(flywheel("[0, 0, -0.1]") + R"(
+physics: {integrator: semi_implicit, step: 1e-3}
+actuator: {u_max: 1}
+controller: {type: pid, period: 0.015, Kp: 50, Ki: 300, Kd: 0.2, N: 20}
+cpg: {type: sine, frequency: 3, amplitude: 0.5, model: {ramp: 0.1}}
+duration: 3
+trace: {period: 0.015, columns: [joint.*]}
+)"));
+  oracle::PidSums pid(50, 300, 0.2, 20, 0.015, 1);
+  const Table table(record.trace);
+  double worst = 0;
+  int held = 0;
+  int turned = 0;
+  double before = 0;
+  for (std::size_t row = 0; row + 1 < record.trace.rows(); ++row) {
+    const double error = table.at(row + 1, "joint.0.setpoint") - table.at(row, "joint.0.angle");
+    worst = std::max(worst, std::abs(table.at(row + 1, "joint.0.voltage_command") - pid(error)));
+    if (row > 0 && pid.held(row - 1)) {
+      ++held;
+      turned += before * error < 0 ? 1 : 0;
+    }
+    before = error;
+  }
+  EXPECT_GT(held, 20);
+  EXPECT_GT(turned, 2);
+  EXPECT_LT(worst, 1e-12) << "rounding of 200 sums of numbers of 30";
+}
+
 TEST(PhaseChain, LocksAsAdlersEquationSays) {
   // Joint 1 follows joint 0, which is faster by 0.6 Hz; weight 5/s.
   const std::string mtran = R"(

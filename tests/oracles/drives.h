@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace gaitlab::oracle {
 
@@ -56,6 +57,36 @@ class TextbookPid {
  private:
   double kp_, ki_, kd_, n_, ts_, i_ = 0, d_ = 0, e_ = 0;
   int ticks_ = 0;
+};
+
+/// Eq. 3-6 solved for the command, one joint: u_k = Kp e_k + Ki Ts sum e_i + Kd N / (Kd + N Ts) sum r^(k-i) (e_i - e_(i-1)),
+/// r = Kd / (Kd + N Ts), sums over i < k and 1 <= i <= k; of the first one, without the ticks i at which the command was beyond
+/// `limit` on the error's side.
+class PidSums {
+ public:
+  PidSums(double kp, double ki, double kd, double n, double ts, double limit)
+      : kp_(kp), ki_(ki), kd_(kd), n_(n), ts_(ts), limit_(limit) {}
+
+  double operator()(double e) {
+    const double r = kd_ / (kd_ + n_ * ts_);
+    double integral = 0;
+    double derivative = 0;
+    for (std::size_t i = 0; i < e_.size(); ++i) {
+      if (!held(i)) integral += e_[i];
+      derivative += std::pow(r, static_cast<double>(e_.size() - 1 - i)) * ((i + 1 < e_.size() ? e_[i + 1] : e) - e_[i]);
+    }
+    e_.push_back(e);
+    u_.push_back(kp_ * e + ki_ * ts_ * integral + n_ * r * derivative);
+    return u_.back();
+  }
+  /// Whether tick i adds nothing to the integral.
+  [[nodiscard]] bool held(std::size_t i) const {
+    return std::fabs(u_[i]) > limit_ && std::signbit(u_[i]) == std::signbit(e_[i]);
+  }
+
+ private:
+  double kp_, ki_, kd_, n_, ts_, limit_;
+  std::vector<double> e_, u_;
 };
 
 /// An oscillator that follows another one of frequency higher by `detuning` (rad/s, below the weight w): the lag x behind the
