@@ -1,5 +1,5 @@
 // The energy ledger: what every step applied must explain where the energy went, but for the integration's own error.
-#include "fixture.h"
+#include "engines.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
@@ -44,20 +44,23 @@ TEST(Ledger, DirectionalGearsCreateNothing) {
                  std::abs(directional.ledger.residual()) / electrical, 0.005, "required by the issue: 0.5 %");
 }
 
+class LedgerIn : public EveryEngine {};
+INSTANTIATE_TEST_SUITE_P(Engines, LedgerIn, engines(), engine_name);
+
 // No motor: what was kinetic and potential energy goes into stops, ground and friction.
-TEST(Ledger, ExplainsAThrownRobot) {
+TEST_P(LedgerIn, ExplainsAThrownRobot) {
   const auto thrown = [](double step) {
     return ledger(scenario(fmt::format(R"(
 gaitlab: 1
 robot: {{modules: mtran, build: robots/caterpillar-8.dat}}
 initial: {{base_velocity: [0.6, 0.3, 0], angles: 1.4, speeds: 3}}
-physics: {{step: {}}}
+physics: {{engine: {}, step: {}}}
 contact: {{on: all}}
 actuator: {{type: none}}
 duration: 0.3
 trace: {{period: 0.01, columns: [energy.*]}}
 )",
-                                       step)));
+                                       GetParam(), step)));
   };
   const Ledger coarse = thrown(2e-5);
   const Ledger fine = thrown(1e-5);
@@ -66,6 +69,39 @@ trace: {{period: 0.01, columns: [energy.*]}}
   for (const double work : {coarse.contact, coarse.friction, coarse.stops}) EXPECT_GT(work, 0.01);
   EXPECT_LT(std::abs(coarse.residual()), 0.01 * -coarse.stored);
   EXPECT_LT(std::abs(fine.residual()), 0.7 * std::abs(coarse.residual()));
+}
+
+// A hinge that swings against its stop and back, thrice: what the stop takes is what is missing, and nothing else acts.
+TEST_P(LedgerIn, BooksWhatAStopTakes) {
+  const RunRecord record = run(scenario(fmt::format(R"(
+gaitlab: 1
+robot:
+  base: fixed
+  position: [0, 0, 1]
+  modules:
+    name: gate
+    bodies:
+      post: {{mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}
+      wing: {{mass: 1, inertia: [0.05, 0.05, 0.05, 0, 0, 0]}}
+    hinges: [{{name: pin, parent: post, child: wing, axis: [0, 1, 0], range: [-0.2, 0.2]}}]
+initial: {{speeds: 2}}
+ground: {{type: none}}
+contact: {{on: none}}
+actuator: {{type: none}}
+physics: {{engine: {}, step: 2e-5}}
+duration: 1
+trace: {{period: 0.01, columns: [energy.*, joint.*]}}
+)",
+                                                    GetParam())));
+  const Table table(record.trace);
+  const std::size_t last = record.trace.rows() - 1;
+  const double kinetic = 0.5 * 0.05 * 2 * 2;
+  const double left = 0.5 * 0.05 * std::pow(table.at(last, "joint.0.speed"), 2);
+  // A stop of 50 N m/rad and 0.5 N m s/rad throws 0.05 kg m^2 back with 0.6 of its speed and less.
+  EXPECT_LT(left, 0.2 * kinetic);
+  EXPECT_LT(std::abs(table.at(last, "joint.0.angle")), 0.2) << "between the stops, whose springs hold nothing";
+  EXPECT_NEAR(record.ledger.stops, kinetic - left, 1e-3 * kinetic) << "order 1: h times the stop's 30/s, and as much again";
+  EXPECT_LT(std::abs(record.ledger.residual()), 1e-3 * kinetic);
 }
 
 TEST(Ledger, RowsAndSummaryHoldTheSameSums) {
