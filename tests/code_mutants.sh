@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Whether the tests notice wrong physics: ten defects, one at a time, put into a copy of the tree; each must turn a test red.
+# Whether the tests notice wrong physics: nineteen defects, one at a time, put into a copy of the tree; each must turn a test red.
 # usage: tests/code_mutants.sh [CLONE]     (CLONE: a scratch clone with a finished build/release, which is edited and put back;
 # default: a copy of this tree, which takes a full build more)
 set -euo pipefail
@@ -64,4 +64,18 @@ mutant "PID: the derivative forgets" controllers/pid.cpp 's/\(kd \* derivative \
 mutant "Runge-Kutta: equal weights" core/simulation/integrator.h 's/kWeight\{1\.0 \/ 6, 1\.0 \/ 3, 1\.0 \/ 3, 1\.0 \/ 6\}/kWeight{0.25, 0.25, 0.25, 0.25}/'
 mutant "no gravity on one link" physics_bullet/multibody.cpp 's/robot_\.links\[i\]\.mass \* gravity/(i == 1 ? 0.0 : robot_.links[i].mass) * gravity/'
 mutant "efficiency twice" core/laws/dc_motor.h 's/return \{share\.eta \* Kt/return {share.eta * share.eta * Kt/'
+mutant "anti-windup looks at this tick's error" controllers/pid.cpp 's/last_error \* last_command > 0/error * last_command > 0/'
+mutant "PID: the derivative comes a tick late" controllers/pid.cpp \
+  's/derivative = kd == 0/const double late = derivative; derivative = kd == 0/; s/integral \+ derivative;/integral + late;/'
+mutant "docking: orientations 2 and 3 exchanged" core/model/assembly.cpp 's/\{0, 1\}, \{-1, 0\}, \{0, -1\}/{0, 1}, {0, -1}, {-1, 0}/'
+mutant "CPG: nothing couples the last joint" cpg/phase_oscillator.cpp \
+  's/const double weight = s_\.model/const double weight = to + 1 == joints_ ? 0.0 : s_.model/'
+mutant "legs: found in the order of numbers" core/plugin/legs.h 's/std::reverse\(order\.begin\(\) \+ first, order\.end\(\)\)/static_cast<void>(first)/'
+mutant "articulated: no Coriolis term in the recursion" physics_articulated/body.h 's/p \+= I \* l\.c;//'
+mutant "articulated: the bias in contacts' resistances is the base's" physics_articulated/body.h \
+  's/l\.bias = parent\.bias \+ l\.c;/l.bias = parent.bias;/'
+mutant "articulated: friction's slope along the slip drives" physics_articulated/contacts.h \
+  's/add_square\(-h \* gt, along\)/add_square(h * gt, along)/'
+mutant "articulated: the ledger gains what stops take" physics_articulated/stepper.h \
+  's/part_\.stops = part_\.stops - dt/part_.stops = part_.stops + dt/'
 exit "$bad"
