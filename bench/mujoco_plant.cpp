@@ -121,7 +121,7 @@ class MujocoPlant final : public Plant {
   }
 
   [[nodiscard]] std::size_t lanes() const override { return 1; }
-  void bind(Out numbers) override { numbers_ = numbers; }
+  void bind(Out numbers, Out) override { numbers_ = numbers; }
 
   void advance(In command, double h) override {
     read();
@@ -130,6 +130,7 @@ class MujocoPlant final : public Plant {
     if (settings_.actuator != nullptr) drive(command, h);
     mj_step(model_.get(), data_.get());
     write();
+    part_.set(torque_, speed_, In(numbers_).subspan(layout_.angles(), joints_), h);
     // MuJoCo starts anew after what it takes for divergence: a run must not go on from there.
     for (const int bad : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
       if (data_->warning[bad].number > 0) numbers_[0] = std::numeric_limits<double>::quiet_NaN();
@@ -137,7 +138,7 @@ class MujocoPlant final : public Plant {
   }
 
   [[nodiscard]] Applied applied() const override {
-    return {torque_, speed_, {works_.data(), 1}, {works_.data(), 1}, {works_.data(), 1}};
+    return part_.applied(works_);
   }
 
   [[nodiscard]] std::optional<Vec3> com(std::size_t) const override { return {}; }
@@ -248,7 +249,8 @@ class MujocoPlant final : public Plant {
   std::vector<int> dof_, q_;          // of a joint
   std::vector<std::size_t> element_;  // of a geom
   std::vector<double> slope_, torque_, speed_, zero_;
-  std::array<double, 1> works_ = {};
+  std::array<double, 3> works_ = {};
+  OnePart part_;
 };
 
 /// "GCC: (Debian 12.2.0) 12.2.0" and the like, which compilers leave in what they make.

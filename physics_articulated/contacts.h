@@ -31,27 +31,37 @@ struct Site {
   Touch<double> (*query)(const Ground&, const Vec<double>& centre, double radius) = nullptr;
 };
 
-/// One element in contact, as a step of h takes it: forces at the velocity of the step's end (vn+, vt+),
-///     normal:   Kn (p - h vn+) - Cd p vn+
-///     friction: -gt vt+ while it sticks, gt = f Fn / v_lim;  -f Fn s - gt (1 - s s^T) vt+ while it slides along s, gt = f
-///     Fn/|v|
-/// with Fn that of the start. For k or d other than 1: the law's slopes at the start. For h = 0 this is the law itself.
+/// One element that touches, or may before the step ends, as a step of h takes it: forces at the velocity of the step's end
+/// (vn+, vt+), the depth then being p+ = depth - h vn+,
+///     normal:   Kn p+^k - D vn+ >= 0, while p+ > 0
+///     friction: -f Fn vt+ / max(|vt+|, v_lim)
+/// D = Cd p^d with p where the body is placed, for what touches at the start; Cd p+^d for what lands. Fn of friction: at the
+/// place and the start's velocity. All fall with the velocity, so that the step has one solution. A solve takes tangents:
+///     fn - gn (vn - vn_start), -push s - gt (1 - s s^T) vt
 template <class T>
 struct Contact {
   std::size_t element = 0, link = 0;
   Touch<T> touch;
   Vec<T> x, n, vt;                              ///< where it acts, from the base frame's origin; normal; tangential velocity
   T vn, slip;                                   ///< normal velocity, > 0 separating; size of vt
-  typename BasicPenaltyContact<T>::Normal law;  ///< at the start
-  T fn, gn;                                     ///< normal force and its slope, N, N s/m; 0 in lanes that do not touch
+  typename BasicPenaltyContact<T>::Normal law;  ///< at the place
+  T depth;                                      ///< m, at the start of the step
+  T damping;                                    ///< D, N s/m
+  T fn, gn;                                     ///< tangent of the normal force, N, N s/m
   T most;                                       ///< f Fn, N
   T push, gt;                                   ///< f Fn while it slides, else 0; slope
   Vec<T> along;                                 ///< s; 0 while it sticks
-  math::Mask<T> changed;                        ///< from sticking to sliding or back, in this step
+  Vec<T> change, held;                          ///< of the iterate: change of velocity, m/s; force that the solve took, N
+  Vec<T> next_change, next_held;                ///< of the last solve
 
   [[nodiscard]] Vec<T> across(const Vec<T>& v) const { return v - dot(along, v) * along; }
   [[nodiscard]] Vec<T> friction(const Vec<T>& v) const { return -(push * along + gt * across(v)); }
   [[nodiscard]] Vec<T> force() const { return fn * n + friction(vt); }
+  /// As the solve takes it, for a change of velocity.
+  [[nodiscard]] Vec<T> force(const Vec<T>& dv) const {
+    const T normal = dot(n, dv);
+    return (fn - gn * normal) * n + friction(vt + (dv - normal * n));
+  }
   /// h times the slope: what Body takes for a resistance.
   [[nodiscard]] Sym<T> slope(double h) const {
     const T zero = 0.0;
@@ -73,8 +83,9 @@ class Contacts {
                      [&](std::size_t a, std::size_t b) { return tree.points[a].link < tree.points[b].link; });
   }
 
-  /// Fills touching() at the body's present place; what the step makes of them is begin's.
-  void find(const Body<T>& body) {
+  /// Fills touching() at the body's present place, to which it has moved for `ahead` seconds at its velocities. With `reach` > 0
+  /// s also what may come to touch within that time.
+  void find(const Body<T>& body, double ahead, double reach) {
     touching_.clear();
     std::size_t e = 0;
     for (std::size_t link = 0; link + 1 < first_.size(); ++link) {
@@ -82,26 +93,25 @@ class Contacts {
       for (; e < order_.size() && tree_.points[order_[e]].link == link; ++e) {
         const TreePoint<T>& point = tree_.points[order_[e]];
         const Touch<T> found = touch(body.point(link, point.centre) + body.origin(), point.radius);
-        if (math::any(found.penetration > T(0.0))) touching_.push_back(contact(body, order_[e], found));
+        const Vec<T> x = found.point - body.origin();
+        const Vec<T> v = body.velocity(link, x);
+        const T gap = T(reach) * math::sqrt(dot(v, v)) + T(kPull * reach * reach);
+        if (math::any(found.penetration > -gap)) touching_.push_back(contact(order_[e], link, found, x, v, ahead));
       }
     }
     first_.back() = touching_.size();
   }
 
-  /// Forces and slopes as a step of h takes them; 0: the law itself.
+  /// Tangents at the start's velocity, for a step of h; 0: the law itself.
   void begin(double h) {
-    using math::select;
-    const T zero = 0.0;
     for (Contact<T>& c : touching_) {
-      const T ahead = c.law.fn - T(h) * c.law.stiffness * c.vn;
-      const auto holds = ahead > zero;  // else it leaves the ground within the step, and nothing pulls it back
-      c.fn = select(holds, ahead, zero);
-      c.gn = select(holds, c.law.normal_slope + T(h) * c.law.stiffness, zero);
-      c.most = select(holds, c.touch.friction * c.law.fn, zero);
-      c.push = c.gt = zero;
+      const Normal end = h > 0 ? normal(c, c.vn, h) : Normal{c.law.fn, c.law.normal_slope};
+      c.fn = end.fn;
+      c.gn = end.slope;
+      c.most = c.touch.friction * c.law.fn;
+      c.push = c.gt = T(0.0);
       c.along = {};
-      c.changed = {};
-      slide(c, c.slip >= zero, site_.law.slides(c.law, c.slip), c.vt, c.slip);
+      slide(c, c.slip >= T(0.0), math::both(c.most > T(0.0), c.slip > site_.law.v_lim), c.vt, c.slip);
     }
   }
 
@@ -109,37 +119,106 @@ class Contacts {
   void load(std::size_t link, typename Body<T>::Load load, double h) const {
     for (std::size_t i = first_[link]; i < first_[link + 1]; ++i) {
       const Contact<T>& c = touching_[i];
+      if (!math::any(math::either(c.most > T(0.0), math::either(c.fn > T(0.0), c.gn > T(0.0))))) continue;  // in the air
       load.add_force(c.x, c.force());
       if (h > 0) load.add_resistance(c.x, c.slope(h));
     }
   }
 
-  /// After Body::solve: whether some that stick end the step faster than v_lim, or that slide end it slower or turned back.
-  /// They change, once in a step. (Friction that slides has no slope: alone it would throw a light foot that comes to rest from
-  /// one side of v_lim to the other, step after step.)
-  bool change(const Body<T>& body, double h) {
-    bool more = false;
+  /// After Body::solve.
+  void solved(const Body<T>& body, double h) {
     for (Contact<T>& c : touching_) {
-      const Vec<T> end = c.vt + tangential(c, T(h) * body.change(c.link, c.x));
-      const T speed = math::sqrt(dot(end, end));
-      const auto slides = c.push > 0.0;
-      const auto stops = math::both(slides, math::either(speed < site_.law.v_lim, dot(end, c.along) < 0.0));
-      const auto starts = math::both(math::both(c.most > 0.0, c.push <= 0.0), speed > site_.law.v_lim);
-      const auto changes = math::fresh(math::either(stops, starts), c.changed);
-      if (!math::any(changes)) continue;
-      more = true;
-      c.changed = math::either(c.changed, changes);
-      slide(c, changes, starts, end, speed);
+      c.next_change = T(h) * body.change(c.link, c.x);
+      c.next_held = c.force(c.next_change);
     }
-    return more;
   }
-
-  /// Part of v in the ground's plane.
-  static Vec<T> tangential(const Contact<T>& c, const Vec<T>& v) { return v - dot(c.n, v) * c.n; }
+  /// In the lanes `which` the iterate moves `share` of the way to the last solve.
+  void move(const math::Mask<T>& which, const T& share) {
+    for (Contact<T>& c : touching_) {
+      c.change = between(which, share, c.change, c.next_change);
+      c.held = between(which, share, c.held, c.next_held);
+    }
+  }
+  /// Power along the way to the last solve, at `share` of it, that the force taken has beyond the law.
+  [[nodiscard]] T excess(const T& share, double h) const {
+    T sum = 0.0;
+    for (const Contact<T>& c : touching_) {
+      const Vec<T> d = c.next_change - c.change;
+      sum = sum + dot(d, (c.held + share * (c.next_held - c.held)) - law(c, c.change + share * d, h));
+    }
+    return sum;
+  }
+  /// Where the iterate is off a law by more than the tolerance: normal force 0.1 % and 1e-5 N, friction a tenth of f Fn in
+  /// direction and size, or 1e-6 of it across the corner at v_lim (a tighter one costs solves and changes no error).
+  [[nodiscard]] math::Mask<T> off(double h) const {
+    using math::either;
+    math::Mask<T> all{};
+    for (const Contact<T>& c : touching_) {
+      const T dn = dot(c.n, c.change);
+      const T fn = normal(c, c.vn + dn, h).fn;
+      const T held = dot(c.n, c.held);
+      all = either(all, math::abs(fn - held) > kNormalTolerance * math::select(fn > held, fn, held) + kNormalFloor);
+      const Vec<T> end = c.vt + (c.change - dn * c.n);
+      const Vec<T> miss = (c.held - held * c.n) - friction(c, end);
+      const auto slides = dot(end, end) > site_.law.v_lim * site_.law.v_lim;
+      const auto slid = c.push > T(0.0);
+      const auto crossed = either(math::fresh(slides, slid), math::fresh(slid, slides));
+      const T tolerance = math::select(crossed, T(kCornerTolerance), T(kFrictionTolerance)) * c.most + kFrictionFloor;
+      all = either(all, dot(miss, miss) > tolerance * tolerance);
+    }
+    return all;
+  }
+  /// Tangents at the iterate, in the lanes `which`.
+  void touch(const math::Mask<T>& which, double h) {
+    using math::select;
+    for (Contact<T>& c : touching_) {
+      const T dn = dot(c.n, c.change);
+      const Normal n = normal(c, c.vn + dn, h);
+      c.gn = select(which, n.slope, c.gn);
+      c.fn = select(which, n.fn + n.slope * dn, c.fn);
+      const Vec<T> end = c.vt + (c.change - dn * c.n);
+      const T speed = math::sqrt(dot(end, end));
+      slide(c, which, math::both(c.most > T(0.0), speed > site_.law.v_lim), end, speed);
+    }
+  }
 
   [[nodiscard]] std::span<const Contact<T>> touching() const { return touching_; }
 
  private:
+  static constexpr double kPull = 100;  ///< m/s^2: what changes an element's velocity in the air, at most: weight and motors
+  static constexpr double kNormalTolerance = 1e-3, kNormalFloor = 1e-5, kFrictionTolerance = 0.1, kCornerTolerance = 1e-6;
+  static constexpr double kFrictionFloor = 1e-9;  // N
+
+  struct Normal {
+    T fn, slope;
+  };
+  /// The normal force where a step of h ends with vn.
+  [[nodiscard]] Normal normal(const Contact<T>& c, const T& vn, double h) const {
+    using math::select;
+    const T zero = 0.0;
+    const T p = c.depth - T(h) * vn;
+    const auto at_end = site_.law.normal(p, vn);
+    const T steeper = at_end.normal_slope * site_.law.d / select(at_end.acts, p, T(1.0));  // d/dp of the damping's Cd p^d
+    const T lands = at_end.normal_slope + T(h) * (at_end.stiffness - steeper * vn);
+    const auto touched = c.depth > zero;
+    const auto spring = site_.law.normal(p, zero);
+    const T damping = c.damping;
+    const T fn = spring.fn - damping * vn;
+    const auto acts = math::both(spring.acts, fn > zero);
+    return {select(touched, select(acts, fn, zero), at_end.fn),
+            select(touched, select(acts, damping + T(h) * spring.stiffness, zero),
+                   select(math::both(at_end.acts, lands > zero), lands, zero))};
+  }
+  /// Of friction, at a tangential velocity.
+  [[nodiscard]] Vec<T> friction(const Contact<T>& c, const Vec<T>& v) const {
+    const T speed = math::sqrt(dot(v, v));
+    return -(c.most / math::select(speed > site_.law.v_lim, speed, site_.law.v_lim)) * v;
+  }
+  [[nodiscard]] Vec<T> law(const Contact<T>& c, const Vec<T>& change, double h) const {
+    const T n = dot(c.n, change);
+    return normal(c, c.vn + n, h).fn * c.n + friction(c, c.vt + (change - n * c.n));
+  }
+
   [[nodiscard]] Touch<T> touch(const Vec<T>& centre, const T& radius) const {
     if (site_.plane) {
       const PlaneTouch<T> found = on_plane(centre.z, radius);
@@ -157,18 +236,20 @@ class Contacts {
     return all;
   }
 
-  [[nodiscard]] Contact<T> contact(const Body<T>& body, std::size_t element, const Touch<T>& touch) const {
+  [[nodiscard]] Contact<T> contact(std::size_t element, std::size_t link, const Touch<T>& touch, const Vec<T>& x,
+                                   const Vec<T>& v, double ahead) const {
     Contact<T> c{};
     c.element = element;
-    c.link = tree_.points[element].link;
+    c.link = link;
     c.touch = touch;
-    c.x = touch.point - body.origin();
+    c.x = x;
     c.n = touch.n;
-    const Vec<T> v = body.velocity(c.link, c.x);
     c.vn = dot(c.n, v);
     c.vt = v - c.vn * c.n;
     c.slip = math::sqrt(dot(c.vt, c.vt));
     c.law = site_.law.normal(touch.penetration, c.vn);
+    c.depth = touch.penetration + T(ahead) * c.vn;
+    c.damping = site_.law.damping(touch.penetration);
     return c;
   }
 

@@ -61,8 +61,20 @@ class ArticulatedPlant final : public Plant {
   }
 
   [[nodiscard]] std::size_t lanes() const override { return layout_.lanes; }
-  void bind(Out numbers) override { numbers_ = numbers; }
-  void advance(In command, double h) override { kernel_->step(numbers_, command, h); }
+  [[nodiscard]] std::size_t history() const override { return kernel_->history().size() * layout_.lanes; }
+  void bind(Out numbers, Out history) override {
+    numbers_ = numbers;
+    history_ = history;
+  }
+  void advance(In command, double h) override { kernel_->step(numbers_, history_, command, h); }
+  void tally(std::size_t lane, StepTally& out) const override {
+    if (explicit_) return;
+    const articulated::History at = kernel_->history();
+    const auto number = [&](std::size_t entry) { return history_[entry * layout_.lanes + lane]; };
+    out.solves = number(at.solves());
+    out.off = number(at.off());
+    out.coarse = number(at.coarse());
+  }
   [[nodiscard]] Applied applied() const override { return kernel_->applied(); }
 
   void accelerate(std::size_t lane, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
@@ -94,7 +106,7 @@ class ArticulatedPlant final : public Plant {
   PlantSettings settings_;
   StateLayout layout_;
   bool explicit_;
-  Out numbers_;
+  Out numbers_, history_;
   std::unique_ptr<Kernel> kernel_;
   std::vector<std::unique_ptr<Single>> singles_;
   std::vector<double> x_;
@@ -112,11 +124,15 @@ void register_articulated(Catalog& catalog) {
       "limit on the step but the accuracy asked for; extrapolated (two half steps and a whole one) has order 2 and costs "
       "three\n"
       "times as much; rk4 is explicit, and its step must be at most 1 / lambda (docs/equations.md, 7).",
-      {"implicit", "extrapolated", "rk4"},
+      {"adaptive", "implicit", "extrapolated", "rk4"},
       5e-4,
       widths(),
       true,
-      [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<ArticulatedPlant>(s); }});
+      [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<ArticulatedPlant>(s); },
+      0,
+      articulated::kAdaptive,
+      articulated::kImplicit,
+      {0, 1, 2, 4}});
 }
 
 }  // namespace gaitlab

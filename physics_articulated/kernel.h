@@ -15,6 +15,7 @@ struct Rollout {
   PenaltyContact law;
   bool plane = true;
   double friction = 0;  ///< of the plane
+  double accuracy = 0;  ///< of torques, relative
   const Ground* ground = nullptr;
 };
 
@@ -29,8 +30,9 @@ struct Press {
 class Kernel {
  public:
   virtual ~Kernel() = default;
-  /// As Plant::advance.
-  virtual void step(Out state, In command, double h) = 0;
+  /// As Plant::advance; history: as Plant::history.
+  virtual void step(Out state, Out history, In command, double h) = 0;
+  [[nodiscard]] virtual History history() const = 0;  ///< of a rollout
   [[nodiscard]] virtual Applied applied() const = 0;
   virtual bool report(In command, In speed, const Actuator::Report& out) = 0;
   /// Takes the state for what follows, all lanes at once.
@@ -44,7 +46,7 @@ class Kernel {
 struct KernelSettings {
   std::span<const Rollout> rollouts;
   const Actuator* actuator = nullptr;
-  Method method = kImplicit;
+  Method method = kAdaptive;
   Touch<double> (*query)(const Ground&, const Vec<double>& centre, double radius) = nullptr;
 };
 

@@ -1,7 +1,8 @@
-// The motors of a step, over a scalar T: what they give at its start, and which of them their limit holds at its end.
+// The motors of a step, over a scalar T: their law at any speed, and the tangent of it that a solve takes.
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -10,16 +11,15 @@
 
 namespace gaitlab::articulated {
 
-/// A step of h sees torque - h slope v'. DC motors (Actuator::dc_motors) are evaluated here, lanes at once; others through
-/// their plugin. Commands: joint * lanes + lane.
+/// DC motors (Actuator::dc_motors) are evaluated here, lanes at once; others through their plugin. Commands: joint * lanes +
+/// lane. Torques N m, slopes -dT/dw, N m s/rad.
 template <class T>
 class Motors {
  public:
   Motors(const Actuator* actuator, std::size_t joints)
-      : torque(joints), slope(joints), actuator_(actuator), held_(joints), some_(joints), all_(joints) {
-    for (auto* values : {&start_torque_, &start_slope_, &limited_, &limited_slope_, &unlimited_, &unlimited_slope_})
-      values->resize(joints);
+      : law(joints), law_slope(joints), torque(joints), slope(joints), scale(joints, T(1.0)), per_speed(joints, T(1.0 / kSpeed)), actuator_(actuator) {
     if (actuator == nullptr) return;
+    find_scale();
     const DcMotor* from = actuator->dc_motors();
     if (from == nullptr) return;
     dc_.resize(joints);
@@ -33,68 +33,24 @@ class Motors {
     }
   }
 
-  /// At the step's start, whatever current that takes.
-  void start(In command, std::span<const T> speed) {
+  [[nodiscard]] bool any() const { return actuator_ != nullptr; }
+
+  /// Fills law and law_slope at these speeds.
+  void look(In command, std::span<const T> speed) {
+    if (actuator_ != nullptr && dc_.empty()) actuator_->effort(command, math::numbers(speed), numbers(law), numbers(law_slope));
     for (std::size_t j = 0; j < dc_.size(); ++j) {
-      const auto effort = dc_[j].unlimited(of_joint(command, j), speed[j]);
-      start_torque_[j] = effort.torque;
-      start_slope_[j] = effort.slope;
+      const auto effort = dc_[j](of_joint(command, j), speed[j]);
+      law[j] = effort.torque;
+      law_slope[j] = effort.slope;
     }
-    if (actuator_ != nullptr && dc_.empty()) {
-      actuator_->unlimited(command, math::numbers(speed), numbers(start_torque_), numbers(start_slope_));
-    }
-  }
-  /// After start: joints whose limit binds there, and then, by remember after each solve, those that were held: has_corner
-  /// tells of the joints for which it is not all the same.
-  void watch(In command, std::span<const T> speed) {
-    if (actuator_ != nullptr && dc_.empty()) {
-      actuator_->effort(command, math::numbers(speed), numbers(limited_), numbers(limited_slope_));
-    }
-    for (std::size_t j = 0; j < held_.size(); ++j) {
-      if (actuator_ == nullptr) break;
-      unlimited_[j] = start_torque_[j];
-      const Limit limit = dc_.empty() ? asked(j) : evaluated(j, of_joint(command, j), speed[j]);
-      some_[j].yes = all_[j].yes = limit.passed;
-    }
-  }
-  void remember() {
-    for (std::size_t j = 0; j < held_.size(); ++j) {
-      some_[j].yes = math::either(some_[j].yes, held_[j].yes);
-      all_[j].yes = math::both(all_[j].yes, held_[j].yes);
-    }
-  }
-  [[nodiscard]] math::Mask<T> has_corner(std::size_t j) const { return math::fresh(some_[j].yes, all_[j].yes); }
-
-  /// What start found, none held.
-  void begin() {
-    torque = start_torque_;
-    slope = start_slope_;
-    std::fill(held_.begin(), held_.end(), Held{});
   }
 
-  /// Holds motors at the limits that the step's end passes, there being any that were not held; torque and slope are then the
-  /// law's at that end.
-  bool hold(In command, std::span<const T> speed, std::span<const T> end) {
-    if (actuator_ == nullptr) return false;
-    if (dc_.empty()) {
-      actuator_->effort(command, math::numbers(end), numbers(limited_), numbers(limited_slope_));
-      actuator_->unlimited(command, math::numbers(end), numbers(unlimited_), numbers(unlimited_slope_));
-    }
-    bool more = false;
-    for (std::size_t j = 0; j < torque.size(); ++j) {
-      const Limit limit = dc_.empty() ? asked(j) : evaluated(j, of_joint(command, j), end[j]);
-      const auto now = math::fresh(limit.passed, held_[j].yes);
-      if (!math::any(now)) continue;
-      more = true;
-      held_[j].yes = math::either(held_[j].yes, now);
-      slope[j] = math::select(now, limit.slope, slope[j]);
-      torque[j] = math::select(now, limit.torque + limit.slope * (end[j] - speed[j]), torque[j]);
-    }
-    return more;
-  }
-  /// The law itself, for an explicit method.
-  void evaluate(In command, std::span<const T> speed) {
-    if (actuator_ != nullptr) actuator_->effort(command, math::numbers(speed), numbers(torque), numbers(slope));
+  /// In the lanes `which`, after look at `end`: the tangent there, as a solve from the speed `start` takes it. A slope below 0,
+  /// which no actuator should have, counts as 0: the solve keeps a solution, and what its end is off the law is told.
+  void touch(std::size_t j, const math::Mask<T>& which, const T& start, const T& end) {
+    const T falls = math::select(law_slope[j] > T(0.0), law_slope[j], T(0.0));
+    slope[j] = math::select(which, falls, slope[j]);
+    torque[j] = math::select(which, law[j] + falls * (end - start), torque[j]);
   }
 
   /// Actuator::report of DC motors; false: they are none.
@@ -111,16 +67,25 @@ class Motors {
     return !dc_.empty();
   }
 
-  std::vector<T> torque, slope;  ///< as the solve takes them, N m, N m s/rad
+  std::vector<T> law, law_slope;  ///< what look found
+  std::vector<T> torque, slope;   ///< as a solve takes them: torque - slope (w - w_start)
+  std::vector<T> scale;           ///< largest torque at rest; 1 where there is no limit to it
+  std::vector<T> per_speed;       ///< by which an error of the speed is judged: the slope at rest, else scale / kSpeed
 
  private:
-  struct Held {
-    math::Mask<T> yes{};
-  };
-  struct Limit {
-    T torque, slope;
-    math::Mask<T> passed;
-  };
+  static constexpr double kSpeed = 3;  ///< rad/s: about what motors of modules run at
+
+  void find_scale() {
+    const In limit = actuator_->command_limit();
+    std::vector<double> rest(limit.size()), torques(limit.size()), slopes(limit.size());
+    actuator_->effort(limit, rest, torques, slopes);
+    const Out to = numbers(scale);
+    for (std::size_t i = 0; i < limit.size(); ++i) {
+      if (std::isfinite(torques[i]) && torques[i] > 0) to[i] = torques[i];
+    }
+    actuator_->effort(rest, rest, torques, slopes);
+    for (std::size_t i = 0; i < limit.size(); ++i) numbers(per_speed)[i] = slopes[i] > 0 ? slopes[i] : to[i] / kSpeed;
+  }
 
   static Out numbers(std::span<T> values) { return math::numbers(values); }
   static T of_joint(In command, std::size_t j) {
@@ -131,22 +96,9 @@ class Motors {
   static void store(const T& value, std::size_t j, Out to) {
     std::copy_n(math::numbers(std::span<const T>(&value, 1)).begin(), math::kLanes<T>, to.data() + j * math::kLanes<T>);
   }
-  /// By the plugin, which hold has asked.
-  Limit asked(std::size_t j) const {
-    const auto above = limited_[j] > unlimited_[j];
-    const auto below = unlimited_[j] > limited_[j];
-    return {limited_[j], limited_slope_[j], math::either(above, below)};
-  }
-  Limit evaluated(std::size_t j, const T& command, const T& speed) const {
-    const auto effort = dc_[j](command, speed);
-    return {effort.torque, effort.slope, effort.limited};
-  }
 
   const Actuator* actuator_;
-  std::vector<BasicDcMotor<T>> dc_;                                       // empty: asks the actuator
-  std::vector<T> start_torque_, start_slope_;                             // at the step's start
-  std::vector<T> limited_, limited_slope_, unlimited_, unlimited_slope_;  // asked at its end
-  std::vector<Held> held_, some_, all_;
+  std::vector<BasicDcMotor<T>> dc_;  // empty: asks the actuator
 };
 
 }  // namespace gaitlab::articulated

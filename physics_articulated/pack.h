@@ -12,41 +12,48 @@ class Pack final : public Kernel {
   explicit Pack(const KernelSettings& s)
       : tree_(trees(s.rollouts)),
         site_(site(s)),
-        stepper_(tree_, site_, s.actuator, s.method),
+        stepper_(tree_, site_, s.actuator, s.method, accuracy(s)),
         x_(StateLayout::kAngles + 2 * tree_.lo.size()) {
     presses_.reserve(tree_.points.size());
     forces_.reserve(tree_.points.size());
   }
 
-  void step(Out state, In command, double h) override {
+  void step(Out state, Out history, In command, double h) override {
     load(state);
+    const Out own = math::numbers(stepper_.history());
+    std::ranges::copy(history, own.begin());
     stepper_.step(x_, command, h);
     std::ranges::copy(math::numbers(std::span<const T>(x_)), state.begin());
+    std::ranges::copy(own, history.begin());
   }
+  [[nodiscard]] History history() const override { return stepper_.layout; }
 
   [[nodiscard]] Applied applied() const override {
-    const Done<T>& done = stepper_.done;
-    const auto lanes = [](const T& sum) { return math::numbers(std::span<const T>(&sum, 1)); };
-    return {math::numbers(std::span<const T>(done.torque)), math::numbers(std::span<const T>(done.speed)), lanes(done.contact),
-            lanes(done.friction), lanes(done.stops)};
+    parts_.clear();
+    for (const Part<T>& part : stepper_.parts()) {
+      parts_.push_back({numbers(part.torque), numbers(part.speed), numbers(part.angle), of(part.sum), of(part.share),
+                        !(part.h > 0)});
+    }
+    return {parts_, of(stepper_.contact), of(stepper_.friction), of(stepper_.stops)};
   }
 
   bool report(In command, In speed, const Actuator::Report& out) override {
-    return stepper_.motors.report(command, speed, out);
+    return stepper_.implicit.motors.report(command, speed, out);
   }
 
   void look(In state) override {
     load(state);
-    stepper_.place(x_);
-    stepper_.contacts.begin(0);
+    stepper_.implicit.body.place(x_);
+    stepper_.implicit.contacts.find(stepper_.implicit.body, 0, 0);
+    stepper_.implicit.contacts.begin(0);
     forces_.clear();
-    for (const Contact<T>& c : stepper_.contacts.touching()) forces_.push_back(c.force());
-    com_ = stepper_.body.com();
+    for (const Contact<T>& c : stepper_.implicit.contacts.touching()) forces_.push_back(c.force());
+    com_ = stepper_.implicit.body.com();
   }
 
   std::span<const Press> presses(std::size_t lane) override {
     presses_.clear();
-    const auto& touching = stepper_.contacts.touching();
+    const auto& touching = stepper_.implicit.contacts.touching();
     for (std::size_t i = 0; i < forces_.size(); ++i) {
       const Contact<T>& c = touching[i];
       const double penetration = math::lane(c.touch.penetration, lane);
@@ -61,6 +68,13 @@ class Pack final : public Kernel {
   Vec<double> com(std::size_t lane) override { return of_lane(com_, lane); }
 
  private:
+  static In numbers(const std::vector<T>& values) { return math::numbers(std::span<const T>(values)); }
+  static In of(const T& value) { return math::numbers(std::span<const T>(&value, 1)); }
+  static T accuracy(const KernelSettings& s) {
+    T all;
+    for (std::size_t l = 0; l < s.rollouts.size(); ++l) put(all, l, s.rollouts[l].accuracy);
+    return all;
+  }
   static Tree<T> trees(std::span<const Rollout> rollouts) {
     std::vector<const Tree<double>*> each;
     for (const Rollout& one : rollouts) each.push_back(&one.tree);
@@ -94,6 +108,7 @@ class Pack final : public Kernel {
   std::vector<T> x_;
   std::vector<Vec<T>> forces_;  // of the contacts that look found
   std::vector<Press> presses_;
+  mutable std::vector<Applied::Part> parts_;
   Vec<T> com_;
 };
 

@@ -20,7 +20,7 @@ Touch<double> query(const Ground& ground, const Vec<double>& centre, double radi
 
 Rollout rollout(const LaneSettings& lane, Base base) {
   return {tree(*lane.robot, base, lane.contacts),  vec(lane.gravity),    lane.law,
-          lane.ground.kind == Ground::Kind::plane, lane.ground.friction, &lane.ground};
+          lane.ground.kind == Ground::Kind::plane, lane.ground.friction, lane.accuracy, &lane.ground};
 }
 
 Single::Single(const PlantSettings& settings, const LaneSettings& own, std::size_t lane, std::size_t lanes)
@@ -68,7 +68,7 @@ void Single::ask(In command, In speed) {
 Stability Single::stability(In x, const RobotState& state, In command, bool standing) {
   kinematics_.update(*own_.robot, state);
   body_.place(x);
-  contacts_.find(body_);
+  contacts_.find(body_, 0, 0);
   contacts_.begin(0);
   body_.solve(zero_, rotor_, a_, [](std::size_t, Body<double>::Load) {});  // factorises the mass matrix for apply
   // A robot that stands does not turn its motors: at speed they may be saturated, and their slope 0.

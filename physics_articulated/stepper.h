@@ -1,247 +1,238 @@
-// One step of time over a scalar T, a double or lanes: implicit, extrapolated, rk4.
+// One step of time over a scalar T, a double or lanes: implicit, extrapolated, adaptive, rk4.
 #pragma once
 #include <algorithm>
-#include <cstring>
 
-#include "core/laws/hinge_stop.h"
-#include "physics_articulated/contacts.h"
-#include "physics_articulated/motors.h"
+#include "physics_articulated/implicit.h"
 
 namespace gaitlab::articulated {
 
-enum Method { kImplicit, kExtrapolated, kRk4 };
+/// By their order in the engine's list of integrators.
+enum Method { kAdaptive, kImplicit, kExtrapolated, kRk4 };
 
-/// What a step did, for the ledger.
+/// What a step left behind at one moment within it, and how it counts.
 template <class T>
-struct Done {
-  std::vector<T> torque, speed;                  ///< of the motors, N m; the speeds at which they gave it, rad/s
-  T contact = 0.0, friction = 0.0, stops = 0.0;  ///< work of the robot on them, J
-
-  explicit Done(std::size_t joints) : torque(joints), speed(joints) {}
-  void clear() {
-    std::fill(torque.begin(), torque.end(), T(0.0));
-    std::fill(speed.begin(), speed.end(), T(0.0));
-    contact = friction = stops = T(0.0);
-  }
-  /// Torque and speed are means of the step, work is a sum.
-  void add(const Done& other, double to_mean, double to_sum) {
-    for (std::size_t j = 0; j < torque.size(); ++j) {
-      torque[j] = torque[j] + to_mean * other.torque[j];
-      speed[j] = speed[j] + to_mean * other.speed[j];
-    }
-    contact = contact + to_sum * other.contact;
-    friction = friction + to_sum * other.friction;
-    stops = stops + to_sum * other.stops;
-  }
+struct Part : Done<T> {
+  using Done<T>::Done;
+  math::Mask<T> lanes{};  ///< whose moment it is
+  double h = 0;           ///< s that it stands for, alone; 0: the start, where a new command is met
+  T sum = 0.0;            ///< weight in integrals, s: Richardson's, which may be negative
+  T share = 0.0;          ///< weight in shares of time, s
 };
 
-/// State: entries as in StateLayout, SI. Nothing allocates after the constructor.
+/// Numbers that a rollout keeps between steps beside its state: an entry a joint, then single ones.
+struct History {
+  std::size_t joints = 0;
+  [[nodiscard]] std::size_t peak() const { return 0; }  ///< of a joint: largest motor torque at the end of a step so far, N m
+  [[nodiscard]] std::size_t solves() const { return joints; }
+  [[nodiscard]] std::size_t off() const { return joints + 1; }  ///< motors and stops that a step left off their law
+  [[nodiscard]] std::size_t coarse() const { return joints + 2; }  ///< s that shortest steps took beyond the accuracy
+  [[nodiscard]] std::size_t size() const { return joints + 3; }
+};
+
+/// State: entries as in StateLayout, SI. Nothing allocates after the constructor, but where a search does not end.
 ///
-/// implicit (order 1, stable for any stiffness and damping): motors, stops and contacts act at the velocity of the step's end,
-/// as far as their slopes tell:
-///     (M + h B + h sum J^T G J) v' = tau + sum J^T f + weight - c        v+ = v + h v'        q+ = q (+) h v+
-/// (docs/equations.md, 7). Motors whose limit the end of the step finds passed are held at it and the step is solved again;
-/// none is released again, and there are at most kSolves. (To decide by the speed at the start lets the current flip from limit
-/// to limit.) extrapolated (order 2): 2 x(two steps of h / 2) - x(one step of h), Richardson. rk4 (order 4, explicit): the
-/// classical method on the whole state, for h lambda <= 1.
+/// implicit (order 1): one implicit step (implicit.h). extrapolated (order 2): 2 x(two steps of h / 2) - x(one step of h),
+/// Richardson. adaptive: that, where its error estimate is within the accuracy, else x(h)/3 - 2 x(h/2) + 8/3 x(h/4) (order 3),
+/// else two such steps of half the length. rk4 (order 4, explicit): the classical method on the whole state, for h lambda <= 1.
+/// A search that does not end takes the step in two halves, those lanes alone, down to h / 64; what is left then is counted.
 template <class T>
 class Stepper {
  public:
-  static constexpr int kSolves = 4;
-
-  Stepper(const Tree<T>& tree, const Site<T>& site, const Actuator* actuator, Method method)
-      : body(tree, site.gravity),
-        contacts(tree, site),
-        motors(actuator, tree.lo.size()),
-        rotor(tree.lo.size(), T(0.0)),
-        done(tree.lo.size()),
-        tree_(tree),
+  Stepper(const Tree<T>& tree, const Site<T>& site, const Actuator* actuator, Method method, const T& accuracy)
+      : implicit(tree, site, actuator),
+        layout{tree.lo.size()},
         method_(method),
         joints_(tree.lo.size()),
-        part_(joints_),
-        whole_part_(joints_) {
-    for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_}) values->assign(joints_, T(0.0));
-    for (auto* state : {&whole_, &prepared_, &stage_, &rate_, &sum_}) state->assign(StateLayout::kAngles + 2 * joints_, T(0.0));
-    a_.assign(6 + joints_, T(0.0));
-    const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
-    std::copy(inertia.begin(), inertia.end(), math::numbers(std::span<T>(rotor)).begin());
-  }
-
-  /// Places the body and finds its contacts, unless this was the last state placed.
-  void place(std::span<const T> x) {
-    const In now = math::numbers(x);
-    const In last = math::numbers(std::span<const T>(prepared_));
-    if (placed_ && std::memcmp(now.data(), last.data(), now.size_bytes()) == 0) return;
-    std::copy(x.begin(), x.end(), prepared_.begin());
-    placed_ = true;
-    body.place(x);
-    contacts.find(body);
+        accuracy_(accuracy),
+        history_(layout.size(), T(0.0)) {
+    const std::vector<T> zero(StateLayout::kAngles + 2 * joints_, T(0.0));
+    for (auto* state : {&sum_, &stage_, &rate_}) *state = zero;
+    levels_.assign(kLevels, {zero, zero, zero});
+    halved_.assign(kHalvings, zero);
+    parts_.assign(method == kAdaptive ? kMostParts : 4, Part<T>(joints_));
   }
 
   /// Held commands: joint * lanes + lane.
   void step(std::span<T> x, In command, double h) {
-    done.clear();
+    used_ = 0;
+    contact = friction = stops = T(0.0);
     if (method_ == kRk4) {
       runge_kutta(x, command, h);
-      return;
+    } else {
+      take_start(x, command);
+      const math::Mask<T> all = T(0.0) <= T(0.0);
+      if (method_ == kImplicit) single(x, command, h, all);
+      if (method_ == kExtrapolated) adapt(x, command, h, all, kLevels);
+      if (method_ == kAdaptive) adapt(x, command, h, all, 0);
     }
-    begin(x, command);
-    if (method_ == kImplicit) {
-      finish(x, command, h);
-      done.add(part_, 1, 1);
-      return;
-    }
-    motors.watch(command, speeds(x));
-    std::copy(x.begin(), x.end(), whole_.begin());
-    finish(whole_, command, h);
-    motors.remember();
-    whole_part_ = part_;
-    for (int half = 0; half < 2; ++half) {
-      if (half == 1) begin(x, command);
-      finish(x, command, h / 2);
-      motors.remember();
-      done.add(part_, 1, 2);  // means of half the step: 2 / 2
-    }
-    extrapolate(x);
-    normalise(x);
+    close();
   }
 
-  Body<T> body;
-  Contacts<T> contacts;
-  Motors<T> motors;
-  std::vector<T> rotor;  ///< reflected inertia of each joint, kg m^2
-  Done<T> done;          ///< of the last step
+  /// The numbers to go on from; entries as in History.
+  std::span<T> history() { return history_; }
+  [[nodiscard]] std::span<const Part<T>> parts() const { return {parts_.data(), used_}; }
+
+  Implicit<T> implicit;
+  T contact = 0.0, friction = 0.0, stops = 0.0;  ///< work of the last step, J
+  History layout;
 
  private:
-  std::span<T> speeds(std::span<T> x) const { return x.subspan(StateLayout::kAngles + joints_, joints_); }
+  static constexpr int kLevels = 5;    ///< lengths of an adaptive step: h to h / 16
+  static constexpr int kHalvings = 6;  ///< of a step whose search does not end
+  // What two orders may differ by, in units of the accuracy: chosen, with the base's speeds, as the least that brings the gaits
+  // and limits of docs/validation.md within the accuracy.
+  static constexpr double kSecondOrder = 1, kThirdOrder = 2;
+  static constexpr double kBaseSpeed = 0.02, kBaseTurn = 0.2;  ///< m/s, rad/s: what the base's differences are relative to
+  static constexpr double kFloor = 0.01;  ///< of the largest torque at rest: what the accuracy is relative to at least
 
-  /// What a step needs of its start, whatever its length.
-  void begin(std::span<T> x, In command) {
-    place(x);
-    motors.start(command, speeds(x));
+  static constexpr std::size_t kMostParts = 1 + 7 * ((1 << kLevels) - 1);
+
+  struct Level {
+    std::vector<T> start, whole, quarters;
+  };
+
+  /// What motors give at the start, under the command that may be new: peaks are there.
+  void take_start(std::span<const T> x, In command) {
+    implicit.motors.look(command, implicit.speeds(x));
+    Part<T>& part = add_part();
+    part.torque = implicit.motors.law;
+    std::ranges::copy(implicit.speeds(x), part.speed.begin());
+    std::copy_n(x.begin() + StateLayout::kAngles, joints_, part.angle.begin());
+    part.contact = part.friction = part.stops = T(0.0);
+    part.lanes = T(0.0) <= T(0.0);
+    part.h = 0;
   }
 
-  /// x, at the end of two half steps, and done, their sum: less those of the whole step. Where a motor passed its limit in the
-  /// step, one way or the other, the half steps stand: beyond a corner an extrapolation overshoots. (All of the robot stays
-  /// with them: a joint by itself would not fit the others.)
-  void extrapolate(std::span<T> x) {
+  Part<T>& add_part() {
+    if (used_ == parts_.size()) parts_.emplace_back(joints_);
+    Part<T>& part = parts_[used_++];
+    part.sum = part.share = T(0.0);
+    return part;
+  }
+
+  /// One implicit step of the lanes `which`; parts are added.
+  void settle(std::span<T> x, In command, double h, const math::Mask<T>& which, int halvings = 0) {
+    if (halvings < kHalvings) std::copy(x.begin(), x.end(), halved_[halvings].begin());
+    implicit.step(x, command, h, which);
+    history_[layout.solves()] = history_[layout.solves()] + math::select(which, implicit.solves, T(0.0));
+    const bool halve = halvings < kHalvings && math::any(implicit.unfinished);
+    Part<T>& part = add_part();
+    static_cast<Done<T>&>(part) = implicit.done;
+    part.lanes = halve ? math::fresh(which, implicit.unfinished) : which;
+    part.h = h;
+    if (!halve) {
+      history_[layout.off()] = history_[layout.off()] + implicit.off;
+      return;
+    }
+    const math::Mask<T> again = implicit.unfinished;
+    for (std::size_t e = 0; e < x.size(); ++e) x[e] = math::select(again, halved_[halvings][e], x[e]);
+    for (int half = 0; half < 2; ++half) settle(x, command, h / 2, again, halvings + 1);
+  }
+
+  /// Richardson's weight of the parts since `from` up to `to` in the lanes `which`; `finest`: they stand for the motion.
+  void weigh(std::size_t from, std::size_t to, const math::Mask<T>& which, double weight, bool finest) {
+    for (std::size_t i = from; i < to; ++i) {
+      Part<T>& part = parts_[i];
+      const auto here = math::both(which, part.lanes);
+      part.sum = math::select(here, T(weight * part.h), part.sum);
+      part.share = math::select(here, T(finest ? part.h : 0.0), part.share);
+    }
+  }
+
+  void single(std::span<T> x, In command, double h, const math::Mask<T>& which) {
+    settle(x, command, h, which);
+    weigh(1, used_, which, 1, true);
+  }
+
+  /// Lanes in which no speed differs by more than `share` of the accuracy: of a joint, as a torque, relative to its largest
+  /// torque so far; of the base relative to kBaseSpeed and kBaseTurn, for what it does shows in the torques only later.
+  template <class Difference>
+  math::Mask<T> within(double share, const math::Mask<T>& which, Difference difference) {
+    math::Mask<T> within = which;
+    const T allowed = share * accuracy_;
+    for (std::size_t j = 0; j < joints_; ++j) {
+      const T& peak = history_[layout.peak() + j];
+      const T least = kFloor * implicit.motors.scale[j];
+      const T apart = implicit.motors.per_speed[j] * math::abs(difference(StateLayout::kAngles + joints_ + j));
+      within = math::both(within, apart <= allowed * math::select(peak > least, peak, least));
+    }
+    for (const auto& [first, speed] : {std::pair(StateLayout::kVelocity, kBaseSpeed), {StateLayout::kAngularVelocity, kBaseTurn}}) {
+      const Vec<T> apart{difference(first), difference(first + 1), difference(first + 2)};
+      const T most = speed * allowed;
+      within = math::both(within, dot(apart, apart) <= most * most);
+    }
+    return within;
+  }
+
+  /// A step of h of the lanes `which`. Level kLevels: second order, whatever its error.
+  void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, int level) {
     using math::select;
-    math::Mask<T> corner{};
-    for (std::size_t j = 0; j < joints_; ++j) corner = math::either(corner, motors.has_corner(j));
-    const auto less = [&](const T& halves, const T& whole, double mean) {
-      return select(corner, T(mean) * halves, T(2.0 * mean) * halves - whole);
-    };
-    for (std::size_t e = 0; e < x.size(); ++e) x[e] = less(x[e], whole_[e], 1);
-    for (std::size_t j = 0; j < joints_; ++j) {
-      done.torque[j] = less(done.torque[j], whole_part_.torque[j], 0.5);
-      done.speed[j] = less(done.speed[j], whole_part_.speed[j], 0.5);
+    const bool fixed = level == kLevels;
+    auto& [start, whole, quarters] = levels_[fixed ? 0 : level];
+    std::copy(x.begin(), x.end(), start.begin());
+    std::copy(x.begin(), x.end(), whole.begin());
+    const std::size_t first = used_;
+    settle(whole, command, h, which);
+    const std::size_t halves = used_;
+    for (int i = 0; i < 2; ++i) settle(x, command, h / 2, which);
+    const std::size_t rest = used_;
+    auto second = within(kSecondOrder, which, [&](std::size_t e) { return x[e] - whole[e]; });
+    if (fixed) second = which;
+    weigh(first, halves, second, -1, false);
+    weigh(halves, rest, second, 2, true);
+    const auto more = math::fresh(which, second);
+    math::Mask<T> third{};
+    if (math::any(more)) {
+      std::copy(start.begin(), start.end(), quarters.begin());
+      for (int i = 0; i < 4; ++i) settle(quarters, command, h / 4, more);
+      third = within(kThirdOrder, more, [&](std::size_t e) { return 2.0 * (quarters[e] - x[e]) - (x[e] - whole[e]); });
+      if (level + 1 == kLevels) {
+        T& coarse = history_[layout.coarse()];
+        coarse = coarse + math::select(math::fresh(more, third), T(h), T(0.0));
+        third = more;
+      }
+      weigh(first, halves, third, 1.0 / 3, false);
+      weigh(halves, rest, third, -2, false);
+      weigh(rest, used_, third, 8.0 / 3, true);
     }
-    done.contact = less(done.contact, whole_part_.contact, 0.5);
-    done.friction = less(done.friction, whole_part_.friction, 0.5);
-    done.stops = less(done.stops, whole_part_.stops, 0.5);
+    for (std::size_t e = 0; e < x.size(); ++e) {
+      const T of_three = T(1.0 / 3) * whole[e] - T(2.0) * x[e] + T(8.0 / 3) * quarters[e];
+      whole[e] = select(second, T(2.0) * x[e] - whole[e], of_three);
+    }
+    normalise<T>(whole);
+    const auto taken = math::either(second, third);
+    for (std::size_t e = 0; e < x.size(); ++e) x[e] = select(taken, whole[e], start[e]);
+    const auto shorter = math::fresh(which, taken);
+    if (!math::any(shorter)) return;
+    for (int i = 0; i < 2; ++i) adapt(x, command, h / 2, shorter, level + 1);
   }
 
-  /// An implicit step of h from where begin left off; begin serves several.
-  void finish(std::span<T> x, In command, double h) {
-    motors.begin();
-    contacts.begin(h);
-    stop(x, h);
-    accelerate(h);
-    for (int solve = 1;; ++solve) {
-      for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + T(h) * a_[6 + j];
-      if (solve == kSolves) break;
-      const bool held = motors.hold(command, speeds(x), end_);
-      if (!contacts.change(body, h) && !held) break;
-      accelerate(h);
-    }
-    for (std::size_t j = 0; j < joints_; ++j) part_.torque[j] = motors.torque[j] - T(h) * motors.slope[j] * a_[6 + j];
-    part_.speed = end_;
-    part_.contact = part_.friction = part_.stops = T(0.0);
-    add_works(x, h, h);
-    for (std::size_t i = 0; i < 6; ++i) x[StateLayout::kVelocity + i] = x[StateLayout::kVelocity + i] + T(h) * a_[i];
-    std::copy(end_.begin(), end_.end(), speeds(x).begin());
-    drift(x, h);
-  }
-
-  /// a_ from the motors and all else that acts.
-  void accelerate(double h) {
-    for (std::size_t j = 0; j < joints_; ++j) {
-      force_[j] = motors.torque[j] + stop_[j];
-      diagonal_[j] = rotor[j] + (h > 0 ? T(h) * (motors.slope[j] + stop_slope_[j]) : T(0.0));
-    }
-    body.solve(force_, diagonal_, a_, [&](std::size_t link, typename Body<T>::Load load) { contacts.load(link, load, h); });
-  }
-
-  /// Torque and slope of the stops as contacts have them: -ks (q + h qd+ - q_lim) - cs qd+.
-  void stop(std::span<T> x, double h) {
-    using math::select;
-    for (std::size_t j = 0; j < joints_; ++j) {
-      const T& qd = speeds(x)[j];
-      const auto law = BasicHingeStop<T>::at(x[StateLayout::kAngles + j], qd, tree_.lo[j], tree_.hi[j]);
-      const T ahead = law.torque - h * law.stiffness * qd;
-      const auto opposes = ahead * law.torque > 0.0;
-      stop_[j] = select(opposes, ahead, T(0.0));
-      stop_slope_[j] = select(opposes, law.damping + h * law.stiffness, T(0.0));
-    }
-  }
-
-  /// Work over dt of the forces of the last accelerate, at the middle of the velocities it joins (h as there).
-  void add_works(std::span<T> x, double h, double dt) {
-    for (const Contact<T>& c : contacts.touching()) {
-      const Vec<T> change = T(h) * body.change(c.link, c.x);
-      const T normal = dot(c.n, change);
-      const Vec<T> tangential = change - normal * c.n;
-      part_.contact = part_.contact - dt * (c.fn - c.gn * normal) * (c.vn + 0.5 * normal);
-      part_.friction = part_.friction - dt * dot(c.friction(c.vt + tangential), c.vt + T(0.5) * tangential);
+  /// Sums over the parts, and peaks.
+  void close() {
+    for (std::size_t i = 0; i < used_; ++i) {
+      const Part<T>& part = parts_[i];
+      if (!(part.h > 0)) continue;
+      const T weight = part.sum / T(part.h);
+      contact = contact + weight * part.contact;
+      friction = friction + weight * part.friction;
+      stops = stops + weight * part.stops;
     }
     for (std::size_t j = 0; j < joints_; ++j) {
-      const T change = h * a_[6 + j];
-      part_.stops = part_.stops - dt * (stop_[j] - stop_slope_[j] * change) * (speeds(x)[j] + 0.5 * change);
+      T& peak = history_[layout.peak() + j];
+      const T now = math::abs(parts_[used_ - 1].torque[j]);
+      peak = math::select(now > peak, now, peak);
     }
-  }
-
-  void drift(std::span<T> x, double h) const {
-    for (std::size_t i = 0; i < 3; ++i) x[i] = x[i] + h * x[StateLayout::kVelocity + i];
-    for (std::size_t j = 0; j < joints_; ++j) x[StateLayout::kAngles + j] = x[StateLayout::kAngles + j] + h * speeds(x)[j];
-    constexpr std::size_t w = StateLayout::kAngularVelocity;
-    const Vec<T> omega{x[w], x[w + 1], x[w + 2]};
-    const T rate = math::sqrt(dot(omega, omega));
-    const auto [s, c] = math::sincos(0.5 * h * rate);
-    turn(x, c, (s / math::select(rate > 0.0, rate, T(1.0))) * omega, x);
-    normalise(x);
-  }
-
-  /// Orientation of `out` = (w, v) times that of x.
-  static void turn(std::span<const T> x, const T& w, const Vec<T>& v, std::span<T> out) {
-    constexpr std::size_t o = StateLayout::kOrientation;
-    const T& qw = x[o];  // out may be x: last read where it is overwritten
-    const Vec<T> q{x[o + 1], x[o + 2], x[o + 3]};
-    const Vec<T> turned = w * q + qw * v + cross(v, q);
-    out[o] = w * qw - dot(v, q);
-    out[o + 1] = turned.x;
-    out[o + 2] = turned.y;
-    out[o + 3] = turned.z;
-  }
-
-  static void normalise(std::span<T> x) {
-    const auto q = x.subspan(StateLayout::kOrientation, 4);
-    const T length = math::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    for (T& value : q) value = value / length;
   }
 
   /// d/dt of the whole state, the orientation as a quaternion: q' = (0, omega) q / 2.
   void derive(std::span<T> x, In command, std::span<T> rate) {
-    motors.evaluate(command, speeds(x));
-    place(x);
-    contacts.begin(0);
-    stop(x, 0);
-    accelerate(0);
+    implicit.evaluate(x, command);
     constexpr std::size_t w = StateLayout::kAngularVelocity;
     std::copy_n(x.begin() + StateLayout::kVelocity, 3, rate.begin());
-    turn(x, T(0.0), T(0.5) * Vec<T>{x[w], x[w + 1], x[w + 2]}, rate);
-    std::copy_n(a_.begin(), 6, rate.begin() + StateLayout::kVelocity);
-    std::copy_n(speeds(x).begin(), joints_, rate.begin() + StateLayout::kAngles);
-    std::copy_n(a_.begin() + 6, joints_, speeds(rate).begin());
+    turn<T>(x, T(0.0), T(0.5) * Vec<T>{x[w], x[w + 1], x[w + 2]}, rate);
+    std::copy_n(implicit.accelerations().begin(), 6, rate.begin() + StateLayout::kVelocity);
+    std::ranges::copy(implicit.speeds(x), rate.begin() + StateLayout::kAngles);
+    std::ranges::copy(implicit.accelerations().subspan(6), implicit.speeds(rate).begin());
   }
 
   void runge_kutta(std::span<T> x, In command, double h) {
@@ -249,30 +240,38 @@ class Stepper {
     constexpr std::array<double, 4> kReach{0.5, 0.5, 1.0, 0.0};
     std::copy(x.begin(), x.end(), stage_.begin());
     std::copy(x.begin(), x.end(), sum_.begin());
-    std::ranges::copy(speeds(x), done.speed.begin());
+    Part<T>& part = add_part();
+    part.lanes = T(0.0) <= T(0.0);
+    part.h = h;
+    part.sum = part.share = T(h);
+    part.contact = part.friction = part.stops = T(0.0);
+    std::fill(part.torque.begin(), part.torque.end(), T(0.0));
+    std::ranges::copy(implicit.speeds(x), part.speed.begin());
+    std::copy_n(x.begin() + StateLayout::kAngles, joints_, part.angle.begin());
     for (std::size_t i = 0; i < 4; ++i) {
       derive(stage_, command, rate_);
-      part_.contact = part_.friction = part_.stops = T(0.0);
-      add_works(stage_, 0, kWeight[i] * h);
-      part_.torque = motors.torque;
-      std::fill(part_.speed.begin(), part_.speed.end(), T(0.0));
-      done.add(part_, kWeight[i], 1);
+      const auto [normal, along, on_stops] = implicit.powers(stage_);
+      part.contact = part.contact + kWeight[i] * h * normal;
+      part.friction = part.friction + kWeight[i] * h * along;
+      part.stops = part.stops + kWeight[i] * h * on_stops;
+      for (std::size_t j = 0; j < joints_; ++j) part.torque[j] = part.torque[j] + kWeight[i] * implicit.motors.law[j];
       for (std::size_t e = 0; e < x.size(); ++e) {
         sum_[e] = sum_[e] + kWeight[i] * h * rate_[e];
         stage_[e] = x[e] + kReach[i] * h * rate_[e];
       }
     }
     std::copy(sum_.begin(), sum_.end(), x.begin());
-    normalise(x);
+    normalise<T>(x);
   }
 
-  const Tree<T>& tree_;
   Method method_;
   std::size_t joints_;
-  std::vector<T> stop_, stop_slope_, force_, diagonal_, end_, a_;  // a joint; end_: speeds
-  Done<T> part_, whole_part_;
-  bool placed_ = false;
-  std::vector<T> whole_, prepared_, stage_, rate_, sum_;
+  T accuracy_;
+  std::vector<T> history_, sum_, stage_, rate_;
+  std::vector<Level> levels_;
+  std::vector<std::vector<T>> halved_;
+  std::vector<Part<T>> parts_;
+  std::size_t used_ = 0;
 };
 
 }  // namespace gaitlab::articulated

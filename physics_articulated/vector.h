@@ -25,9 +25,16 @@ template <class T>
 Vec<T> cross(const Vec<T>& a, const Vec<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+using math::select;
 template <class T>
 Vec<T> select(const math::Mask<T>& mask, const Vec<T>& yes, const Vec<T>& no) {
   return {math::select(mask, yes.x, no.x), math::select(mask, yes.y, no.y), math::select(mask, yes.z, no.z)};
+}
+
+/// In the lanes `which`: `share` of the way from one to the other, which is reached exactly where the share is 1.
+template <class V, class T>
+V between(const math::Mask<T>& which, const T& share, const V& from, const V& to) {
+  return select(which, select(share == T(1.0), to, from + share * (to - from)), from);
 }
 
 /// By columns: the axes of a frame.

@@ -38,6 +38,7 @@ class BulletPlant final : public Plant, private InverseMass {
     applied_.resize(n);
     at_rest_.resize(n);
     start_speed_.resize(n);
+    start_angle_.resize(n);
     monitor_.contacts.reserve(s.contacts.size());
     const In inertia = s.actuator == nullptr ? In() : s.actuator->reflected_inertia();
     if (std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; })) {
@@ -46,11 +47,12 @@ class BulletPlant final : public Plant, private InverseMass {
   }
 
   [[nodiscard]] std::size_t lanes() const override { return 1; }
-  void bind(Out numbers) override { numbers_ = numbers; }
+  void bind(Out numbers, Out) override { numbers_ = numbers; }
 
   void advance(In command, double h) override {
     layout_.read(numbers_, 0, state_);
     start_speed_ = state_.qd;
+    start_angle_ = state_.q;
     std::fill(applied_.begin(), applied_.end(), 0.0);
     work_ = {};
     integrator_.step(state_, h, [&](const RobotState& state, double weight, Acceleration& out) {
@@ -66,11 +68,10 @@ class BulletPlant final : public Plant, private InverseMass {
       accelerate(state, out);
     });
     layout_.write(state_, 0, numbers_);
+    part_.set(applied_, start_speed_, start_angle_, h);
   }
 
-  [[nodiscard]] Applied applied() const override {
-    return {applied_, start_speed_, In(work_).subspan(0, 1), In(work_).subspan(1, 1), In(work_).subspan(2, 1)};
-  }
+  [[nodiscard]] Applied applied() const override { return part_.applied(work_); }
 
   void accelerate(std::size_t, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
                   Acceleration& out) override {
@@ -181,7 +182,8 @@ class BulletPlant final : public Plant, private InverseMass {
   std::optional<RotorInertia> rotors_;  ///< Bullet's algorithm has no place for them
   ExplicitIntegrator integrator_;
   Acceleration acceleration_;
-  std::vector<double> torque_, slope_, applied_, at_rest_, start_speed_;
+  std::vector<double> torque_, slope_, applied_, at_rest_, start_speed_, start_angle_;
+  OnePart part_;
   std::array<double, 2> power_ = {};  ///< given to the ground along its normal and along it, W
   std::array<double, 3> work_ = {};   ///< of the last step: contact, friction, stops
   RateMonitor monitor_;
@@ -210,7 +212,10 @@ void register_bullet(Catalog& catalog) {
         if (s.solver) return make_solver_plant(s);
         return std::make_unique<BulletPlant>(s);
       },
-      1e-3});
+      1e-3,
+      -1,
+      0,
+      {1, 4}});
 }
 
 std::string bullet_version() {

@@ -38,7 +38,7 @@ class SolverPlant final : public Plant {
   }
 
   [[nodiscard]] std::size_t lanes() const override { return 1; }
-  void bind(Out numbers) override { numbers_ = numbers; }
+  void bind(Out numbers, Out) override { numbers_ = numbers; }
   [[nodiscard]] bool memoryless() const override { return false; }
 
   void advance(In command, double h) override {
@@ -52,12 +52,11 @@ class SolverPlant final : public Plant {
     settle(h);
     ExplicitIntegrator::drift(state_, h);
     layout_.write(state_, 0, numbers_);
+    part_.set(applied_, numbers_.subspan(layout_.speeds(), layout_.joints),
+              numbers_.subspan(layout_.angles(), layout_.joints), h);
   }
 
-  [[nodiscard]] Applied applied() const override {
-    const In speed = numbers_.subspan(layout_.speeds(), layout_.joints);
-    return {applied_, speed, In(work_).subspan(0, 1), In(work_).subspan(1, 1), In(work_).subspan(2, 1)};
-  }
+  [[nodiscard]] Applied applied() const override { return part_.applied(work_); }
 
   [[nodiscard]] std::optional<Vec3> com(std::size_t) const override { return {}; }
   void accelerate(std::size_t, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
@@ -181,6 +180,7 @@ class SolverPlant final : public Plant {
   std::vector<ContactSample> samples_;
   std::vector<std::vector<std::size_t>> elements_of_body_;
   std::array<double, 3> work_ = {};  ///< of the last step: contact, friction, stops
+  OnePart part_;
 };
 
 }  // namespace

@@ -100,7 +100,7 @@ Summary summarise(const Scenario& scenario, const RunRecord& r, double wall_time
   Summary s;
   s.wall_time = wall_time;
   s.build = build_id();
-  s.simulated = static_cast<double>(r.steps) * scenario.physics.step;
+  s.simulated = r.simulated;
   travel(r, s);
   transport(scenario, r, s);
   s.limit_cycle = cycle(scenario, r, s);
@@ -176,6 +176,10 @@ std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord&
         {"period", s.limit_cycle.period},
         {"error", s.limit_cycle.error}}},
       {"stability", {{"max", s.stability_max}, {"share_above_1", s.stability_share}, {"source", s.stability_source}}},
+      {"solves", r.tally.solves},
+      {"off", r.tally.off},
+      {"coarse", r.tally.coarse},
+      {"torque_error", r.tally.torque_error},
       {"trace_hash", s.trace_hash}};
   return json.dump(2) + "\n";
 }

@@ -34,6 +34,8 @@ struct BasicPenaltyContact {
     const math::Mask<T> acts = math::both(p > 0.0, fn > 0.0);
     return {select(acts, fn, zero), select(acts, damping, zero), select(acts, kn * k * power(p, k - 1.0), zero), acts};
   }
+  /// Cd p^d, N s/m; 0 in the air.
+  [[nodiscard]] T damping(const T& p) const { return math::select(p > T(0.0), cd * power(p, d), T(0.0)); }
   [[nodiscard]] math::Mask<T> slides(const Normal& n, const T& slip) const { return math::both(n.acts, slip > v_lim); }
   /// slip: |v|; friction: f of the ground.
   [[nodiscard]] Force operator()(const T& p, const T& vn, const T& slip, const T& friction) const {

@@ -16,12 +16,15 @@ struct PlantSettings;
 /// A physics engine: what the scenario may ask of it and how to make it.
 struct Engine {
   std::string name, manual;
-  std::vector<std::string> integrators;  ///< the first is the default
-  double step = 0;                       ///< default, s
+  std::vector<std::string> integrators;  ///< the first is the default; where a step is given, `fixed`
+  double step = 0;                       ///< default of those that take steps as given, s
   std::vector<std::size_t> lanes{1};     ///< how many rollouts it runs side by side, ascending
   bool rotor_inertia = false;            ///< can add a joint's reflected rotor inertia
   std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
   double solver_step = 0;  ///< default with contact.law: bullet, s; 0: the engine has no such law
+  int adaptive = -1;       ///< the integrator that chooses its steps, whose default is step: auto; -1: none does
+  int fixed = 0;           ///< the default integrator where a step is given
+  std::vector<int> orders{};  ///< of the integrators; 0: adaptive. Empty: no error is estimated
 };
 
 inline constexpr std::string_view kBuiltIn = "built in";  ///< an origin

@@ -43,6 +43,8 @@ enum class NamedValues { texts, texts_or_numbers };
 class Fields {
  public:
   virtual void number(const char* key, double& value, Spec spec) = 0;
+  /// A number, or `word` instead of one: then `value` is 0.
+  virtual void number_or(const char* key, double& value, const char* /*word*/, Spec spec) { number(key, value, spec); }
   virtual void integer(const char* key, std::int64_t& value, Spec spec) = 0;
   virtual void flag(const char* key, bool& value, const char* about) = 0;
   virtual void text(const char* key, std::string& value, const char* about) = 0;

@@ -86,6 +86,10 @@ void Explainer::number(const char* key, double& value, Spec spec) {
   row(key, spec.unit, number_text(value), range_without_unit(spec), spec.about);
 }
 
+void Explainer::number_or(const char* key, double& value, const char* word, Spec spec) {
+  row(key, spec.unit, value > 0 ? number_text(value) : word, word + (" | " + range_without_unit(spec)), spec.about);
+}
+
 void Explainer::integer(const char* key, std::int64_t& value, Spec spec) {
   row(key, spec.unit, std::to_string(value), range_without_unit(spec), spec.about);
 }

@@ -93,6 +93,21 @@ void Reader::number(const char* key, double& value, Spec spec) {
   if (const Node* node = take(key)) read_one(*node, key, spec, value);
 }
 
+void Reader::number_or(const char* key, double& value, const char* word, Spec spec) {
+  const Node* node = take(key);
+  if (node == nullptr) return;
+  if (node->kind == Node::Kind::scalar && node->text == word) {
+    value = 0;
+    return;
+  }
+  const Reading<double> reading = read_number(*node, spec.unit);
+  if (!reading.ok()) {
+    problems_.add(node->place, fmt::format("{} {}, or {}", key, reading.wrong, word));
+  } else {
+    read_one(*node, key, spec, value);
+  }
+}
+
 void Reader::integer(const char* key, std::int64_t& value, Spec spec) {
   const Node* node = take(key);
   if (node == nullptr) return;

@@ -23,6 +23,7 @@ class Reader final : public Fields {
   Reader(const Place& place, Problems& problems, JointNames joints, std::string folder = {});
 
   void number(const char* key, double& value, Spec spec) override;
+  void number_or(const char* key, double& value, const char* word, Spec spec) override;
   void integer(const char* key, std::int64_t& value, Spec spec) override;
   void flag(const char* key, bool& value, const char* about) override;
   void text(const char* key, std::string& value, const char* about) override;

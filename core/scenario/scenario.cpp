@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -22,6 +23,12 @@ namespace gaitlab {
 namespace {
 
 constexpr std::size_t kMostProblems = 200;  // more help nobody
+constexpr double kLongestStep = 5e-3;       // s: beyond, contacts that come and go are missed (docs/equations.md, 7)
+
+/// The longest step of an integrator that divides it as it needs: a whole part of the control period.
+double longest_step(double control_period) {
+  return control_period / std::max(1.0, std::ceil(control_period / kLongestStep - 1e-9));
+}
 
 /// Place of a key's value (`key` empty: of the section's name), or nothing where it is not given.
 std::optional<Place> given(const Node& root, const std::string& section, const std::string& key = {}) {
@@ -303,7 +310,14 @@ class ScenarioReader {
   void check_all_periods() {
     // Nothing is commanded: the control tick only watches the step.
     if (scenario_.actuator.entry == nullptr && root_.find("cpg") == nullptr) {
-      scenario_.control_period = scenario_.cpg_step = scenario_.trace.period;
+      scenario_.control_period = scenario_.physics.adaptive_step ? kLongestStep : scenario_.trace.period;
+      scenario_.cpg_step = scenario_.control_period;
+    }
+    Physics& physics_ = scenario_.physics;
+    if (physics_.engine != nullptr && !physics_.adapts()) refuse_auto();
+    if (physics_.adaptive_step) {
+      physics_.step = longest_step(scenario_.control_period);
+      return check_cpg_period();
     }
     const Period step{"step", scenario_.physics.step, given(root_, "physics", "step")};
     const Period control{"control period", scenario_.control_period, given(root_, "controller", "period")};
@@ -313,10 +327,28 @@ class ScenarioReader {
       periods.push_back({"duration", scenario_.duration, duration->place});
     }
     if (step.value > 0) check_periods(periods, step, physics, problems_);
-    if (scenario_.cpg_step > 0) {
-      const Period cpg{"CPG step", scenario_.cpg_step, given(root_, "cpg", "step")};
-      check_periods({control}, cpg, place_of(root_, "cpg", "step"), problems_);
+    check_cpg_period();
+  }
+  void check_cpg_period() {
+    if (!(scenario_.cpg_step > 0)) return;
+    const Period control{"control period", scenario_.control_period, given(root_, "controller", "period")};
+    const Period cpg{"CPG step", scenario_.cpg_step, given(root_, "cpg", "step")};
+    check_periods({control}, cpg, place_of(root_, "cpg", "step"), problems_);
+  }
+  void refuse_auto() {
+    const Node* physics = root_.find("physics");
+    const Node* step = physics == nullptr ? nullptr : physics->find("step");
+    if (step == nullptr || step->text != "auto") return;
+    std::vector<std::string> able;
+    for (const std::string& name : catalog_.engines()) {
+      const Engine& engine = *catalog_.engine(name);
+      if (engine.adaptive >= 0) {
+        able.push_back(fmt::format("engine: {}, integrator: {}", name, engine.integrators[static_cast<std::size_t>(engine.adaptive)]));
+      }
     }
+    problems_.add(step->place, fmt::format("integrator '{}' of engine '{}' chooses no steps; expected a number of seconds, or {}",
+                                           scenario_.physics.integrator_name(), scenario_.physics.engine->name,
+                                           fmt::join(able, " or ")));
   }
 
   /// Uses a plugin; what it throws is bad input like any other.

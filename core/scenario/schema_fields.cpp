@@ -50,6 +50,11 @@ void SchemaFields::number(const char* key, double& value, Spec spec) {
   properties_[key] = preset(described(bounded("number", spec), spec.about, spec.unit), value);
 }
 
+void SchemaFields::number_or(const char* key, double& value, const char* word, Spec spec) {
+  const Json either{{"anyOf", {bounded("number", spec), {{"const", word}}}}};
+  properties_[key] = preset(described(either, spec.about, spec.unit), value > 0 ? Json(value) : Json(word));
+}
+
 void SchemaFields::integer(const char* key, std::int64_t& value, Spec spec) {
   properties_[key] = preset(described(bounded("integer", spec), spec.about, spec.unit), value);
 }

@@ -91,13 +91,26 @@ void PhysicsFields::fields(Fields& f) {
   const bool known = count(problems) == before && !names.texts.empty();
   if (names.texts.empty()) f.problem("engine", "no physics engine is built in");
   if (known && catalog != nullptr) physics.engine = catalog->engine(names.texts[static_cast<std::size_t>(index)]);
-  if (known && physics.step <= 0) {
-    physics.step = solver && physics.engine->solver_step > 0 ? physics.engine->solver_step : physics.engine->step;
+  const bool filled = physics.step > 0;
+  double step = physics.adaptive_step ? 0 : physics.step;
+  if (known && !filled && physics.engine->adaptive < 0) {
+    step = solver && physics.engine->solver_step > 0 ? physics.engine->solver_step : physics.engine->step;
   }
-  f.number("step", physics.step, {"s", 1e-9, 1, "Time step; default: the engine's for the contact law."});
+  f.number_or("step", step, "auto",
+              {"s", 1e-9, 1, "Time step; default: the engine's for integrator and contact law. auto: as accuracy asks."});
   if (known) {
-    const Names integrators(physics.engine->integrators);
+    const Engine& engine = *physics.engine;
+    if (!filled && step > 0) physics.integrator = engine.fixed;
+    const Names integrators(engine.integrators);
     f.choice("integrator", physics.integrator, integrators.pointers, "Integrator of the engine.");
+    physics.adaptive_step = step <= 0 && physics.adapts();
+    if (step > 0 || !physics.adapts()) physics.step = step > 0 ? step : engine.step;
+    if (physics.adapts()) {
+      f.number("accuracy", physics.accuracy,
+               {"", 1e-6, 0.5,
+                "Of the torques: of a joint's largest so far, and at least of 1 % of its motor's torque at rest. The integrator "
+                "adaptive divides its steps until they agree to that."});
+    }
   } else {
     std::string any;  // which there are depends on the engine
     f.text("integrator", any, "");

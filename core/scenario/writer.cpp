@@ -30,6 +30,10 @@ void Writer::add(const std::string& key, Node value) {
 
 void Writer::number(const char* key, double& value, Spec) { add(key, scalar_node(number_text(value))); }
 
+void Writer::number_or(const char* key, double& value, const char* word, Spec) {
+  add(key, scalar_node(value > 0 ? number_text(value) : word));
+}
+
 void Writer::integer(const char* key, std::int64_t& value, Spec) { add(key, scalar_node(std::to_string(value))); }
 
 void Writer::flag(const char* key, bool& value, const char*) { add(key, scalar_node(value ? "true" : "false")); }

@@ -21,6 +21,7 @@ class Writer final : public Fields {
   explicit Writer(const std::vector<std::string>& joints) : joints_(joints) { map_.kind = Node::Kind::map; }
 
   void number(const char* key, double& value, Spec spec) override;
+  void number_or(const char* key, double& value, const char* word, Spec spec) override;
   void integer(const char* key, std::int64_t& value, Spec spec) override;
   void flag(const char* key, bool& value, const char* about) override;
   void text(const char* key, std::string& value, const char* about) override;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scenario/plugin_instance.h"
+#include "core/simulation/lane_clock.h"
 #include "core/simulation/simulation.h"
 
 namespace gaitlab {
@@ -17,9 +18,7 @@ struct Simulation::Lane {
       : scenario(s),
         robot(*s.robot),
         index(lane_index),
-        steps(whole(s.duration, s.physics.step)),
-        control_every(whole(s.control_period, s.physics.step)),
-        trace_every(whole(s.trace.period, s.physics.step)),
+        clock(s),
         contacts(std::move(elements)),
         cpg(make_cpg(s.cpg, info)),
         controller(make_controller(s.controller, info)),
@@ -53,7 +52,7 @@ struct Simulation::Lane {
   const Scenario& scenario;
   const Robot& robot;
   std::size_t index;
-  std::int64_t steps, control_every, trace_every;
+  LaneClock clock;
   bool closed = false;  ///< its record is complete
   std::string failure;  ///< why it ended early
   std::vector<ContactElement> contacts;

@@ -30,15 +30,16 @@ class Meter {
  public:
   explicit Meter(std::span<const Scenario> lanes);
 
-  /// One step: actuator law and motion at its start, mean torque over it.
-  void add(In angle, In speed, In setpoint, In torque, const Actuator::Report& report, double h);
+  /// One part of a step of the lanes from..to: motion, torque and the actuator law there.
+  void add(const Applied::Part& part, In setpoint, const Actuator::Report& report, std::size_t from, std::size_t to);
   [[nodiscard]] JointFigures figures(std::size_t joint, std::size_t lane) const;
 
  private:
   std::vector<double> lo_, hi_;
   std::array<std::vector<double>, kFigures> figures_;  // by the members of JointFigures: plain loops over all joints and lanes
   std::size_t lanes_;
-  double time_ = 0;  ///< only a divisor: a sum of equal steps
+  std::vector<double> time_;  ///< a lane, s: only a divisor
+  std::vector<double> seen_;  ///< scratch: 1 for a lane whose motion the part is
 };
 
 }  // namespace gaitlab

@@ -41,6 +41,16 @@ struct LaneSettings {
   Ground ground;  ///< Kind::none: no contact at all
   std::vector<ContactElement> contacts;
   PenaltyContact law;
+  double accuracy = 0;  ///< of the torques, relative: of an integrator that chooses its steps
+};
+
+/// What is known of a lane's steps since the start.
+struct StepTally {
+  double solves = 0;  ///< of the equations of motion; 0: not counted
+  double off = 0;     ///< joint-steps that ended off the law of their motor or stop
+  double coarse = 0;  ///< s in which the shortest steps that an integrator takes did not reach the accuracy
+  bool estimated = false;  ///< whether there is an estimate of the torque error yet (step_error.h)
+  std::vector<double> torque_error;  ///< of each joint, RMS, N m
 };
 
 /// What an engine is made from; everything outlives the plant. The base: what lane 0 has, and all there is for an engine of
@@ -59,11 +69,15 @@ class Plant {
  public:
   virtual ~Plant() = default;
   [[nodiscard]] virtual std::size_t lanes() const = 0;
-  /// The state this plant works on from now on (StateLayout).
-  virtual void bind(Out state) = 0;
+  /// How many numbers it keeps from step to step beside the state, of all lanes; all 0 at the start.
+  [[nodiscard]] virtual std::size_t history() const { return 0; }
+  /// The state (StateLayout) and history this plant works on from now on.
+  virtual void bind(Out state, Out history) = 0;
   /// One step of h seconds under held commands (joint * lanes + lane), asking the actuator at every stage the integrator needs.
   virtual void advance(In command, double h) = 0;
   [[nodiscard]] virtual Applied applied() const = 0;
+  /// All but the torque error.
+  virtual void tally(std::size_t /*lane*/, StepTally& /*out*/) const {}
   /// Actuator::report, by an engine that evaluates the law itself; false: it does not.
   virtual bool report(In, In, const Actuator::Report&) { return false; }
   /// Whether the bound numbers are all it goes by, so that a copy of them is a snapshot and forces follow from them.

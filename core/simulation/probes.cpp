@@ -19,7 +19,7 @@ Sample::Sample(const Robot& robot, std::size_t contacts_count, std::size_t cpg_s
       cpg(cpg_states),
       reactions(robot) {
   for (auto* values : {&state.q, &state.qd, &setpoint, &command, &voltage, &current, &saturation, &torque, &stop_torque,
-                       &power_in, &copper, &gear, &acceleration_.joints, &applied_}) {
+                       &power_in, &copper, &gear, &acceleration_.joints, &applied_, &tally.torque_error}) {
     values->assign(robot.joints.size(), 0.0);
   }
   ground_.reserve(contacts_count);
@@ -77,6 +77,7 @@ Probes::Probes(const Scenario& scenario, const std::vector<ContactElement>& cont
     add("cpg." + cpg->state_name(i), "", "state of the CPG", [i](const Sample& s) { return s.cpg[i]; });
   }
   add_energy();
+  add_steps(robot);
   add_reactions(robot);
   select(scenario);
 }
@@ -88,6 +89,18 @@ void Probes::add(std::string name, std::string unit, std::string definition, Rea
 void Probes::add(std::string name, std::string unit, std::string definition, const double& number) {
   columns_.push_back({std::move(name), std::move(unit), std::move(definition)});
   sources_.push_back({&number});
+}
+
+void Probes::add_steps(const Robot& robot) {
+  add("steps.solves", "", "solves of the equations of motion from t = 0 to this row; 0: the engine does not count them",
+      sample_.tally.solves);
+  add("steps.off", "", "joint-steps from t = 0 to this row that ended off the law of their motor or stop", sample_.tally.off);
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    add(fmt::format("torque_error.{}", j), "N m",
+        "estimate of the motor torque's error from the length of the steps, RMS from t = 0 to this row, of joint " +
+            robot.joints[j].name,
+        sample_.tally.torque_error[j]);
+  }
 }
 
 void Probes::add_vector(const std::string& name, std::string unit, const std::string& definition,

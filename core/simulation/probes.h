@@ -33,6 +33,7 @@ struct Sample {
   std::vector<BoxMotion> boxes;  ///< of Ground::boxes
   std::vector<double> cpg;
   Ledger ledger;
+  StepTally tally;
   InverseDynamics reactions;  ///< at hinges, docks and base: motors, stops and contacts acting; only after react
 
  private:
@@ -69,6 +70,7 @@ class Probes {
   void add_bodies(const Robot& robot, const Sample& first);
   void add_boxes(const Ground& ground);
   void add_energy();
+  void add_steps(const Robot& robot);
   void add_wrench(const std::string& name, const std::string& of, std::function<const Wrench&(const Sample&)> read);
   void add_reactions(const Robot& robot);
   void select(const Scenario& scenario);

@@ -15,7 +15,7 @@ bool can_share(const Scenario& a, const Scenario& b) {
   const auto same_place = [](const ContactElement& x, const ContactElement& y) { return x.link == y.link; };
   const auto elements = [](const Scenario& s) { return contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on)); };
   return a.physics.engine == b.physics.engine && a.physics.integrator == b.physics.integrator &&
-         a.physics.step == b.physics.step && a.actuator.entry == b.actuator.entry && a.base == b.base &&
+         a.physics.step == b.physics.step && a.physics.adaptive_step == b.physics.adaptive_step && a.control_period == b.control_period && a.actuator.entry == b.actuator.entry && a.base == b.base &&
          a.contact.solver() == b.contact.solver() && std::ranges::equal(a.robot->links, b.robot->links, same_link) &&
          std::ranges::equal(elements(a), elements(b), same_place);
 }
@@ -30,7 +30,7 @@ Simulation::Simulation(std::span<const Scenario> lanes) try
     if (!can_share(scenarios_[0], s)) throw std::invalid_argument("these scenarios cannot run side by side");
     actuators.push_back(&s.actuator);
     lanes_.push_back(std::make_unique<Lane>(s, lanes_.size()));
-    steps_ = std::max(steps_, lanes_.back()->steps);
+    steps_ = std::max(steps_, lanes_.back()->clock.steps());
   }
   const Scenario& first = scenarios_[0];
   const auto& widths = first.physics.engine->lanes;
@@ -40,12 +40,13 @@ Simulation::Simulation(std::span<const Scenario> lanes) try
   }
   actuator_ = make_actuator(actuators, info(*first.robot));
   plant_ = first.physics.engine->make(plant_settings());
-  for (auto* values : {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_, &angle_, &speed_}) {
+  for (auto* values : {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_}) {
     values->assign(layout_.joints * lanes_.size(), 0.0);
   }
   cut_state();
   set_start();
   check_standing();
+  watch_error();
 } catch (const PluginError& error) {
   throw InputError(lanes[0].place(std::string(word(error.kind)) + ".type"), error.what());
 }
@@ -55,7 +56,7 @@ Simulation::~Simulation() = default;
 PlantSettings Simulation::plant_settings() const {
   const auto own = [](const Lane& lane) {
     const Scenario& s = lane.scenario;
-    return LaneSettings{s.robot, s.physics.gravity, s.ground, lane.contacts, s.contact.penalty};
+    return LaneSettings{s.robot, s.physics.gravity, s.ground, lane.contacts, s.contact.penalty, s.physics.accuracy};
   };
   PlantSettings settings;
   static_cast<LaneSettings&>(settings) = own(*lanes_[0]);
@@ -67,10 +68,11 @@ PlantSettings Simulation::plant_settings() const {
   return settings;
 }
 
-/// step counter | plant | set points | commands | per lane: CPG states, controller states, ledger's sums.
+/// step counter | plant | its history | set points | commands | per lane: CPG states, controller states, ledger's sums.
 void Simulation::cut_state() {
   const std::size_t joints = layout_.joints * lanes_.size();
-  std::size_t size = 1 + layout_.size() + 2 * joints;
+  const std::size_t watch = 1 + layout_.size() + plant_->history() + joints;  // StepError
+  std::size_t size = 1 + layout_.size() + plant_->history() + 2 * joints + watch;
   for (const auto& lane : lanes_) {
     size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states()) + Ledger::kSums;
   }
@@ -82,14 +84,17 @@ void Simulation::cut_state() {
     return part;
   };
   plant_state_ = cut(layout_.size());
+  plant_history_ = cut(plant_->history());
   setpoint_ = cut(joints);
   command_ = cut(joints);
+  step_error_state_ = cut(watch);
   for (const auto& lane : lanes_) {
     lane->cpg_state = cut(lane->sample.cpg.size());
     lane->controller_state = cut(lane->controller == nullptr ? 0 : lane->controller->states());
     lane->ledger = cut(Ledger::kSums);
   }
-  plant_->bind(plant_state_);
+  saved_.resize(state_.size());
+  plant_->bind(plant_state_, plant_history_);
 }
 
 void Simulation::set_start() {
@@ -110,7 +115,7 @@ void Simulation::set_start() {
     }
     lane.probes = std::make_unique<Probes>(s, lane.contacts, lane.cpg.get(),
                                            actuator_ == nullptr ? "" : actuator_->command_unit(), sample);
-    const auto rows = static_cast<std::size_t>(lane.steps / lane.trace_every + 2);
+    const auto rows = static_cast<std::size_t>(s.duration / s.trace.period + 3);
     RunRecord& record = lane.record;
     record.trace.columns = lane.probes->columns();
     record.trace.values.reserve(rows * record.trace.columns.size());
@@ -119,6 +124,29 @@ void Simulation::set_start() {
     for (auto* series : {&record.angles, &record.setpoints, &record.torques}) series->reserve(rows * layout_.joints);
     record.loads.reserve(rows * lane.robot.modules.size());
   }
+}
+
+/// A second plant for the estimate of the torque error, where there are motors and a state that can be copied.
+void Simulation::watch_error() {
+  const Physics& physics = scenarios_[0].physics;
+  const std::vector<int>& orders = physics.engine->orders;
+  if (actuator_ == nullptr || orders.empty() || !plant_->memoryless() || layout_.joints == 0) return;
+  const std::int64_t control_every = std::llround(scenarios_[0].control_period / h_);
+  PlantSettings settings = plant_settings();
+  StepTwin twin;
+  if (physics.adapts()) {
+    settings.accuracy *= StepError::kCoarser;
+    for (LaneSettings& other : settings.others) other.accuracy *= StepError::kCoarser;
+    twin = {1, StepError::kSafety / (std::cbrt(StepError::kCoarser * StepError::kCoarser) - 1), 12, 6};
+  } else {
+    const double ratio = 1 << orders[static_cast<std::size_t>(physics.integrator)];
+    // An explicit step of twice the length may be too long for the robot.
+    const bool longer = control_every % 2 == 0 && !(standing_.rate > 0);
+    const double factor = StepError::kSafety / (ratio - 1);
+    twin = longer ? StepTwin{2, factor, 12, 5} : StepTwin{-2, ratio * factor, 6, 20};
+  }
+  step_error_ = std::make_unique<StepError>(physics.engine->make(settings), twin, *actuator_, layout_, control_every, h_);
+  step_error_->bind(step_error_state_);
 }
 
 /// No command yet: set point = angle, command 0.

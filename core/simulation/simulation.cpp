@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/laws/hinge_stop.h"
 #include "core/simulation/cpg_check.h"
@@ -24,11 +25,10 @@ SimulationError::SimulationError(std::int64_t at_step, double at_time, std::stri
     : RunError(what), step(at_step), time(at_time), where(std::move(at)) {}
 
 bool Simulation::control_tick(const Lane& lane) const {
-  return lane.failure.empty() && step_number() < lane.steps && step_number() % lane.control_every == 0;
+  return !lane.closed && lane.clock.commands(step_number());
 }
 bool Simulation::trace_tick(const Lane& lane) const {
-  if (!lane.failure.empty() || step_number() > lane.steps) return false;
-  return step_number() % lane.trace_every == 0 || step_number() == lane.steps;
+  return !lane.closed && lane.clock.records(step_number());
 }
 bool Simulation::any(bool (Simulation::*tick)(const Lane&) const) const {
   return std::any_of(lanes_.begin(), lanes_.end(), [&](const auto& lane) { return (this->*tick)(*lane); });
@@ -40,13 +40,18 @@ void Simulation::step() {
     sense();
     command();
   }
-  advance();
+  record_within_step();
+  if (step_error_) step_error_->begin(step_number(), plant_state_, plant_history_);
+  advance(h_);
+  measure(0, lanes_.size());
+  if (step_error_) step_error_->follow(step_number(), plant_state_, command_, h_);
+  state_[0] += 1;
   check();
 }
 
 bool Simulation::done() const {
   return step_number() >= steps_ ||
-         std::none_of(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane->failure.empty(); });
+         std::all_of(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane->closed; });
 }
 
 bool Simulation::run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) try {
@@ -131,41 +136,93 @@ Sample& Simulation::take_sample(Lane& lane, bool whole) {
     s.stop_torque[j] = HingeStop::at(s.state.q[j], s.state.qd[j], lane.robot.joints[j].lo, lane.robot.joints[j].hi).torque;
   }
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
+  plant_->tally(l, s.tally);
+  if (step_error_) {
+    s.tally.estimated = step_error_->any();
+    for (std::size_t j = 0; j < layout_.joints; ++j) s.tally.torque_error[j] = step_error_->rms(j, l);
+  }
   s.ledger = Ledger::of(lane.ledger, energy(lane) - lane.energy_at_start);
   return s;
 }
 
-void Simulation::record() {
+/// The left limit of what is not the plant's state: the actuator law under the command in force.
+void Simulation::look() {
   report(plant_state_.subspan(layout_.speeds(), command_.size()));
   if (actuator_ != nullptr) {
     actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
   }
   plant_->look();
-  for (const auto& one : lanes_) {
-    Lane& lane = *one;
-    if (!trace_tick(lane)) continue;
-    Sample& s = take_sample(lane, false);
-    if (lane.probes->want_reactions()) s.react(lane.contacts, *plant_, lane.index);
-    RunRecord& r = lane.record;
-    r.trace.values.resize(r.trace.values.size() + r.trace.columns.size());
-    lane.probes->fill(Out(r.trace.values).last(r.trace.columns.size()));
-    r.com_x.push_back(s.sums.com.x());
-    r.com_y.push_back(s.sums.com.y());
-    r.com_z.push_back(s.sums.com.z());
-    const Quat& turn = s.state.orientation;
-    for (const double x :
-         {s.state.position.x(), s.state.position.y(), s.state.position.z(), turn.w(), turn.x(), turn.y(), turn.z()}) {
-      r.poses.push_back(x);
+}
+
+void Simulation::record() {
+  look();
+  for (const auto& lane : lanes_) {
+    if (!trace_tick(*lane)) continue;
+    record(*lane);
+    if (lane->clock.ends(step_number())) end(*lane);
+  }
+}
+
+void Simulation::record(Lane& lane) {
+  Sample& s = take_sample(lane, false);
+  if (lane.probes->want_reactions()) s.react(lane.contacts, *plant_, lane.index);
+  RunRecord& r = lane.record;
+  r.trace.values.resize(r.trace.values.size() + r.trace.columns.size());
+  lane.probes->fill(Out(r.trace.values).last(r.trace.columns.size()));
+  r.com_x.push_back(s.sums.com.x());
+  r.com_y.push_back(s.sums.com.y());
+  r.com_z.push_back(s.sums.com.z());
+  const Quat& turn = s.state.orientation;
+  for (const double x :
+       {s.state.position.x(), s.state.position.y(), s.state.position.z(), turn.w(), turn.x(), turn.y(), turn.z()}) {
+    r.poses.push_back(x);
+  }
+  r.angles.insert(r.angles.end(), s.state.q.begin(), s.state.q.end());
+  r.setpoints.insert(r.setpoints.end(), s.setpoint.begin(), s.setpoint.end());
+  r.torques.insert(r.torques.end(), s.torque.begin(), s.torque.end());
+  r.loads.resize(r.loads.size() + lane.robot.modules.size(), 0.0);
+  const Out loads = Out(r.loads).last(lane.robot.modules.size());
+  for (std::size_t c = 0; c < lane.contacts.size(); ++c) {
+    loads[lane.robot.bodies[lane.contacts[c].body].module] += s.contacts[c].fn;
+  }
+}
+
+/// Rows and ends within the step that starts now: each by a shorter step of its own, after which the state is put back, so that
+/// nothing depends on which rows there are.
+void Simulation::record_within_step() {
+  if (!scenarios_[0].physics.adaptive_step) return;
+  for (double at = 0;;) {
+    const auto next = [&](const Lane& lane) {
+      return lane.closed ? std::numeric_limits<double>::infinity() : lane.clock.row_within(step_number(), at);
+    };
+    double row = std::numeric_limits<double>::infinity();
+    for (const auto& lane : lanes_) row = std::min(row, next(*lane));
+    if (!std::isfinite(row)) return;
+    std::ranges::copy(state_, saved_.begin());
+    advance(row);
+    std::vector<Lane*>& ended = ended_;
+    ended.clear();
+    for (std::size_t l = 0; l < lanes_.size(); ++l) {
+      if (!lanes_[l]->closed && lanes_[l]->clock.ends_within(step_number(), row)) {
+        measure(l, l + 1);
+        ended.push_back(lanes_[l].get());
+      }
     }
-    r.angles.insert(r.angles.end(), s.state.q.begin(), s.state.q.end());
-    r.setpoints.insert(r.setpoints.end(), s.setpoint.begin(), s.setpoint.end());
-    r.torques.insert(r.torques.end(), s.torque.begin(), s.torque.end());
-    r.loads.resize(r.loads.size() + lane.robot.modules.size(), 0.0);
-    const Out loads = Out(r.loads).last(lane.robot.modules.size());
-    for (std::size_t c = 0; c < lane.contacts.size(); ++c) {
-      loads[lane.robot.bodies[lane.contacts[c].body].module] += s.contacts[c].fn;
+    within_ = row;
+    look();
+    for (const auto& lane : lanes_) {
+      if (next(*lane) <= row) record(*lane);
     }
-    if (step_number() == lane.steps) end(lane);
+    for (Lane* lane : ended) {
+      check(*lane);
+      if (!lane->closed) close(*lane);
+    }
+    within_ = 0;
+    std::ranges::copy(saved_, state_.begin());
+    if (lanes_.size() > 1) {
+      for (Lane* lane : ended) place_at_start(*lane);
+    }
+    at = row;
   }
 }
 
@@ -237,43 +294,51 @@ void Simulation::watch_stability() {
   }
 }
 
-void Simulation::advance() {
-  const auto part = [&](std::size_t at) { return plant_state_.subspan(at, command_.size()); };
-  std::ranges::copy(part(layout_.angles()), angle_.begin());
-  std::ranges::copy(part(layout_.speeds()), speed_.begin());
-  plant_->advance(command_, h_);
-  report(plant_->applied().speed);
-  meter_.add(angle_, speed_, setpoint_, plant_->applied().torque, {voltage_, current_, saturation_, power_in_, copper_, gear_},
-             h_);
-  keep_ledger();
-  state_[0] += 1;
-}
-
-void Simulation::keep_ledger() {
-  const std::size_t lanes = lanes_.size();
+/// A step of the plant; the ledger is part of the state.
+void Simulation::advance(double h) {
+  plant_->advance(command_, h);
   const Applied applied = plant_->applied();
+  const std::size_t lanes = lanes_.size();
+  for (const Applied::Part& part : applied.parts) {
+    if (part.instant) continue;
+    report(part.speed);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Out sums = lanes_[l]->ledger;
+      for (std::size_t i = l; i < command_.size(); i += lanes) {
+        sums[0] += part.sum[l] * power_in_[i];
+        sums[1] += part.sum[l] * copper_[i];
+        sums[2] += part.sum[l] * gear_[i];
+      }
+    }
+  }
   for (std::size_t l = 0; l < lanes; ++l) {
     const Out sums = lanes_[l]->ledger;
-    for (std::size_t i = l; i < command_.size(); i += lanes) {
-      sums[0] += h_ * power_in_[i];
-      sums[1] += h_ * copper_[i];
-      sums[2] += h_ * gear_[i];
-    }
     sums[3] += applied.contact[l];
     sums[4] += applied.friction[l];
     sums[5] += applied.stops[l];
   }
 }
 
+/// The last step's figures of the lanes from..to.
+void Simulation::measure(std::size_t from, std::size_t to) {
+  for (const Applied::Part& part : plant_->applied().parts) {
+    report(part.speed);
+    meter_.add(part, setpoint_, {voltage_, current_, saturation_, power_in_, copper_, gear_}, from, to);
+  }
+}
+
 void Simulation::check() {
   for (const auto& lane : lanes_) {
-    if (!lane->failure.empty() || step_number() > lane->steps) continue;
-    bool fine = true;
-    for (std::size_t i = lane->index; i < plant_state_.size(); i += lanes_.size()) {
-      fine = fine && std::abs(plant_state_[i]) < kLargestSpeed;  // false for NaN too
-    }
-    if (!fine) fail(*lane, diverged(*lane));
+    if (!lane->closed) check(*lane);
   }
+}
+
+void Simulation::check(Lane& lane) {
+  bool fine = true;
+  for (std::size_t i = lane.index; i < plant_state_.size(); i += lanes_.size()) {
+    fine = fine && std::abs(plant_state_[i]) < kLargestSpeed;  // false for NaN too
+  }
+  if (!fine) fail(lane, diverged(lane));
 }
 
 SimulationError Simulation::diverged(const Lane& lane) const {
@@ -303,6 +368,8 @@ void Simulation::close(Lane& lane) {
   lane.closed = true;
   plant_->look();
   lane.record.steps = step_number();
+  lane.record.simulated = time();
+  lane.record.tally = lane.sample.tally;
   lane.record.ledger = take_sample(lane, true).ledger;
   lane.record.joints.clear();
   for (std::size_t j = 0; j < layout_.joints; ++j) lane.record.joints.push_back(meter_.figures(j, lane.index));

@@ -12,6 +12,7 @@
 #include "core/simulation/meter.h"
 #include "core/simulation/plant.h"
 #include "core/simulation/probes.h"
+#include "core/simulation/step_error.h"
 #include "core/trace/trace.h"
 
 namespace gaitlab {
@@ -41,6 +42,8 @@ struct RunRecord {
   /// Angles and pose at a trace tick; speeds 0.
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t tick) const;
   Ledger ledger;    ///< at the last row
+  StepTally tally;  ///< of the engine's steps
+  double simulated = 0;  ///< s
   Stability worst;  ///< the largest rate seen at a control tick
   double worst_time = 0;
   std::int64_t ticks = 0, ticks_above_1 = 0;
@@ -75,7 +78,7 @@ class Simulation {
   /// keeps more than that (Plant::memoryless).
   Out state();
   [[nodiscard]] std::int64_t step_number() const { return static_cast<std::int64_t>(state_[0]); }
-  [[nodiscard]] double time() const { return static_cast<double>(step_number()) * h_; }
+  [[nodiscard]] double time() const { return static_cast<double>(step_number()) * h_ + within_; }
   /// What lane `lane` has recorded so far. The trace is moved out: call it once, at the end.
   RunRecord take_record(std::size_t lane);
   [[nodiscard]] const Stability& standing() const { return standing_; }
@@ -87,20 +90,25 @@ class Simulation {
   [[nodiscard]] bool trace_tick(const Lane& lane) const;
   [[nodiscard]] bool any(bool (Simulation::*tick)(const Lane&) const) const;
   void record();
+  void record(Lane& lane);
+  void record_within_step();
   void sense();
   void command();
   void command(Lane& lane);
-  void advance();
+  void advance(double h);
+  void measure(std::size_t from, std::size_t to);
   void check();
+  void check(Lane& lane);
 
   [[nodiscard]] PlantSettings plant_settings() const;
   void cut_state();
   void set_start();
   void place_at_start(Lane& lane);
   void check_standing();
+  void watch_error();
   void watch_stability();
   void report(In speeds);
-  void keep_ledger();
+  void look();
   [[nodiscard]] double energy(const Lane& lane) const;
   Sample& take_sample(Lane& lane, bool whole);
   template <class Work>
@@ -119,9 +127,12 @@ class Simulation {
   std::vector<std::unique_ptr<Lane>> lanes_;
   StateLayout layout_;
   std::vector<double> state_;
-  Out plant_state_, setpoint_, command_;  ///< parts of state_; joint * lanes + lane
-  std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, angle_,
-      speed_;  ///< scratch, elementwise
+  std::unique_ptr<StepError> step_error_;  ///< nullptr: nothing to estimate
+  Out plant_state_, plant_history_, step_error_state_, setpoint_, command_;  ///< parts of state_; joint * lanes + lane
+  std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_;  ///< scratch, elementwise
+  std::vector<double> saved_;  ///< scratch: state_ while a row within a step is made
+  std::vector<Lane*> ended_;   ///< scratch: of those that end at that row
+  double within_ = 0;          ///< s: how far into the step that row is
   Meter meter_;
   Stability standing_;
 };

@@ -25,12 +25,36 @@ struct StateLayout {
   void write(const RobotState& in, std::size_t lane, Out state) const;
 };
 
-/// What the last step applied, for the ledger and not for the trace. Works: J that the robot gave, a lane; every stage's power
-/// with the integrator's weight.
+/// What the last step applied, for the ledger and not for the trace.
 struct Applied {
-  In torque;                    ///< mean motor torque, N m (joint * lanes + lane)
-  In speed;                     ///< joint speeds at which the motors gave it, rad/s: where their power is to be asked
-  In contact, friction, stops;  ///< work on the ground along its normal, along it, and on the hinge stops
+  /// Motors and joints at one moment within the step, and how the moment counts.
+  struct Part {
+    In torque;              ///< of the motors, N m (joint * lanes + lane)
+    In speed;               ///< at which they gave it, rad/s: where their power is to be asked
+    In angle;               ///< rad
+    In sum;                 ///< a lane: weight in integrals, s; negative where an extrapolation takes it off
+    In share;               ///< a lane: weight in shares of time, s; 0: only a help of the integration, or `instant`
+    bool instant = false;  ///< has no duration: the step's start under its command, for peaks alone
+  };
+  std::span<const Part> parts;
+  In contact, friction, stops;  ///< a lane: J that the robot gave the ground along its normal, along it, and the hinge stops
+};
+
+/// Applied of a plant of one lane that takes its step in one.
+class OnePart {
+ public:
+  void set(In torque, In speed, In angle, double h) {
+    h_ = h;
+    part_ = {torque, speed, angle, {&h_, 1}, {&h_, 1}};
+  }
+  /// works: contact, friction, stops, J
+  [[nodiscard]] Applied applied(In works) const {
+    return {{&part_, 1}, works.subspan(0, 1), works.subspan(1, 1), works.subspan(2, 1)};
+  }
+
+ private:
+  double h_ = 0;
+  Applied::Part part_;
 };
 
 }  // namespace gaitlab

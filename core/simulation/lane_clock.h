@@ -1,0 +1,56 @@
+// When a rollout commands, records and ends, in steps of the simulation.
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/scenario/scenario.h"
+
+namespace gaitlab {
+
+/// Control ticks are at whole steps. Rows and the end are, too, where the step is given; where the integrator chooses its steps
+/// they may lie within one. Times: s.
+class LaneClock {
+ public:
+  explicit LaneClock(const Scenario& s)
+      : step_(s.physics.step),
+        duration_(s.duration / step_),
+        period_(s.trace.period / step_),
+        control_every_(std::llround(s.control_period / step_)) {
+    if (s.physics.adaptive_step) return;
+    duration_ = std::round(duration_);  // which the scenario's check has made exact to 1e-9
+    period_ = std::round(period_);
+  }
+
+  /// Steps until the end, a last one that is cut included.
+  [[nodiscard]] std::int64_t steps() const { return static_cast<std::int64_t>(std::ceil(duration_ - kSame)); }
+  [[nodiscard]] bool commands(std::int64_t step) const { return step < steps() && step % control_every_ == 0; }
+  /// Whether the rollout ends with this step, just reached.
+  [[nodiscard]] bool ends(std::int64_t step) const { return std::abs(duration_ - static_cast<double>(step)) <= kSame; }
+  [[nodiscard]] bool records(std::int64_t step) const {
+    const double at = static_cast<double>(step);
+    if (at > duration_ + kSame) return false;
+    return ends(step) || std::abs(std::round(at / period_) * period_ - at) <= kSame;
+  }
+  /// The next row, or the end, after `after` seconds of the step that starts now and before its end; infinity: there is none.
+  [[nodiscard]] double row_within(std::int64_t step, double after) const {
+    const double from = static_cast<double>(step) + after / step_;
+    const double row = (std::floor(from / period_ + kSame) + 1) * period_;
+    const double at = duration_ > from + kSame && duration_ < row + kSame ? duration_ : row;
+    const double within = at - static_cast<double>(step);
+    if (within > 1 - kSame || at > duration_ + kSame) return std::numeric_limits<double>::infinity();
+    return within * step_;
+  }
+  /// Whether the rollout ends `within` seconds of the step that starts now.
+  [[nodiscard]] bool ends_within(std::int64_t step, double within) const {
+    return std::abs(static_cast<double>(step) + within / step_ - duration_) <= kSame;
+  }
+
+ private:
+  static constexpr double kSame = 1e-7;  ///< steps: rounding of a run of 1e8 of them stays below
+
+  double step_, duration_, period_;  ///< s; then in steps
+  std::int64_t control_every_;
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,65 @@
+#include "core/simulation/step_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gaitlab {
+
+StepError::StepError(std::unique_ptr<Plant> twin, const StepTwin& how, const Actuator& actuator, const StateLayout& layout,
+                     std::int64_t control_every, double h)
+    : twin_(std::move(twin)),
+      how_(how),
+      actuator_(actuator),
+      layout_(layout),
+      window_(how.window * control_every),
+      cycle_(how.cycle * window_),
+      settle_(control_every),
+      stride_(1) {
+  for (std::int64_t n = 1; n <= control_every; ++n) {
+    if (control_every % n == 0 && static_cast<double>(n) * h <= kApart * (1 + 1e-9)) stride_ = n;
+  }
+  for (auto* values : {&torque_, &twin_torque_, &slope_}) values->resize(layout.joints * layout.lanes);
+}
+
+std::size_t StepError::size() const { return 1 + layout_.size() + twin_->history() + torque_.size(); }
+
+void StepError::bind(Out numbers) {
+  numbers_ = numbers;
+  state_ = numbers.subspan(1, layout_.size());
+  history_ = numbers.subspan(1 + layout_.size(), twin_->history());
+  squares_ = numbers.last(torque_.size());
+  twin_->bind(state_, history_);
+}
+
+void StepError::begin(std::int64_t step, In state, In history) {
+  if (step % cycle_ != 0) return;
+  std::ranges::copy(state, state_.begin());
+  std::ranges::copy(history, history_.begin());
+}
+
+void StepError::follow(std::int64_t step, In state, In command, double h) {
+  const std::int64_t at = step % cycle_;
+  if (at >= window_) return;
+  if (how_.steps > 1) {
+    if (at % how_.steps != how_.steps - 1) return;
+    twin_->advance(command, how_.steps * h);
+  } else {
+    for (int i = 0; i < -how_.steps; ++i) twin_->advance(command, h / -how_.steps);
+    if (how_.steps == 1) twin_->advance(command, h);
+  }
+  if (at < settle_ || (at + 1) % stride_ != 0) return;
+  const auto speeds = [&](In of) { return of.subspan(layout_.speeds(), torque_.size()); };
+  actuator_.effort(command, speeds(state), torque_, slope_);
+  actuator_.effort(command, speeds(state_), twin_torque_, slope_);
+  for (std::size_t i = 0; i < torque_.size(); ++i) {
+    const double apart = torque_[i] - twin_torque_[i];
+    squares_[i] += apart * apart;
+  }
+  numbers_[0] += 1;
+}
+
+double StepError::rms(std::size_t joint, std::size_t lane) const {
+  return any() ? how_.factor * std::sqrt(squares_[joint * layout_.lanes + lane] / numbers_[0]) : 0;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,283 @@
+// One implicit step over a scalar T, a double or lanes: every motor, stop and contact ends on its law.
+#pragma once
+#include "core/laws/hinge_stop.h"
+#include "physics_articulated/contacts.h"
+#include "physics_articulated/motion.h"
+#include "physics_articulated/motors.h"
+
+namespace gaitlab::articulated {
+
+/// What one implicit step did.
+template <class T>
+struct Done {
+  std::vector<T> torque, speed, angle;           ///< of the motors, N m; of the joints at the step's end
+  T contact = 0.0, friction = 0.0, stops = 0.0;  ///< work of the robot on them, J
+  explicit Done(std::size_t joints) : torque(joints), speed(joints), angle(joints) {}
+};
+
+/// State: entries as in StateLayout, SI. Nothing allocates after the constructor. The step from (q, v) to (q+, v+) solves
+///     M (v+ - v) = h (weight - c + tau(v+) + sum J^T f(v+))        q+ = q (+) h v+
+/// with M, c, J and which elements are near the ground at q (+) h v: for motors, stops and contacts that fall with their speed
+/// the v+ that makes the strictly convex
+///     phi(v+) = (v+ - v_free)^T M (v+ - v_free) / 2 + h sum of the laws' potentials
+/// least: there is one, for any h. Newton: every law is replaced by its tangent at the iterate, the recursion solves (Body), and
+/// where the whole way to that solution ends uphill, it is gone only as far as phi falls (docs/decisions/0015).
+template <class T>
+class Implicit {
+ public:
+  static constexpr int kSolves = 100;                   ///< of one step; most need 1, the most seen is 56
+  static constexpr double kTorqueTolerance = 1e-9;      ///< of a motor's largest torque at rest
+  static constexpr double kStopTolerance = 1e-9;        ///< N m
+
+  Implicit(const Tree<T>& tree, const Site<T>& site, const Actuator* actuator)
+      : body(tree, site.gravity),
+        contacts(tree, site),
+        motors(actuator, tree.lo.size()),
+        rotor(tree.lo.size(), T(0.0)),
+        done(tree.lo.size()),
+        tree_(tree),
+        joints_(tree.lo.size()),
+        place_(StateLayout::kAngles + 2 * joints_, T(0.0)),
+        now_(joints_),
+        next_(joints_) {
+    for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_}) values->assign(joints_, T(0.0));
+    const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
+    std::copy(inertia.begin(), inertia.end(), math::numbers(std::span<T>(rotor)).begin());
+  }
+
+  /// Takes the lanes `which` of x a step further and fills done, solves and off. Held commands: joint * lanes + lane.
+  void step(std::span<T> x, In command, double h, const math::Mask<T>& which) {
+    std::copy(x.begin(), x.end(), place_.begin());
+    drift<T>(place_, h);
+    body.place(place_);
+    contacts.find(body, h, h);
+    start(x, command, h);
+    solves = T(0.0);
+    off = T(0.0);
+    unfinished = {};
+    math::Mask<T> open = which;  // lanes in which a law is not met
+    for (int solve = 0; math::any(open); ++solve) {
+      if (solve == kSolves) {
+        unfinished = open;
+        off = math::select(open, missed_, T(0.0));
+        break;
+      }
+      solves = solves + math::select(open, T(1.0), T(0.0));
+      this->solve(h);
+      move(open, solve == 0 ? T(1.0) : share(open, x, command, h));
+      open = math::both(open, misses(x, command, h));
+      if (math::any(open)) touch(open, x, h);
+    }
+    finish(x, h, which);
+  }
+
+  /// The laws themselves at x, and the accelerations that they make: for an explicit method.
+  void evaluate(std::span<const T> x, In command) {
+    body.place(x);
+    contacts.find(body, 0, 0);
+    contacts.begin(0);
+    motors.look(command, speeds(x));
+    motors.torque = motors.law;
+    for (std::size_t j = 0; j < joints_; ++j) stop_[j] = stop_law(x, j).torque;
+    accelerate(0);
+  }
+  [[nodiscard]] std::span<const T> accelerations() const { return next_.a; }  ///< of evaluate
+  /// After evaluate: W that the robot gives to the ground along its normal, along it, and to the stops.
+  std::array<T, 3> powers(std::span<const T> x) const {
+    std::array<T, 3> sum{T(0.0), T(0.0), T(0.0)};
+    for (const Contact<T>& c : contacts.touching()) {
+      sum[0] = sum[0] - c.fn * c.vn;
+      sum[1] = sum[1] - dot(c.friction(c.vt), c.vt);
+    }
+    for (std::size_t j = 0; j < joints_; ++j) sum[2] = sum[2] - stop_[j] * speeds(x)[j];
+    return sum;
+  }
+
+  /// next_.a from motors and stops, and contacts as they are for a step of h.
+  void accelerate(double h) {
+    for (std::size_t j = 0; j < joints_; ++j) {
+      force_[j] = motors.torque[j] + stop_[j];
+      diagonal_[j] = rotor[j] + (h > 0 ? T(h) * (motors.slope[j] + stop_slope_[j]) : T(0.0));
+    }
+    body.solve(force_, diagonal_, next_.a, [&](std::size_t link, typename Body<T>::Load load) { contacts.load(link, load, h); });
+  }
+
+  [[nodiscard]] std::span<T> speeds(std::span<T> x) const { return x.subspan(StateLayout::kAngles + joints_, joints_); }
+  [[nodiscard]] std::span<const T> speeds(std::span<const T> x) const { return x.subspan(StateLayout::kAngles + joints_, joints_); }
+
+  Body<T> body;
+  Contacts<T> contacts;
+  Motors<T> motors;
+  std::vector<T> rotor;  ///< reflected inertia of each joint, kg m^2
+  Done<T> done;          ///< of the last step
+  T solves = 0.0;        ///< that the last step needed
+  math::Mask<T> unfinished{};  ///< lanes whose search did not end
+  T off = 0.0;           ///< motors and stops that it left off their law
+
+ private:
+  /// Where the search is: accelerations, and the torques that the solve took there.
+  struct Iterate {
+    explicit Iterate(std::size_t joints) : a(6 + joints), torque(joints), stop(joints) {}
+    std::vector<T> a, torque, stop;
+  };
+  struct Stop {
+    T torque, slope;
+  };
+
+  /// Tangents at the start's speed: that of the last step's end, so that the branch of every law is the last one's.
+  void start(std::span<const T> x, In command, double h) {
+    const math::Mask<T> all = T(0.0) <= T(0.0);
+    motors.look(command, speeds(x));
+    for (std::size_t j = 0; j < joints_; ++j) {
+      motors.touch(j, all, speeds(x)[j], speeds(x)[j]);
+      const Stop s = stopped(x, j, speeds(x)[j], h);
+      stop_[j] = s.torque;
+      stop_slope_[j] = s.slope;
+    }
+    contacts.begin(h);
+  }
+
+  void solve(double h) {
+    accelerate(h);
+    contacts.solved(body, h);
+    for (std::size_t j = 0; j < joints_; ++j) {
+      next_.torque[j] = motors.torque[j] - T(h) * motors.slope[j] * next_.a[6 + j];
+      next_.stop[j] = stop_[j] - T(h) * stop_slope_[j] * next_.a[6 + j];
+    }
+  }
+
+  void move(const math::Mask<T>& which, const T& share) {
+    contacts.move(which, share);
+    const auto go = [&](std::vector<T>& from, const std::vector<T>& to) {
+      for (std::size_t i = 0; i < from.size(); ++i) from[i] = between(which, share, from[i], to[i]);
+    };
+    go(now_.a, next_.a);
+    go(now_.torque, next_.torque);
+    go(now_.stop, next_.stop);
+  }
+
+  /// d phi / d share on the way from the iterate to the last solve. As the forces taken are linear on it and meet M (v+ - v) at
+  /// both its ends, M itself is not needed: it is the power that the forces taken have beyond the laws.
+  T climb(std::span<const T> x, In command, double h, const T& share) {
+    for (std::size_t j = 0; j < joints_; ++j) {
+      end_[j] = speeds(x)[j] + T(h) * (now_.a[6 + j] + share * (next_.a[6 + j] - now_.a[6 + j]));
+    }
+    motors.look(command, end_);
+    T sum = contacts.excess(share, h);
+    for (std::size_t j = 0; j < joints_; ++j) {
+      const T d = T(h) * (next_.a[6 + j] - now_.a[6 + j]);
+      const T held = now_.torque[j] + now_.stop[j] + share * (next_.torque[j] + next_.stop[j] - now_.torque[j] - now_.stop[j]);
+      sum = sum + d * (held - motors.law[j] - stopped(x, j, end_[j], h).torque);
+    }
+    return sum;
+  }
+
+  /// Share of the way to the last solve to go: all of it unless it ends uphill, else to where phi is level, to 1 % of the slope
+  /// at its start (regula falsi, every third time a bisection).
+  T share(const math::Mask<T>& which, std::span<const T> x, In command, double h) {
+    using math::select;
+    const T zero = 0.0, one = 1.0;
+    T hi = one, f_hi = climb(x, command, h, one);
+    auto open = math::both(which, f_hi > zero);
+    if (!math::any(open)) return one;
+    const T start = climb(x, command, h, zero);
+    open = math::both(open, start < zero);
+    T lo = zero, f_lo = start, result = one;
+    for (int i = 0; i < 40 && math::any(open); ++i) {
+      const T a = i % 3 == 2 ? 0.5 * (lo + hi) : lo + (hi - lo) * f_lo / select(open, f_lo - f_hi, one);
+      const T f = climb(x, command, h, a);
+      result = select(open, a, result);
+      open = math::both(open, math::abs(f) > -0.01 * start);
+      const auto below = f < zero;
+      lo = select(below, a, lo);
+      f_lo = select(below, f, f_lo);
+      hi = select(below, hi, a);
+      f_hi = select(below, f_hi, f);
+    }
+    return result;
+  }
+
+  /// Lanes in which a law at the iterate's end is not what the solve took; missed_: how many motors and stops.
+  math::Mask<T> misses(std::span<const T> x, In command, double h) {
+    for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + T(h) * now_.a[6 + j];
+    motors.look(command, end_);
+    math::Mask<T> any = contacts.off(h);
+    missed_ = T(0.0);
+    for (std::size_t j = 0; j < joints_; ++j) {
+      const auto motor = math::abs(motors.law[j] - now_.torque[j]) > kTorqueTolerance * motors.scale[j];
+      const auto stop = math::abs(stopped(x, j, end_[j], h).torque - now_.stop[j]) > T(kStopTolerance);
+      const auto joint = math::either(motor, stop);
+      missed_ = missed_ + math::select(joint, T(1.0), T(0.0));
+      any = math::either(any, joint);
+    }
+    return any;
+  }
+
+  /// Tangents at the iterate in the lanes `which`, after misses: of all laws there, those within their tolerance, too, for
+  /// climb is phi's slope only then.
+  void touch(const math::Mask<T>& which, std::span<const T> x, double h) {
+    using math::select;
+    for (std::size_t j = 0; j < joints_; ++j) {
+      motors.touch(j, which, speeds(x)[j], end_[j]);
+      const Stop s = stopped(x, j, end_[j], h);
+      stop_slope_[j] = select(which, s.slope, stop_slope_[j]);
+      stop_[j] = select(which, s.torque + s.slope * (end_[j] - speeds(x)[j]), stop_[j]);
+    }
+    contacts.touch(which, h);
+  }
+
+  /// A stop's torque where a step of h ends with the speed qd: -ks (q + h qd - q_lim) - cs qd, cut off where it would pull. From
+  /// within the range the damping is its mean over the step, -cs (q + h qd - q_lim) / h: at the end alone it would jump.
+  Stop stopped(std::span<const T> x, std::size_t j, const T& qd, double h) const {
+    using math::select;
+    const T& q = x[StateLayout::kAngles + j];
+    const T &lo = tree_.lo[j], &hi = tree_.hi[j], zero = 0.0;
+    constexpr double k = BasicHingeStop<T>::kStiffness;
+    constexpr double c = BasicHingeStop<T>::kDamping;
+    const auto up = q > 0.5 * (lo + hi);
+    const T excess = q - select(up, hi, lo);
+    const auto within = math::both(q <= hi, q >= lo);
+    const T end = excess + h * qd;
+    const T torque = -k * end - c * select(within, (1 / h) * end, qd);
+    const auto acts = math::either(math::both(up, torque < zero), math::fresh(torque > zero, up));
+    return {select(acts, torque, zero), select(acts, T(c + h * k), zero)};
+  }
+
+  [[nodiscard]] BasicHingeStop<T> stop_law(std::span<const T> x, std::size_t j) const {
+    return BasicHingeStop<T>::at(x[StateLayout::kAngles + j], speeds(x)[j], tree_.lo[j], tree_.hi[j]);
+  }
+
+  /// The iterate becomes the state; works at the mean of the velocities that the step joins.
+  void finish(std::span<T> x, double h, const math::Mask<T>& which) {
+    done.contact = done.friction = done.stops = T(0.0);
+    for (const Contact<T>& c : contacts.touching()) {
+      const T normal = dot(c.n, c.change);
+      const T force = dot(c.n, c.held);
+      done.contact = done.contact - h * force * (c.vn + 0.5 * normal);
+      done.friction = done.friction - h * dot(c.held - force * c.n, c.vt + T(0.5) * (c.change - normal * c.n));
+    }
+    for (std::size_t j = 0; j < joints_; ++j) {
+      done.stops = done.stops - h * now_.stop[j] * (speeds(x)[j] + 0.5 * h * now_.a[6 + j]);
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+      T& v = x[StateLayout::kVelocity + i];
+      v = math::select(which, v + T(h) * now_.a[i], v);
+    }
+    const std::span<T> qd = speeds(x);
+    for (std::size_t j = 0; j < joints_; ++j) qd[j] = math::select(which, qd[j] + T(h) * now_.a[6 + j], qd[j]);
+    std::copy(x.begin(), x.end(), place_.begin());
+    drift<T>(place_, h);
+    for (std::size_t e = 0; e < x.size(); ++e) x[e] = math::select(which, place_[e], x[e]);
+    done.torque = now_.torque;
+    std::ranges::copy(qd, done.speed.begin());
+    std::copy_n(x.begin() + StateLayout::kAngles, joints_, done.angle.begin());
+  }
+
+  const Tree<T>& tree_;
+  std::size_t joints_;
+  std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
+  Iterate now_, next_;
+  T missed_ = 0.0;
+};
+
+}  // namespace gaitlab::articulated
