@@ -1,0 +1,148 @@
+"""Pattern generation: eq. 7-10 and the gaits without states, from the paper, docs/equations.md, 5 and the manuals."""
+import numpy as np
+
+
+class Network:
+    """The phase oscillators of a resolved scenario: frequencies, couplings, start."""
+
+    def __init__(self, run):
+        cpg = run.scenario["cpg"]
+        model, n = cpg["model"], run.n
+        self.omega = 2 * np.pi * run.per_joint(cpg["frequency"])
+        self.R, self.X = run.per_joint(cpg["amplitude"]), run.per_joint(cpg["offset"])
+        constants = model.get("parameters", model)
+        self.a_r, self.a_x = (float(constants.get(long, constants.get(short, 2)))
+                              for long, short in (("amplitude_rate", "a_r"), ("offset_rate", "a_x")))
+        self.weighted = bool(model.get("amplitude_weighted", False))
+        lag = run.per_joint(cpg["phase_lag"])
+        number = lambda name: run.robot.joint_names.index(name) if name in run.robot.joint_names else int(name)
+        weight = float(model.get("coupling", 1))
+        if cpg["couplings"] == "chain":  # eq. 16, 17
+            self.edges = [(i - 1, i, weight, lag[i]) for i in range(1, n)]
+        else:
+            self.edges = [(number(c["from"]), number(c["to"]), float(c["weight"]), float(c["phase_lag"]))
+                          for c in cpg["couplings"]]
+        self.start = self.phases(n)
+
+    def phases(self, n):
+        """Sums of lags along the couplings; 0 everywhere where these contradict one another."""
+        phase = [None] * n
+        for root in range(n):
+            if phase[root] is not None or any(j == root for _, j, _, _ in self.edges) and root:
+                continue
+            phase[root], queue = 0.0, [root]
+            while queue:
+                i = queue.pop(0)
+                for a, b, _, lag in self.edges:
+                    other, value = (b, phase[i] + lag) if a == i else (a, phase[i] - lag) if b == i else (None, 0)
+                    if other is None:
+                        continue
+                    if phase[other] is None:
+                        phase[other] = value
+                        queue.append(other)
+                    elif abs(phase[other] - value) > 1e-9:
+                        return np.zeros(n)
+        return np.array([p or 0.0 for p in phase])
+
+    def rates(self, state):
+        """Eq. 7-9; state: (3, joints) of phi, r, x."""
+        phi, r, x = state
+        d_phi = self.omega.copy()
+        for j, i, weight, lag in self.edges:
+            d_phi[i] += weight * (r[j] if self.weighted else 1.0) * np.sin(phi[j] - phi[i] + lag)
+        return np.stack([d_phi, self.a_r * (self.R - r), self.a_x * (self.X - x)])
+
+    def integrate(self, ticks, period, step):
+        """States at every tick (ticks, 3, joints) by the classical Runge-Kutta method."""
+        state = np.stack([self.start, np.zeros_like(self.start), self.X])
+        out, count = [state], round(period / step)
+        h = period / count
+        for _ in range(ticks - 1):
+            for _ in range(count):
+                k1 = self.rates(state)
+                k2 = self.rates(state + h / 2 * k1)
+                k3 = self.rates(state + h / 2 * k2)
+                k4 = self.rates(state + h * k3)
+                state = state + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+            out.append(state)
+        return np.array(out)
+
+
+def ramp(t, time):
+    return np.minimum(1, t / time) if time > 0 else np.ones_like(t)
+
+
+def sine(run, t):
+    """The limit cycle, prescribed."""
+    net, cpg = Network(run), run.scenario["cpg"]
+    t = t[:, None]
+    return net.X + ramp(t, cpg["model"]["ramp"]) * net.R * np.sin(net.omega * t + net.start)
+
+
+def tripod(run, t):
+    """Figure 11, for order alternate and duty factor 0.5: one group stands while the other swings, in turns.
+    Leg modules are those docked sideways to the spine; front legs are those with the largest x."""
+    cpg = run.scenario["cpg"]
+    model = cpg["model"]
+    assert model["order"] == "alternate" and model["duty_factor"] == 0.5 and not model["reverse"]
+    grow = ramp(t, model["ramp"])
+    amplitude, tilt = cpg["amplitude"] * grow, model["tilt"] * grow
+    turns = cpg["frequency"] * t
+    # The resting robot: where the legs sit, and how deep and long their feet are.
+    robot = run.robot
+    zero = np.zeros((1, run.n))
+    origin = np.zeros((1, 3))
+    rest = robot.move(origin, np.eye(3)[None], origin, origin, zero, zero)
+    sides = {}
+    for module in sorted(robot.childless):
+        hip = rest[f"m{module}/link"]
+        if module and abs(hip[1][0, 2, 0]) > 0.5:  # the link points down
+            sides.setdefault(np.sign(hip[0][0, 1]), []).append((-hip[0][0, 0], module))
+    out = np.zeros((len(t), run.n))
+    for side, legs in sides.items():
+        for place, (_, module) in enumerate(sorted(legs)):
+            # As in the first picture of figure 11: right front, left middle and right rear stand first.
+            second = (place % 2 == 0) == (side > 0)
+            phase = (turns + (0.5 if second else 0.0)) % 1.0
+            standing = phase < 0.5
+            u, s = 2 * phase, 2 * phase - 1
+            stance = 1 - 2 * u
+            swing = -np.cos(np.pi * s)
+            swing_least = -(1 - 2 * s)  # what the stance of the other group has, in magnitude
+            swing = np.where(np.abs(swing) < np.abs(swing_least), swing_least, swing)
+            angle = amplitude * np.where(standing, stance, swing)
+            lift = tilt * np.where(standing, np.sin(np.pi * u) ** 2, 0)
+            hip, ankle = sorted((b for b in robot.bodies if b.joint is not None and b.name.startswith(f"m{module}/")),
+                                key=lambda b: b.joint)
+            # hip towards +x: a positive turn about world y moves what hangs down to -x.
+            out[:, hip.joint] = -np.sign(rest.hinge[hip.joint][1][0, 1]) * angle
+            out[:, ankle.joint] = -np.sign(rest.hinge[ankle.joint][1][0, 1]) * (lift - angle)
+    return out
+
+
+def keyframes(run, t):
+    """Straight lines or the periodic or resting cubic spline through the frames."""
+    model = run.scenario["cpg"]["model"]
+    frames = model["frames"]
+    times = np.array([float(frame["time"]) for frame in frames])
+    y = np.stack([run.per_joint(frame["angles"]) for frame in frames])
+    h, n = np.diff(times), len(times)
+    A, b = np.zeros((n, n)), np.zeros_like(y)
+    slope = np.diff(y, axis=0) / h[:, None]
+    for k in range(1, n - 1):
+        A[k, k - 1:k + 2] = h[k - 1], 2 * (h[k - 1] + h[k]), h[k]
+        b[k] = 6 * (slope[k] - slope[k - 1])
+    if model["repeat"]:  # M_0 = M_last, and the speed goes on over the seam
+        A[0, 0], A[0, -1] = 1, -1
+        A[-1, 0], A[-1, 1], A[-1, -2], A[-1, -1] = 2 * h[0], h[0], h[-1], 2 * h[-1]
+        b[-1] = 6 * (slope[0] - slope[-1])
+    else:  # at rest at both ends
+        A[0, :2], A[-1, -2:] = (2 * h[0], h[0]), (h[-1], 2 * h[-1])
+        b[0], b[-1] = 6 * slope[0], -6 * slope[-1]
+    M = np.linalg.solve(A, b) if model["interpolation"] == "spline" else np.zeros_like(y)
+    local = t % times[-1] if model["repeat"] else np.minimum(t, times[-1])
+    k = np.clip(np.searchsorted(times, local, side="right") - 1, 0, n - 2)
+    B = ((local - times[k]) / h[k])[:, None]
+    A, H = 1 - B, (h[k] ** 2)[:, None]
+    out = A * y[k] + B * y[k + 1] + ((A**3 - A) * M[k] + (B**3 - B) * M[k + 1]) * H / 6
+    return out * ramp(t, model["ramp"])[:, None]

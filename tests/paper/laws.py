@@ -1,0 +1,89 @@
+"""The laws of a joint and of a contact (eq. 1-6 and 12, hinge stop), for many rows at once; from the paper and docs/equations.md."""
+import numpy as np
+
+EPS = np.finfo(float).eps
+STOP_STIFFNESS, STOP_DAMPING = 50.0, 0.5  # docs/equations.md, 2
+
+
+class Motor:
+    """Settings of the actuator per joint. Every array is (rows, joints)."""
+
+    def __init__(self, run):
+        section = run.scenario["actuator"]
+        self.type = section["type"]
+        if self.type == "torque":
+            limit = section.get("limit")
+            self.limit = run.per_joint(np.inf if limit in (None, "none") else limit)
+        if self.type == "dc_motor":
+            get = lambda key: run.per_joint(section[key])
+            self.R, self.Kt, self.Ks, self.n, self.eta = (get(key) for key in ("R", "Kt", "Ks", "gear", "efficiency"))
+            self.u_max, self.i_max, self.rotor = get("u_max"), get("i_max"), get("rotor_inertia")
+            self.directional, self.turn_speed = section["efficiency_model"] == "directional", float(section["turn_speed"])
+        self.reflected = self.n**2 * self.rotor if self.type == "dc_motor" else np.zeros(run.n)  # on the joint's inertia
+        self.command_limit = {"dc_motor": lambda: self.u_max, "torque": lambda: self.limit}.get(
+            self.type, lambda: np.full(run.n, np.inf))()
+
+    def current(self, command, w):
+        """Eq. 1 with both limits: the current, and 0, 1 or 2 for none, the voltage limit, the current limit."""
+        free = (np.clip(command, -self.u_max, self.u_max) - self.Ks * self.n * w) / self.R
+        saturation = np.where(np.abs(free) > self.i_max, 2, np.where(np.abs(command) > self.u_max, 1, 0))
+        return np.clip(free, -self.i_max, self.i_max), saturation
+
+    def efficiency(self, i, w):
+        """eta, or eta^s of docs/equations.md, 3."""
+        if not self.directional:
+            return np.broadcast_to(self.eta, i.shape)
+        return self.eta ** np.clip(w * np.sign(i) / self.turn_speed, -1, 1)
+
+    def torque(self, i, w):
+        """Eq. 2."""
+        return self.efficiency(i, w) * self.Kt * i * self.n
+
+    def damping(self, command, i, w):
+        """-dT/dw, 0 while the current is limited."""
+        b = self.eta * self.Kt * self.Ks * self.n**2 / self.R
+        if self.directional:
+            e = self.efficiency(i, w)
+            b = e * (self.Kt * self.Ks * self.n**2 / self.R)
+            b = b + e * self.Kt * np.abs(i) * self.n * np.abs(np.log(self.eta)) / self.turn_speed
+        return np.where(self.current(command, w)[1] == 2, 0.0, b)
+
+
+def pid(error, gains, period, limit, anti_windup=True, rule="last", sign=1):
+    """Eq. 3-6 for (ticks, joints) of errors: P, I, D and their sum, one row per tick.
+    rule: which error the condition of anti-windup compares; "this", "off" and sign -1 are mutants."""
+    Kp, Ki, Kd, N = gains
+    ticks, joints = error.shape
+    I, D, u = (np.zeros((ticks, joints)) for _ in range(3))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        for k in range(ticks):
+            e, last = error[k], error[k - 1] if k else error[0]
+            if k:
+                compared = e if rule == "this" else last
+                held = (np.abs(u[k - 1]) > limit) & (compared * u[k - 1] > 0) & bool(anti_windup) & (rule != "off")
+                I[k] = np.where(held, I[k - 1], I[k - 1] + Ki * period * last)
+                D[k] = np.where(Kd > 0, (Kd * D[k - 1] + sign * Kd * N * (e - last)) / (Kd + N * period), 0.0)
+            u[k] = Kp * e + I[k] + D[k]
+    return Kp * error, I, D, u
+
+
+def stop(q, qd, ranges, stiffness=STOP_STIFFNESS, damping=STOP_DAMPING):
+    """Docs/equations.md, 2: torque outside [lo, hi], never pulling back into the stop."""
+    low, high = ranges[:, 0], ranges[:, 1]
+    torque = np.where(q > high, np.minimum(-stiffness * (q - high) - damping * qd, 0), 0)
+    return np.where(q < low, np.maximum(-stiffness * (q - low) - damping * qd, 0), torque)
+
+
+def normal_force(p, rate, law):
+    """Eq. 12, first line. rate: that of the penetration."""
+    spring = law["stiffness"] * np.maximum(p, 0) ** law["exponent"]
+    damper = law["damping"] * np.maximum(p, 0) ** law["damping_exponent"]
+    return np.where(p > 0, np.maximum(spring + damper * rate, 0), 0), np.where(p > 0, spring, 0), np.where(p > 0, damper, 0)
+
+
+def friction(fn, v, f, slip_speed):
+    """Eq. 12, second line: v (rows, 3) is the tangential velocity."""
+    speed = np.linalg.norm(v, axis=-1)
+    sticking = -(f * fn / slip_speed)[..., None] * v
+    sliding = -(f * fn / np.maximum(speed, slip_speed))[..., None] * v
+    return np.where((speed <= slip_speed)[..., None], sticking, sliding)

@@ -1,0 +1,78 @@
+"""A run folder: the resolved scenario and the trace's columns by name."""
+import copy
+import pathlib
+import re
+
+import h5py
+import numpy as np
+import yaml
+
+from paper.robot import Robot, from_quaternion
+
+
+class Loader(yaml.SafeLoader):
+    """YAML 1.2's numbers and words, as gaitlab writes them: 1e-4 is a number, `on` is a text."""
+
+
+Loader.yaml_implicit_resolvers = {}
+Loader.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile(r"^(true|false)$"), "tf")
+Loader.add_implicit_resolver("tag:yaml.org,2002:int", re.compile(r"^[-+]?[0-9]+$"), "-+0123456789")
+Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float", re.compile(r"^[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$"), "-+.0123456789")
+Loader.add_implicit_resolver("tag:yaml.org,2002:null", re.compile(r"^(~|null|)$"), ["~", "n", ""])
+
+
+class Run:
+    """columns by name, the scenario as a dict, and the robot with its motion in every row (computed once)."""
+
+    def __init__(self, name, folder):
+        folder = pathlib.Path(folder)
+        self.name = name
+        self.scenario = yaml.load((folder / "scenario.resolved.yaml").read_text(), Loader)
+        with h5py.File(folder / "trace.h5") as file:
+            self.rows = file["trace"][:]
+            self.columns = [str(column) for column in file["trace"].attrs["columns"]]
+            self.definitions = dict(zip(self.columns, map(str, file["trace"].attrs["definitions"])))
+        self.index = {column: k for k, column in enumerate(self.columns)}
+        self.robot = Robot(self.scenario)
+        self.n, self.motion_ = len(self.robot.joint_names), None
+
+    def __getitem__(self, name):
+        return self.rows[:, self.index[name]]
+
+    def joints(self, what):
+        """(rows, joints)"""
+        return np.stack([self[f"joint.{j}.{what}"] for j in range(self.n)], -1)
+
+    def vector(self, prefix, names):
+        return np.stack([self[prefix + name] for name in names], -1)
+
+    def per_joint(self, value):
+        """A number, a list, or {default: x, NAME: y} for every joint."""
+        if isinstance(value, dict):
+            return np.array([float(value.get(name, value.get("default", 0))) for name in self.robot.joint_names])
+        return np.broadcast_to(np.array(value, float), (self.n,)).copy()
+
+    def copy(self):
+        """One to be changed: the scenario and the rows are its own, the robot is assembled again."""
+        other = copy.copy(self)
+        other.scenario, other.rows = copy.deepcopy(self.scenario), self.rows.copy()
+        other.motion_ = None
+        return other
+
+    def motion(self):
+        if self.motion_ is None:
+            self.robot = Robot(self.scenario)
+            self.motion_ = self.robot.move(
+                self.vector("base.", "xyz"), from_quaternion(self.vector("base.q", "wxyz")),
+                self.vector("base.v", "xyz"), self.vector("base.w", "xyz"), self.joints("angle"), self.joints("speed"))
+        return self.motion_
+
+    def velocity(self):
+        """(rows, 6 + joints): of the base's origin, angular, of the joints."""
+        return np.concatenate([self.vector("base.v", "xyz"), self.vector("base.w", "xyz"), self.joints("speed")], -1)
+
+    def ticks(self):
+        """Rows at the control ticks, but for a last one that no row follows; the rows after them show what was commanded."""
+        every = round(self.scenario["controller"]["period"] / self.scenario["trace"]["period"])
+        return np.arange(0, len(self.rows) - 1, every)
