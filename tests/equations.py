@@ -63,6 +63,8 @@ physics: {engine: articulated}
 duration: 6
 """
 FREE = HEAD + CHAIN
+LEGS = FREE.replace("modules: mtran, docks: [[1, 1, 4, 0, 0], [1, 2, 4, 1, 0]]", "modules: mtran, build: robots/hexapod.dat").replace(
+    "duration: 6", "duration: 3")
 # name: scenario (a shipped one's name, or its text), overrides, checks
 RUNS = {
     "caterpillar, bullet": ("caterpillar", ["duration=1.5"], checks.ALL),
@@ -91,6 +93,15 @@ RUNS = {
                                "phase_lag: 1}, {from: 2, to: 0, weight: 2, phase_lag: 1}, {from: m0/active, to: 3, weight: 1, phase_lag: 0.5}, "
                                "{from: 3, to: 4, weight: 4, phase_lag: -0.5}, {from: 4, to: 5, weight: 1, phase_lag: 2}]}\n",
                                [], (checks.patterns, checks.motors)),
+    "phases, parent": (LEGS + "cpg: {frequency: 0.5, phase_lag: 0.7, couplings: parent}\n", [], (checks.patterns,)),
+    "phases, siblings": (LEGS + "cpg: {frequency: 0.5, amplitude: 0.3, phase_lag: {default: 0.7, m5/passive: 0.2}, couplings: siblings}\n",
+                         ["cpg.frequency={default: 0.5, m0/active: 0.3, m7/active: 0.8}"], (checks.patterns,)),
+    "phases, all": (LEGS + "cpg: {phase_lag: 0.7, couplings: all, model: {coupling: 2}}\n",
+                    ["cpg.frequency={default: 0.5, m0/active: 0.3, m7/active: 0.8}"], (checks.patterns,)),
+    "amplitudes couple": (LEGS + "cpg: {type: kuramoto_amplitude, offset: 0.1, couplings: parent}\n",
+                          ["cpg.frequency={default: 0.5, m0/active: 0.3, m7/active: 0.8}"], (checks.patterns,)),
+    "Hopf": (LEGS + "cpg: {type: hopf, offset: -0.1, couplings: siblings}\n",
+             ["cpg.frequency={default: 0.5, m0/active: 0.3, m7/active: 0.8}"], (checks.patterns,)),
     "splines": (FREE + "cpg: {type: keyframes, model: {ramp: 0.5, frames: [{time: 0, angles: 0.1}, {time: 0.7, angles: [0.5, 0, -0.5, 0.2, "
                 "0.3, 0]}, {time: 1.1, angles: -0.2}, {time: 2, angles: 0.1}]}}\n", [], (checks.patterns, checks.motors)),
     "held": (FREE + "initial: {angles: 0.2}\n", ["duration=1"], (checks.patterns, checks.controllers, checks.motors, checks.bodies)),
@@ -171,6 +182,9 @@ MUTANTS = (
     ("a_r + 0.1 %", "caterpillar, bullet", checks.patterns, "eq. 8", scaled("cpg", "model", "amplitude_rate", by=1.001)),
     ("offset + 1e-9", "phases, each its own", checks.patterns, "eq. 9", put("cpg", "offset", value=0.1 + 1e-9)),
     ("cos for sin", "caterpillar, bullet", checks.patterns, "eq. 10", rule("sin", np.cos)),
+    ("lags of siblings + 0.1 %", "phases, siblings", checks.patterns, "eq. 7", scaled("cpg", "phase_lag", by=1.001)),
+    ("coupling + 0.1 %", "amplitudes couple", checks.patterns, "cpg kuramoto_amplitude", scaled("cpg", "model", "coupling", by=1.001)),
+    ("lag + 0.1 %", "Hopf", checks.patterns, "cpg hopf", scaled("cpg", "phase_lag", by=1.001)),
     ("tilt + 0.1 %", "hexapod, bullet", checks.patterns, "gait tripod", scaled("cpg", "model", "tilt", by=1.001)),
     ("ramp + 0.1 %", "hexapod, implicit", checks.patterns, "gait tripod", scaled("cpg", "model", "ramp", by=1.001)),
     ("straight lines for splines", "splines", checks.patterns, "gait keyframes", put("cpg", "model", "interpolation", value="linear")),

@@ -27,6 +27,8 @@ LINES = {
     "eq. 8, exact": ("amplitudes, closed form R (1 - exp(-a t))", 1, "in units of RK4's error, t a (a h)^4 / 120 exp(-a t) R; twice that"),
     "eq. 9": ("offsets, by RK4 at cpg.step", 1e-12, "as eq. 7"),
     "eq. 10": ("set points = x + r sin(phi), from the columns of the states", *FEW),
+    "cpg kuramoto_amplitude": ("states by RK4, set points", 1e-12, "as eq. 7"),
+    "cpg hopf": ("states by RK4, set points", 1e-12, "as eq. 7"),
     "gait sine": ("set points on the limit cycle", 1e-13, "the phase, up to 200 rad, rounds by 3e-14"),
     "gait tripod": ("set points of figure 11", 1e-13, "the phase of the cycle, up to 10 turns, rounds by 2e-15; slopes below 10"),
     "gait keyframes": ("set points of lines and cubic splines", 1e-13, "solving for six frames loses one digit, time of 5 s another"),
@@ -145,12 +147,13 @@ def patterns(gate, run, rules):
     elif cpg["type"] in ("phase_oscillator", "equations"):
         network = gaits.Network(run)
         states = network.integrate(len(ticks), section["period"], cpg["step"])
-        columns = np.stack([np.stack([run[f"cpg.{name}.{j}"] for j in range(run.n)], -1)[ticks] for name in ("phi", "r", "x")], 1)
+        columns = state_columns(run, network, ticks)
         largest = np.maximum.accumulate(np.abs(states).max(2, keepdims=True)) + 1
         for k, key in enumerate(("eq. 7", "eq. 8", "eq. 9")):
             gate.see(key, run, columns[:, k] - states[:, k], largest[:, k])
-        phi, r, x = np.moveaxis(columns, 1, 0)
-        gate.see("eq. 10", run, setpoint - (x + r * rules.get("sin", np.sin)(phi)), np.abs(x) + np.abs(r) * (1 + np.abs(phi)))
+        phi, r, x = states_of = np.moveaxis(columns, 1, 0)
+        asked = network.output(states_of, rules.get("sin", np.sin))
+        gate.see("eq. 10", run, setpoint - asked, np.abs(x) + np.abs(r) * (1 + np.abs(phi)))
         along = network.start + network.omega * t[:, None]
         if np.allclose(states[:, 0], along, atol=1e-9):
             gate.see("eq. 7, limit cycle", run, phi - along, np.abs(along) + 1)
@@ -163,8 +166,19 @@ def patterns(gate, run, rules):
         a, at = network.a_r, network.a_r * t[:, None]
         bound = 2 * at * (a * cpg["step"]) ** 4 / 120 * np.exp(-at) * np.abs(network.R)
         gate.see("eq. 8, exact", run, r - network.R * -np.expm1(-at), bound + 1e-12)
+    elif cpg["type"] in ("kuramoto_amplitude", "hopf"):
+        network = {"hopf": gaits.Hopf, "kuramoto_amplitude": gaits.Kuramoto}[cpg["type"]](run)
+        states, columns = network.integrate(len(ticks), section["period"], cpg["step"]), state_columns(run, network, ticks)
+        asked = network.output(np.moveaxis(columns, 1, 0))
+        gate.see(f"cpg {cpg['type']}", run, columns - states, 1 + np.abs(states).max())
+        gate.see(f"cpg {cpg['type']}", run, setpoint - asked, 1 + np.abs(asked))
     elif cpg["type"] in ("sine", "tripod", "keyframes"):
         gate.see(f"gait {cpg['type']}", run, setpoint - getattr(gaits, cpg["type"])(run, t))
+
+
+def state_columns(run, network, ticks):
+    """(ticks, names, joints)"""
+    return np.stack([np.stack([run[f"cpg.{name}.{j}"] for j in range(run.n)], -1)[ticks] for name in network.names], 1)
 
 
 class Touch:

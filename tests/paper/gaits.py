@@ -5,6 +5,8 @@ import numpy as np
 class Network:
     """The phase oscillators of a resolved scenario: frequencies, couplings, start."""
 
+    names = ("phi", "r", "x")
+
     def __init__(self, run):
         cpg = run.scenario["cpg"]
         model, n = cpg["model"], run.n
@@ -15,14 +17,11 @@ class Network:
                               for long, short in (("amplitude_rate", "a_r"), ("offset_rate", "a_x")))
         self.weighted = bool(model.get("amplitude_weighted", False))
         lag = run.per_joint(cpg["phase_lag"])
-        number = lambda name: run.robot.joint_names.index(name) if name in run.robot.joint_names else int(name)
-        weight = float(model.get("coupling", 1))
-        if cpg["couplings"] == "chain":  # eq. 16, 17
-            self.edges = [(i - 1, i, weight, lag[i]) for i in range(1, n)]
-        else:
-            self.edges = [(number(c["from"]), number(c["to"]), float(c["weight"]), float(c["phase_lag"]))
-                          for c in cpg["couplings"]]
+        self.edges = edges(run, cpg["couplings"], lag, float(model.get("coupling", 1)))
         self.start = self.phases(n)
+        self.constants = constants
+        self.source, self.target = (np.array([edge[k] for edge in self.edges], int) for k in (0, 1))
+        self.weight, self.lag = (np.array([edge[k] for edge in self.edges], float) for k in (2, 3))
 
     def phases(self, n):
         """Sums of lags along the couplings; 0 everywhere where these contradict one another."""
@@ -44,17 +43,28 @@ class Network:
                         return np.zeros(n)
         return np.array([p or 0.0 for p in phase])
 
+    def pull(self, phi, strength):
+        """sum_j w_ij strength_j sin(phi_j - phi_i - psi_ij), psi_ij = -lag."""
+        terms = self.weight * strength[self.source] * np.sin(phi[self.source] - phi[self.target] + self.lag)
+        return np.bincount(self.target, terms, len(phi))
+
     def rates(self, state):
         """Eq. 7-9; state: (3, joints) of phi, r, x."""
         phi, r, x = state
-        d_phi = self.omega.copy()
-        for j, i, weight, lag in self.edges:
-            d_phi[i] += weight * (r[j] if self.weighted else 1.0) * np.sin(phi[j] - phi[i] + lag)
+        d_phi = self.omega + self.pull(phi, r if self.weighted else np.ones_like(r))
         return np.stack([d_phi, self.a_r * (self.R - r), self.a_x * (self.X - x)])
 
+    def initial(self):
+        return np.stack([self.start, np.zeros_like(self.start), self.X])
+
+    def output(self, state, sin=np.sin):
+        """Eq. 10; state: (names, ...)."""
+        phi, r, x = state
+        return x + r * sin(phi)
+
     def integrate(self, ticks, period, step):
-        """States at every tick (ticks, 3, joints) by the classical Runge-Kutta method."""
-        state = np.stack([self.start, np.zeros_like(self.start), self.X])
+        """States at every tick (ticks, names, joints) by the classical Runge-Kutta method."""
+        state = self.initial()
         out, count = [state], round(period / step)
         h = period / count
         for _ in range(ticks - 1):
@@ -66,6 +76,67 @@ class Network:
                 state = state + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
             out.append(state)
         return np.array(out)
+
+
+class Kuramoto(Network):
+    """`kuramoto_amplitude`: couplings weighted with amplitudes, amplitudes and offsets of second order."""
+
+    names = ("phi", "r", "dr", "x", "dx")
+
+    def rates(self, state):
+        phi, r, dr, x, dx = state
+        d_phi = self.omega + self.pull(phi, r)
+        a_r, a_x = self.a_r, self.a_x
+        return np.stack([d_phi, dr, a_r * (a_r / 4 * (self.R - r) - dr), dx, a_x * (a_x / 4 * (self.X - x) - dx)])
+
+    def initial(self):
+        zero = np.zeros_like(self.start)
+        return np.stack([self.start, zero, zero, self.X, zero])
+
+    def output(self, state, sin=np.sin):
+        return state[3] + state[1] * sin(state[0])
+
+
+class Hopf(Network):
+    """`hopf` with a duty factor of 0.5: circles, coupled by the difference to the other's state turned by the lag. Phase 0 is
+    where the set point rises through its mean, a quarter turn before x = 1."""
+
+    names = ("x", "y")
+
+    def rates(self, state):
+        z = state[0] + 1j * state[1]
+        a = self.constants["rate"]
+        d = (a * (1 - np.abs(z) ** 2) + 1j * self.omega) * z
+        np.add.at(d, self.target, self.weight * (np.exp(1j * self.lag) * z[self.source] - z[self.target]))
+        return np.stack([d.real, d.imag])
+
+    def initial(self):
+        z = 0.01 * np.exp(1j * (self.start - np.pi / 2))
+        return np.stack([z.real, z.imag])
+
+    def output(self, state, sin=None):
+        return self.X + self.R * state[0]
+
+
+def edges(run, rule, lag, weight):
+    """Couplings (from, to, weight, lag) of a rule or a list: docs/equations.md, 5."""
+    n, robot = run.n, run.robot
+    if not isinstance(rule, str):
+        number = lambda name: robot.joint_names.index(name) if name in robot.joint_names else int(name)
+        return [(number(c["from"]), number(c["to"]), float(c["weight"]), float(c["phase_lag"])) for c in rule]
+    if rule == "chain":  # eq. 16, 17
+        return [(i - 1, i, weight, lag[i]) for i in range(1, n)]
+    others = [(j, i) for i in range(n) for j in range(n) if i != j]
+    if rule == "all":
+        chain = np.concatenate([[0], np.cumsum(lag[1:])])
+        return [(j, i, weight / (n - 1), chain[i] - chain[j]) for j, i in others]
+    towards_base = {joints[0]: joints[1] for joints in (robot.joints_to(b) for b in robot.bodies if b.joint is not None)
+                    if len(joints) > 1}
+    parents = [(towards_base[i], i, weight, lag[i]) for i in range(n) if i in towards_base]
+    if rule == "parent":
+        return parents
+    assert rule == "siblings"
+    return parents + [(j, i, weight, lag[i] - lag[j]) for j, i in others if towards_base.get(i, -1) == towards_base.get(j, -2)]
 
 
 def ramp(t, time):
