@@ -3,7 +3,7 @@ import numpy as np
 
 from paper import gaits, laws
 from paper.laws import EPS
-from paper.robot import from_quaternion, rpy, skew
+from paper.robot import from_quaternion, rpy
 
 # key: what is compared, tolerance, why that much. Residuals are relative to the terms that are added, unless said otherwise.
 FEW = 16 * EPS, "at most eight operations a side, each of which rounds by half of 2.2e-16"
@@ -49,9 +49,12 @@ LINES = {
                       "inverse dynamics of accelerations that forces of 100 N gave to inertias of 1e-4 kg m^2: six digits are lost"),
     "ledger, motors": ("electrical, copper and gear, step by step", 1e-13, "relative to the powers that are summed"),
     "ledger, ground": ("contact and friction, step by step", 1e-13, "as eq. 12; the sum so far may round by four units more"),
+    "ledger, implicit": ("contact and friction, away from corners, at the mean of two velocities", 1e-13, "as ledger, ground"),
     "ledger, stops": ("stops, step by step, J", 1e-15, "the sum so far may round by four units; what one step adds is below 1e-3 J"),
     "motion, velocities": ("M (v+ - v) / h = forces - bias, every step", 64 * EPS, "relative to M v / h and the terms that are summed"),
     "motion, implicit": ("the same with forces at the velocity of the step's end", 64 * EPS, "as the explicit one"),
+    "motion, rk4": ("velocities after a classical Runge-Kutta step, accelerations from Newton and Euler, m/s and rad/s", 1e-11,
+                    "h a of up to 1 rad/s, of which solving for a loses the condition of M, up to 1e4, times 2.2e-16"),
     "motion, positions": ("q+ = q + h qd+, x+ = x + h v+, turned by h omega+", 1e-14, "one addition; quaternions to four roundings"),
 }
 
@@ -300,107 +303,6 @@ def reactions(gate, run, rules):
         along = (moment * motion.hinge[j][1]).sum(1)
         torque = sum(run[f"joint.{j}.{of}"] for of in ("torque", "stop_torque") if f"joint.{j}.{of}" in run.index)
         gate.see("hinge moments", run, along - torque, np.abs(moment).sum(1) + 0.1)
-
-
-def steps(gate, run, rules):
-    """Every step of the integrator, and what it adds to the ledger; a row a step."""
-    physics, law, motor, robot = run.scenario["physics"], run.scenario["contact"], laws.Motor(run), run.robot
-    h, implicit = physics["step"], physics["integrator"] == "implicit"
-    assert run.scenario["trace"]["period"] == h and run.scenario["robot"]["base"] == "floating"
-    q, qd, v = run.joints("angle"), run.joints("speed"), run.velocity()
-    motion, rows = run.motion(), slice(0, len(q) - 1)
-    command, after = run.joints("voltage_command")[1:], v[1:]
-    q, qd, v = q[rows], qd[rows], v[rows]
-    mass, bias = motion.equations(np.array(physics["gravity"], float), run.joints("speed"))
-    mass, bias = mass[rows], bias[rows]
-    joints = np.arange(6, 6 + run.n)
-    mass[:, joints, joints] += motor.reflected
-
-    # Positions.
-    gate.see("motion, positions", run, np.diff(run.joints("angle"), axis=0) - h * after[:, 6:], 1 + np.abs(q))
-    gate.see("motion, positions", run, np.diff(run.vector("base.", "xyz"), axis=0) - h * after[:, :3])
-    rotation = from_quaternion(run.vector("base.q", "wxyz"))
-    turned = h * after[:, 3:6]
-    angle = np.linalg.norm(turned, axis=1)[:, None, None] + 1e-300
-    axis = turned[:, :, None] / angle
-    cross = skew(axis[:, :, 0])
-    spun = (np.eye(3) + np.sin(angle) * cross + 2 * np.sin(angle / 2) ** 2 * cross @ cross) @ rotation[:-1]
-    gate.see("motion, positions", run, spun - rotation[1:])
-
-    # Forces on the joints: at the state, or at the velocity of the step's end.
-    speed = after[:, 6:] if implicit else qd
-    i, saturation = motor.current(command, speed)
-    torque = motor.torque(i, speed)
-    ranges = np.array(robot.ranges)
-    reached = q + h * speed if implicit else q
-    out = (q > ranges[:, 1]) | (q < ranges[:, 0])
-    stop_torque = np.where(out, laws.stop(reached, speed, ranges), 0)
-    force = np.zeros_like(v)
-    force[:, 6:] = torque + stop_torque
-    terms = np.abs(force)
-    plain = np.ones(len(v), bool)
-
-    # The ground's.
-    ground, rubbed, moved = 0, 0, (v + after) / 2 if implicit else v
-    worked, fast = 1e-30, np.linalg.norm(v[:, :3], axis=1) + np.abs(v[:, 3:]).sum(1) + np.abs(after[:, 3:]).sum(1)
-    for _, _, touch in elements(run):
-        linear, _ = motion.jacobian(touch.body, touch.point)
-        linear, p = linear[rows], touch.p[rows]
-        at = np.einsum("nki,ni->nk", linear, v)
-        fn, _, _ = laws.normal_force(p, -at[:, 2], law)
-        if implicit:
-            push, tangential, good = implicit_touch(law, touch.f[rows], h, p, fn, at, np.einsum("nki,ni->nk", linear, after))
-            plain &= good
-        else:
-            push, tangential = fn, laws.friction(fn, at * [1, 1, 0], touch.f[rows], law["slip_speed"])
-        pushed = tangential + push[:, None] * np.array([0, 0, 1])
-        force += np.einsum("nki,nk->ni", linear, pushed)
-        terms += np.einsum("nki,nk->ni", np.abs(linear), np.abs(pushed))
-        along = np.einsum("nki,ni->nk", linear, moved)
-        # p comes from the pose here: its error counts like that of a millimetre.
-        _, spring, damper = laws.normal_force(np.where(p > 0, p + 1e-3, 0), 0, law)
-        slip = 1 + touch.f[rows] * (1 + fast / np.maximum(np.linalg.norm(at[:, :2], axis=1), law["slip_speed"]))
-        worked = worked + ((spring + damper * fast) * np.linalg.norm(along, axis=1) + push * fast) * slip * h
-        ground, rubbed = ground - push * along[:, 2] * h, rubbed - (tangential * along).sum(1) * h
-    needed = np.einsum("nij,nj->ni", mass, (after - v) / h)
-    terms += np.abs(bias) + np.einsum("nij,nj->ni", np.abs(mass), np.abs(after) + np.abs(v)) / h
-    # Of the whole robot's size: an error of one body's force reaches the equations of all.
-    gate.see("motion, implicit" if implicit else "motion, velocities", run, needed + bias - force, terms.max(1)[:, None], plain[:, None])
-    gate.cover("implicit steps away from corners" if implicit else "explicit steps", run, plain.sum())
-
-    # What the step adds to the ledger.
-    voltage = motor.R * i + motor.Ks * motor.n * speed
-    drawn, copper = voltage * i, motor.R * i**2
-    size = (np.abs(drawn) + copper + np.abs(torque * speed)).sum(1) * h
-    add = lambda part: np.diff(run[f"energy.{part}"])
-    total = lambda part: EPS * 4 * np.abs(run[f"energy.{part}"][1:])
-    for part, value in (("electrical", drawn), ("copper", copper), ("gear", drawn - copper - torque * speed)):
-        gate.see("ledger, motors", run, np.maximum(np.abs(add(part) - value.sum(1) * h) - total(part), 0), size)
-    for part, value in (("contact", ground), ("friction", rubbed)):
-        gate.see("ledger, ground", run, np.maximum(np.abs(add(part) - value) - total(part), 0), worked, plain)
-    met = (qd + after[:, 6:]) / 2 if implicit else qd
-    gate.see("ledger, stops", run, np.maximum(np.abs(add("stops") + (stop_torque * met).sum(1) * h) - total("stops"), 0))
-
-
-def implicit_touch(law, f, h, p, fn, start, end):
-    """Docs/equations.md, 7, linearly implicit, for k = d = 1: normal force, friction, and in which rows no corner is near."""
-    assert law["exponent"] == law["damping_exponent"] == 1
-    limit = law["slip_speed"]
-    push = np.where(p > 0, law["stiffness"] * (p - h * end[:, 2]) - law["damping"] * p * end[:, 2], 0)
-    flat = np.array([1, 1, 0])
-    before, after = start * flat, end * flat
-    slow, fast = (np.linalg.norm(x, axis=1) for x in (before, after))
-    direction = before / np.maximum(slow, 1e-300)[:, None]
-    along = (after * direction).sum(1)
-    slope = f * fn / np.maximum(slow, limit)
-    sticks = (slow <= limit) & (fast <= limit)
-    slides = -(f * fn)[:, None] * direction - slope[:, None] * (after - along[:, None] * direction)
-    tangential = np.where(sticks[:, None], -slope[:, None] * after, slides) * (push > 0)[:, None]
-    # Which side of a corner holds is decided in the solve (decision 15). Away from it: the contact keeps pressing, and
-    # keeps sticking or sliding about the same way, not within a quarter of v_lim.
-    near = ((slow <= limit) != (fast <= limit)) | (np.abs(fast / limit - 1) < 0.25)
-    near |= (push < fn / 2) | (push <= 0) | ((slow > limit) & (along < slow / 2))
-    return np.maximum(push, 0), tangential, ~((p > 0) & near)
 
 
 ALL = (motors, controllers, patterns, contacts, stops, bodies, reactions)

@@ -53,16 +53,16 @@ class Run:
             return np.array([float(value.get(name, value.get("default", 0))) for name in self.robot.joint_names])
         return np.broadcast_to(np.array(value, float), (self.n,)).copy()
 
-    def copy(self):
-        """One to be changed: the scenario and the rows are its own, the robot is assembled again."""
+    def changed(self, edit):
+        """A copy whose scenario and rows `edit` has changed; its robot is assembled anew."""
         other = copy.copy(self)
-        other.scenario, other.rows = copy.deepcopy(self.scenario), self.rows.copy()
-        other.motion_ = None
+        other.scenario, other.rows, other.motion_ = copy.deepcopy(self.scenario), self.rows.copy(), None
+        edit(other)
+        other.robot = Robot(other.scenario)
         return other
 
     def motion(self):
         if self.motion_ is None:
-            self.robot = Robot(self.scenario)
             self.motion_ = self.robot.move(
                 self.vector("base.", "xyz"), from_quaternion(self.vector("base.q", "wxyz")),
                 self.vector("base.v", "xyz"), self.vector("base.w", "xyz"), self.joints("angle"), self.joints("speed"))
