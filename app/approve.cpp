@@ -25,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kFiner = 10;  // accuracy of the run that stands for a finer one, where the integrator chooses its steps
 constexpr int kEnsemble = 4;           // runs
 constexpr double kWidestBand = 0.002;  // of the range; the smallest mutant that has to be seen moves a torque by 0.4 %
 
@@ -105,8 +106,8 @@ Bands bands_around(const GoldenRun& base, const Scenario& scenario, int jobs) {
     names.push_back(fmt::format("{}, start {} of {} moved by 1e-7 rad", scenario.file, i + 1, kEnsemble));
   }
   scenarios.push_back(scenario);
-  scenarios.back().physics.step /= 2;
-  names.push_back(scenario.file + ", half the step");
+  scenarios.back().physics.refine(scenario.physics.adapts() ? kFiner : 2);
+  names.push_back(scenario.file + (scenario.physics.adapts() ? ", a finer accuracy" : ", half the step"));
   const std::vector<GoldenRun> runs = simulate(scenarios, names, jobs);
   return calibrate(base, std::span(runs).first(kEnsemble), runs.back());
 }

@@ -3,6 +3,7 @@
 #include "app/app.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
+#include "report/trust.h"
 
 namespace gaitlab::app {
 
@@ -22,10 +23,8 @@ int check(const ScenarioArguments& arguments) {
   fmt::print("  {} modules, {} bodies (moving as {}), {} degrees of freedom, {:.3f} kg\n", robot.modules.size(),
              robot.bodies.size(), robot.links.size(), robot.dof(s.base), robot.mass);
   const double rate = simulation.standing().rate;
-  fmt::print("  engine {} ({}), step {} s: {}\n", s.physics.engine->name,
-             s.physics.engine->integrators[static_cast<std::size_t>(s.physics.integrator)], s.physics.step,
-             rate > 0 ? fmt::format("h lambda = {:.2f} standing (at most 1)", s.physics.step * rate)
-                      : "no limit on the step: nothing damps, or implicitly");
+  fmt::print("  engine {} ({}), {}{}\n", s.physics.engine->name, s.physics.integrator_name(), step_text(s.physics),
+             rate > 0 ? fmt::format(": h lambda = {:.2f} standing (at most 1)", s.physics.step * rate) : "");
   const Vec3 start = start_state(s).position;
   fmt::print("  base frame at [{:.4g}, {:.4g}, {:.4g}] m at the start: {}\n", start.x(), start.y(), start.z(),
              s.ground.kind == Ground::Kind::none ? "there is no ground"

@@ -12,7 +12,8 @@ namespace gaitlab::app {
 
 namespace {
 
-constexpr double kGood = 0.01;  // what "good" means below: 1 %
+constexpr double kGood = 0.01;       // what "good" means below: 1 %
+constexpr double kLeastOrder = 0.5;  // below, halving a step hardly helps: a power law would offer absurd ones
 
 /// A YAML list's items.
 std::string quoted(const std::vector<std::string>& patterns) {
@@ -29,7 +30,9 @@ std::string quoted(const std::vector<std::string>& patterns) {
 }
 
 struct Runs {
-  std::vector<double> steps;
+  std::vector<double> steps;  // s; of an integrator that chooses its steps, accuracies
+  const char* what = "step";
+  const char* unit = " s";
   std::vector<Trace> traces;
   std::vector<std::vector<double>> travel;  // x, y of the centre of mass, end less start
   double allowed = 0;                       // longest step that the rule allows; 0: any
@@ -40,11 +43,17 @@ Runs all_runs(const Scenario& scenario, int halvings, int jobs) {
   Runs runs;
   runs.traces.resize(count);
   runs.travel.resize(count);
-  for (std::size_t i = 0; i < count; ++i) runs.steps.push_back(scenario.physics.step / static_cast<double>(1 << i));
+  const bool adapts = scenario.physics.adapts();
+  if (adapts) {
+    runs.what = "accuracy";
+    runs.unit = "";
+  }
+  const double first = adapts ? scenario.physics.accuracy : scenario.physics.step;
+  for (std::size_t i = 0; i < count; ++i) runs.steps.push_back(first / static_cast<double>(1 << i));
   std::vector<double> rate(count);
   parallel(count, jobs, [&](std::size_t i) {
     Scenario halved = scenario;
-    halved.physics.step = runs.steps[i];
+    halved.physics.refine(static_cast<double>(1 << i));
     Simulation simulation({&halved, 1});
     rate[i] = simulation.standing().rate;
     simulation.run();
@@ -78,24 +87,28 @@ std::string verdict(const std::vector<ConvergenceRow>& rows, const Runs& runs) {
   const double finest = runs.steps.back();
   const auto within_rule = [&](double step) { return !(runs.allowed > 0) || step <= runs.allowed; };
   const ConvergenceRow& last = *worst_at(rows, runs.steps.size() - 1).first;
-  std::string text = fmt::format("none of these steps is good for 1 % of {}", last.name);
+  std::string text = fmt::format("none of these is good for 1 % of {}", last.name);
   for (std::size_t i = 0; i < runs.steps.size(); ++i) {
     const auto [row, error] = worst_at(rows, i);
     if (error > kGood || !within_rule(runs.steps[i])) continue;
-    text = fmt::format("step {} s is good for 1 %: the error is at most {:.2g} % ({}), that of {} s itself included",
-                       runs.steps[i], 100 * error, row->name, finest);
+    text = fmt::format("{} {}{} is good for 1 %: the error is at most {:.2g} % ({}), that of {}{} itself included", runs.what,
+                       runs.steps[i], runs.unit, 100 * error, row->name, finest, runs.unit);
     break;
   }
   if (!within_rule(runs.steps.front())) {
     text += fmt::format("; the rule h lambda <= 1 allows up to {:.3g} s, less than the longest tried", runs.allowed);
   }
+  if (runs.steps.size() < 3) return text;
+  if (last.order && *last.order < kLeastOrder) {
+    return text + fmt::format("; no order is seen ({:.2f}), so nothing is said of others", *last.order);
+  }
   const std::optional<double> reach = last.step_for(kGood, finest);
-  if (!reach) return text + (runs.steps.size() < 3 ? "" : "; no clear order, so nothing is said of other steps");
+  if (!reach) return text + "; no clear order, so nothing is said of others";
   if (!within_rule(*reach)) {
     if (!within_rule(runs.steps.front())) return text;
     return text + fmt::format("; of longer steps the rule h lambda <= 1 allows up to {:.3g} s", runs.allowed);
   }
-  return text + fmt::format("; by the order seen about {:.2g} s would be", *reach);
+  return text + fmt::format("; by the order seen about {:.2g}{} would be", *reach, runs.unit);
 }
 
 }  // namespace
@@ -112,9 +125,9 @@ int converge(const ConvergeArguments& arguments) {
   }
   const Runs runs = all_runs(scenario, arguments.halvings, arguments.jobs);
 
-  fmt::print("{}: error against step {} s (RMS over the rows / largest magnitude of the column)\n", scenario.name,
-             runs.steps.back());
-  fmt::print("{:<24}", "step, s");
+  fmt::print("{}: error against {} {}{} (RMS over the rows / largest magnitude of the column)\n", scenario.name, runs.what,
+             runs.steps.back(), runs.unit);
+  fmt::print("{:<24}", scenario.physics.adapts() ? runs.what : "step, s");
   for (std::size_t i = 0; i + 1 < runs.steps.size(); ++i) fmt::print(" {:>12}", runs.steps[i]);
   fmt::print(" {:>6}\n", "order");
   const std::vector<ConvergenceRow> rows = convergence(runs.traces, wanted);

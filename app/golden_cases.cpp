@@ -109,9 +109,10 @@ Scenario with_engine(const std::string& file, const Scenario& scenario, const st
                                               : "did you mean '" + near + "'?"));
   }
   const bool extrapolated = std::ranges::find(engine->integrators, "extrapolated") != engine->integrators.end();
+  const std::string& first_order = engine->integrators[static_cast<std::size_t>(engine->fixed)];
   return read_scenario(file,
                        {"physics.engine=" + name, fmt::format("physics.step={}", step),
-                        "physics.integrator=" + (extrapolated ? "extrapolated" : engine->integrators.front())},
+                        "physics.integrator=" + (extrapolated ? "extrapolated" : first_order)},
                        catalog);
 }
 

@@ -17,6 +17,7 @@
 #include "report/figure.h"
 #include "report/run_figure.h"
 #include "report/summary.h"
+#include "report/trust.h"
 
 namespace gaitlab::app {
 
@@ -88,7 +89,12 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
     fmt::print(stderr, "{}: warning: {}\n", scenario.file, fall);
   const std::string warning = stability_warning(summary, scenario, record);
   if (!warning.empty()) fmt::print(stderr, "{}: warning: {}\n", to_string(scenario.place("physics.step")), warning);
-  if (failure.empty()) return 0;
+  if (failure.empty()) {
+    for (const std::string& doubt : trust_warnings(scenario, record)) {
+      fmt::print(stderr, "{}: warning: {}\n", to_string(scenario.place("physics.step")), doubt);
+    }
+    return 0;
+  }
   fmt::print(stderr, "{}: error: {}; what was simulated until then is in {}\n", scenario.file, failure, folder.path().string());
   return 1;
 }

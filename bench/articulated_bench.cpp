@@ -51,12 +51,14 @@ void kernel(benchmark::State& state, const Scenario& s, std::size_t lanes) {
   settings.others.assign(lanes - 1, own);
   settings.base = s.base;
   settings.actuator = motors.get();
+  settings.integrator = s.physics.engine->fixed;
   const std::unique_ptr<Plant> plant = s.physics.engine->make(settings);
   const StateLayout layout{s.robot->joints.size(), lanes};
   std::vector<double> x(layout.size());
   const std::vector<double> command(s.robot->joints.size() * lanes);
   for (std::size_t l = 0; l < lanes; ++l) layout.write(start_state(s), l, x);
-  plant->bind(x);
+  std::vector<double> history(plant->history());
+  plant->bind(x, history);
   for (int i = 0; i < 200; ++i) plant->advance(command, kStep);  // until it stands
   const std::vector<double> standing = x;
   for ([[maybe_unused]] auto once : state) {

@@ -96,7 +96,10 @@ class Contacts {
         const Vec<T> x = found.point - body.origin();
         const Vec<T> v = body.velocity(link, x);
         const T gap = T(reach) * math::sqrt(dot(v, v)) + T(kPull * reach * reach);
-        if (math::any(found.penetration > -gap)) touching_.push_back(contact(order_[e], link, found, x, v, ahead));
+        const auto near = found.penetration > -gap;
+        if (!math::any(near)) continue;
+        Contact<T>& c = touching_.emplace_back(contact(order_[e], link, found, x, v, ahead));
+        c.depth = math::select(near, c.depth, T(kFar));  // there for other lanes
       }
     }
     first_.back() = touching_.size();
@@ -185,6 +188,7 @@ class Contacts {
   [[nodiscard]] std::span<const Contact<T>> touching() const { return touching_; }
 
  private:
+  static constexpr double kFar = -1e9;  ///< m: what no step closes
   static constexpr double kPull = 100;  ///< m/s^2: what changes an element's velocity in the air, at most: weight and motors
   static constexpr double kNormalTolerance = 1e-3, kNormalFloor = 1e-5, kFrictionTolerance = 0.1, kCornerTolerance = 1e-6;
   static constexpr double kFrictionFloor = 1e-9;  // N

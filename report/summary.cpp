@@ -11,10 +11,13 @@
 #include "core/simulation/start.h"
 #include "core/simulation/step_advice.h"
 #include "report/build_id.h"
+#include "report/trust.h"
 
 namespace gaitlab {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// Turn about world z from one tick to the next: the twist of the rotation between them. Defined however far the base is
 /// pitched.
@@ -91,6 +94,15 @@ std::string ledger_text(const RunRecord& r) {
   return text;
 }
 
+/// null: not estimated.
+Json torque_error_json(const Robot& robot, const RunRecord& r) {
+  const TorqueError worst = torque_error(r);
+  if (!worst.estimated) return {};
+  Json each = Json::object();
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) each[robot.joints[j].name] = r.tally.torque_error[j];
+  return {{"worst", worst.share}, {"joint", robot.joints[worst.joint].name}, {"per_joint", each}};
+}
+
 constexpr double kVisible = 1e-3;  // share of what is drawn
 constexpr double kNowhere = 1e-3;  // m: the work of a robot that stays is divided by noise
 
@@ -139,7 +151,13 @@ std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord&
       {"name", scenario.name},
       {"engine", scenario.physics.engine->name},
       {"step", scenario.physics.step},
-      {"integrator", scenario.physics.engine->integrators[static_cast<std::size_t>(scenario.physics.integrator)]},
+      {"step_setting", scenario.physics.adaptive_step ? Json("auto") : Json(scenario.physics.step)},
+      {"integrator", scenario.physics.integrator_name()},
+      {"accuracy", scenario.physics.adapts() ? Json(scenario.physics.accuracy) : Json()},
+      {"solves", r.tally.solves},
+      {"off_law", r.tally.off},
+      {"coarse_time", r.tally.coarse},
+      {"torque_error", torque_error_json(robot, r)},
       {"duration", scenario.duration},
       {"outcome", s.outcome},
       {"simulated", s.simulated},
@@ -176,10 +194,6 @@ std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord&
         {"period", s.limit_cycle.period},
         {"error", s.limit_cycle.error}}},
       {"stability", {{"max", s.stability_max}, {"share_above_1", s.stability_share}, {"source", s.stability_source}}},
-      {"solves", r.tally.solves},
-      {"off", r.tally.off},
-      {"coarse", r.tally.coarse},
-      {"torque_error", r.tally.torque_error},
       {"trace_hash", s.trace_hash}};
   return json.dump(2) + "\n";
 }
@@ -189,10 +203,8 @@ std::string to_text(const Summary& s, const Scenario& scenario, const RunRecord&
   const auto line = [](const char* what, const std::string& text) { return fmt::format("  {:<13} {}\n", what, text); };
   std::string text = fmt::format("{}: {:.6g} s simulated in {:.2f} s ({:.2g} times real time)\n", scenario.name, s.simulated,
                                  s.wall_time, s.wall_time > 0 ? s.simulated / s.wall_time : 0);
-  text +=
-      line("engine", fmt::format("{} ({}), step {} s", scenario.physics.engine->name,
-                                 scenario.physics.engine->integrators[static_cast<std::size_t>(scenario.physics.integrator)],
-                                 scenario.physics.step));
+  text += line("engine", fmt::format("{} ({})", scenario.physics.engine->name, scenario.physics.integrator_name()));
+  text += line("steps", steps_text(scenario, r));
   text += line("robot", fmt::format("{} modules, {} bodies, {} joints, {} degrees of freedom, {:.3f} kg", robot.modules.size(),
                                     robot.bodies.size(), robot.joints.size(), robot.dof(scenario.base), robot.mass));
   text += line("distance", fmt::format("{:.4f} m (x {:+.4f}, y {:+.4f}), heading change {:+.3f} rad", s.distance,
@@ -230,10 +242,10 @@ std::string to_text(const Summary& s, const Scenario& scenario, const RunRecord&
                                     robot.joints[j].name, percent(f.range_share), f.range_worst, percent(f.setpoint_outside)));
     }
   }
-  text += line("stability", s.stability_source.empty()
-                                ? std::string("no limit on the step: nothing damps, or implicitly")
-                                : fmt::format("h lambda at most {:.2f} at t = {:.2f} s ({}); above 1 in {} of the ticks",
-                                              s.stability_max, r.worst_time, s.stability_source, percent(s.stability_share)));
+  if (!s.stability_source.empty()) {
+    text += line("stability", fmt::format("h lambda at most {:.2f} at t = {:.2f} s ({}); above 1 in {} of the ticks",
+                                          s.stability_max, r.worst_time, s.stability_source, percent(s.stability_share)));
+  }
   return text;
 }
 

@@ -13,7 +13,7 @@ namespace gaitlab::test {
 namespace {
 
 std::string method_name(const testing::TestParamInfo<int>& method) {
-  constexpr std::array kNames{"implicit", "extrapolated", "rk4"};
+  constexpr std::array kNames{"adaptive", "implicit", "extrapolated", "rk4"};
   return kNames[static_cast<std::size_t>(method.param)];
 }
 
@@ -25,14 +25,34 @@ class Lanes : public testing::TestWithParam<int> {
  private:
   Catalog catalog_;
 };
-INSTANTIATE_TEST_SUITE_P(Of, Lanes, testing::Values(0, 1, 2), method_name);
+INSTANTIATE_TEST_SUITE_P(Of, Lanes, testing::Values(0, 1, 2, 3), method_name);
 
 /// One lane: what it is made from, its numbers and commands.
 struct Lane {
   LaneSettings settings;
   DcMotorActuator::Settings motors;
-  std::vector<double> numbers, command;
+  std::vector<double> numbers, history, command;
 };
+
+/// Sums over the parts of a step: what the ledger and the meter make of them.
+struct Sums {
+  std::vector<double> work, torque;  ///< a joint
+  double share = 0;
+};
+
+Sums sums(const Applied& applied, std::size_t joints, std::size_t lane, std::size_t lanes) {
+  Sums all{std::vector<double>(joints), std::vector<double>(joints)};
+  for (const Applied::Part& part : applied.parts) {
+    if (part.instant) continue;
+    for (std::size_t j = 0; j < joints; ++j) {
+      const std::size_t i = j * lanes + lane;
+      all.work[j] += part.sum[lane] * part.torque[i] * part.speed[i];
+      all.torque[j] += part.share[lane] * part.torque[i];
+    }
+    all.share += part.share[lane];
+  }
+  return all;
+}
 
 /// A lane of another kind for every index, with a robot like `first` but of other masses and lengths.
 Lane lane(RandomRobots& random, const Robot& first, Base base, std::size_t index) {
@@ -55,6 +75,7 @@ Lane lane(RandomRobots& random, const Robot& first, Base base, std::size_t index
   }
   one.settings.ground.friction = random.friction();
   one.settings.law = random.contact();
+  one.settings.accuracy = random.scaled(1e-3, 3e-2);
   one.motors = random.motors(robot->joints.size());
   RobotState state = random.state(*robot, base);
   state.position.z() = index % 3 == 2 ? 0.1 : -0.005;  // in the air there, through the ground here
@@ -65,6 +86,8 @@ Lane lane(RandomRobots& random, const Robot& first, Base base, std::size_t index
   return one;
 }
 
+constexpr int kExplicit = 3;  // rk4
+
 /// lambda at the start, 1/s.
 double rate(const Engine& engine, const Lane& lane, Base base) {
   PlantSettings settings;
@@ -72,16 +95,16 @@ double rate(const Engine& engine, const Lane& lane, Base base) {
   settings.base = base;
   const DcMotorActuator motors(info(*lane.settings.robot), {&lane.motors});
   settings.actuator = &motors;
+  settings.integrator = kExplicit;
   const std::unique_ptr<Plant> plant = engine.make(settings);
   std::vector<double> numbers = lane.numbers;
-  plant->bind(numbers);
+  plant->bind(numbers, {});
   return plant->stability(0, lane.command, false).rate;
 }
 
 TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
   if (engine().lanes.size() < 2) GTEST_SKIP() << "this processor has neither AVX2 nor AVX-512";
   constexpr int kSteps = 60;
-  constexpr int kExplicit = 2;
   RandomRobots random(41);
   double rubbed = 0;  // J: something slides in some lane
   for (const std::size_t width : engine().lanes) {
@@ -119,7 +142,8 @@ TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
       const DcMotorActuator all(info(first), motors);
       together.actuator = &all;
       const std::unique_ptr<Plant> pack = engine().make(together);
-      pack->bind(numbers);
+      std::vector<double> history(pack->history());
+      pack->bind(numbers, history);
       for (int step = 0; step < kSteps; ++step) pack->advance(commands, h);
 
       for (std::size_t l = 0; l < width; ++l) {
@@ -131,7 +155,8 @@ TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
         const DcMotorActuator motor(info(first), {&lanes[l].motors});
         own.actuator = &motor;
         const std::unique_ptr<Plant> alone = engine().make(own);
-        alone->bind(lanes[l].numbers);
+        lanes[l].history.resize(alone->history());
+        alone->bind(lanes[l].numbers, lanes[l].history);
         for (int step = 0; step < kSteps; ++step) alone->advance(lanes[l].command, h);
         for (std::size_t e = 0; e < lanes[l].numbers.size(); ++e) {
           EXPECT_EQ(std::bit_cast<std::uint64_t>(numbers[e * width + l]), std::bit_cast<std::uint64_t>(lanes[l].numbers[e]))
@@ -140,7 +165,12 @@ TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
         }
         const Applied a = pack->applied();
         const Applied b = alone->applied();
-        for (std::size_t j = 0; j < n; ++j) EXPECT_EQ(a.torque[j * width + l], b.torque[j]);
+        for (std::size_t e = 0; e < lanes[l].history.size(); ++e) EXPECT_EQ(history[e * width + l], lanes[l].history[e]);
+        const Sums beside_others = sums(a, n, l, width);
+        const Sums by_itself = sums(b, n, 0, 1);
+        EXPECT_EQ(beside_others.work, by_itself.work);
+        EXPECT_EQ(beside_others.torque, by_itself.torque);
+        EXPECT_EQ(beside_others.share, by_itself.share);
         EXPECT_EQ(a.contact[l], b.contact[0]);
         EXPECT_EQ(a.friction[l], b.friction[0]);
         EXPECT_EQ(a.stops[l], b.stops[0]);

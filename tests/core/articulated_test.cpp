@@ -147,6 +147,7 @@ class BlockOnPlane : public testing::Test {
     ContactElement point;
     settings.contacts = {point};
     settings.law.cd = 0;
+    settings.integrator = 1;  // implicit
   }
   /// Velocity after one step of h from `speed` along x, at the depth that carries the weight.
   [[nodiscard]] double after(double speed, double h) const {
@@ -157,7 +158,8 @@ class BlockOnPlane : public testing::Test {
     x[StateLayout::kPosition + 2] = -1e-3;
     x[StateLayout::kOrientation] = 1;
     x[StateLayout::kVelocity] = speed;
-    plant->bind(x);
+    std::vector<double> history(plant->history());
+    plant->bind(x, history);
     plant->advance({}, h);
     EXPECT_EQ(x[StateLayout::kVelocity + 1], 0);
     return x[StateLayout::kVelocity];
@@ -188,7 +190,9 @@ TEST(ArticulatedEngine, RegistersWithItsDefaults) {
   register_articulated(catalog);
   const Engine* engine = catalog.engine("articulated");
   ASSERT_NE(engine, nullptr);
-  EXPECT_EQ(engine->integrators, (std::vector<std::string>{"implicit", "extrapolated", "rk4"}));
+  EXPECT_EQ(engine->integrators, (std::vector<std::string>{"adaptive", "implicit", "extrapolated", "rk4"}));
+  EXPECT_EQ(engine->adaptive, 0);
+  EXPECT_EQ(engine->fixed, 1);
   EXPECT_EQ(engine->step, 5e-4);
   EXPECT_TRUE(engine->rotor_inertia);
 }

@@ -44,7 +44,7 @@ TEST_F(ScenarioTest, AllErrorsAtOnceInTheFilesOrder) {
                   "sensors: [imu]\n"
                   "phyics: {}\n"),
             "DIR/s.yaml:1:23: error: unknown key 'bse'; did you mean 'base'?\n"
-            "DIR/s.yaml:2:17: error: step is 'fast'; expected a number in s\n"
+            "DIR/s.yaml:2:17: error: step is 'fast'; expected a number in s, or auto\n"
             "DIR/s.yaml:2:23: error: unknown key 'engin'; did you mean 'engine'?\n"
             "DIR/s.yaml:3:11: error: unknown key 'stifness'; did you mean 'stiffness'?\n"
             "DIR/s.yaml:3:28: error: on 'foot' is unknown; known names: none, feet, all\n"

@@ -24,11 +24,7 @@ def steps(gate, run, rules):
     gate.see("motion, positions", run, np.diff(run.joints("angle"), axis=0) - h * after[:, 6:], 1 + np.abs(q))
     gate.see("motion, positions", run, np.diff(run.vector("base.", "xyz"), axis=0) - h * after[:, :3])
     rotation = from_quaternion(run.vector("base.q", "wxyz"))
-    turned = h * after[:, 3:6]
-    angle = np.linalg.norm(turned, axis=1)[:, None, None] + 1e-300
-    axis = turned[:, :, None] / angle
-    cross = skew(axis[:, :, 0])
-    spun = (np.eye(3) + np.sin(angle) * cross + 2 * np.sin(angle / 2) ** 2 * cross @ cross) @ rotation[:-1]
+    spun = turned_by(h * after[:, 3:6]) @ rotation[:-1]
     gate.see("motion, positions", run, spun - rotation[1:])
 
     # Forces on the joints: at the state, or at the velocity of the step's end.
@@ -36,26 +32,36 @@ def steps(gate, run, rules):
     i, saturation = motor.current(command, speed)
     torque = motor.torque(i, speed)
     ranges = np.array(robot.ranges)
-    reached = q + h * speed if implicit else q
-    out = (q > ranges[:, 1]) | (q < ranges[:, 0])
-    stop_torque = np.where(out, laws.stop(reached, speed, ranges), 0)
+    stop_torque = implicit_stop(q, speed, h, ranges) if implicit else laws.stop(q, speed, ranges)
     force = np.zeros_like(v)
     force[:, 6:] = torque + stop_torque
     terms = np.abs(force)
     plain = np.ones(len(v), bool)
 
+    # An implicit step has its matrices, and what touches, where the start's velocity leads within it.
+    if implicit:
+        ahead = run.robot.move(run.vector("base.", "xyz")[:-1] + h * v[:, :3], turned_by(h * v[:, 3:6]) @ rotation[:-1], v[:, :3],
+                               v[:, 3:6], q + h * qd, qd)
+        mass, bias = ahead.equations(np.array(physics["gravity"], float), qd)
+        mass[:, joints, joints] += motor.reflected
+
     # The ground's.
     ground, rubbed, moved = 0, 0, (v + after) / 2 if implicit else v
     worked, fast = 1e-30, np.linalg.norm(v[:, :3], axis=1) + np.abs(v[:, 3:]).sum(1) + np.abs(after[:, 3:]).sum(1)
-    for _, _, touch in checks.elements(run):
-        linear, _ = motion.jacobian(touch.body, touch.point)
-        linear, p = linear[rows], touch.p[rows]
-        at = np.einsum("nki,ni->nk", linear, v)
-        fn, _, _ = laws.normal_force(p, -at[:, 2], law)
+    for _, name, touch in checks.elements(run):
         if implicit:
+            body, centre, radius = run.robot.contacts(law["on"])[name]
+            point = ahead[body][0] + ahead[body][1] @ centre - np.array([0, 0, radius])
+            linear, _ = ahead.jacobian(run.robot.by_name[body], point)
+            at, p = np.einsum("nki,ni->nk", linear, v), -point[:, 2]
+            fn, _, _ = laws.normal_force(p, -at[:, 2], law)
             push, tangential, good = implicit_touch(law, touch.f[rows], h, p, fn, at, np.einsum("nki,ni->nk", linear, after))
             plain &= good
         else:
+            linear, _ = motion.jacobian(touch.body, touch.point)
+            linear, p = linear[rows], touch.p[rows]
+            at = np.einsum("nki,ni->nk", linear, v)
+            fn, _, _ = laws.normal_force(p, -at[:, 2], law)
             push, tangential = fn, laws.friction(fn, at * [1, 1, 0], touch.f[rows], law["slip_speed"])
         pushed = tangential + push[:, None] * np.array([0, 0, 1])
         force += np.einsum("nki,nk->ni", linear, pushed)
@@ -86,25 +92,37 @@ def steps(gate, run, rules):
     gate.see("ledger, stops", run, np.maximum(np.abs(add("stops") + (stop_torque * met).sum(1) * h) - total("stops"), 0))
 
 
+def turned_by(vector):
+    """Rotation matrices of rotation vectors."""
+    angle = np.linalg.norm(vector, axis=1)[:, None, None] + 1e-300
+    cross = skew((vector[:, :, None] / angle)[:, :, 0])
+    return np.eye(3) + np.sin(angle) * cross + 2 * np.sin(angle / 2) ** 2 * cross @ cross
+
+
+def implicit_stop(q, end, h, ranges):
+    """Docs/equations.md, 7: torque of the hinge stops at the speed of the step's end."""
+    reached = q + h * end
+    high = q > ranges.mean(1)
+    excess = reached - np.where(high, ranges[:, 1], ranges[:, 0])
+    within = (q <= ranges[:, 1]) & (q >= ranges[:, 0])
+    torque = -50 * excess - 0.5 * np.where(within, excess / h, end)
+    return np.where(np.where(high, torque < 0, torque > 0), torque, 0)
+
+
 def implicit_touch(law, f, h, p, fn, start, end):
-    """Docs/equations.md, 7, linearly implicit, for k = d = 1: normal force, friction, and in which rows no corner is near."""
+    """Docs/equations.md, 7, for k = d = 1: normal force, friction, and in which rows both are solved to rounding: where the
+    element rests, or is in the air. A landing and a slide are curved laws, which the solve meets to a tolerance."""
     assert law["exponent"] == law["damping_exponent"] == 1
-    limit = law["slip_speed"]
-    push = np.where(p > 0, law["stiffness"] * (p - h * end[:, 2]) - law["damping"] * p * end[:, 2], 0)
+    depth, damping = p + h * start[:, 2], law["damping"] * np.maximum(p, 0)
+    reached = depth - h * end[:, 2]
+    rests = np.where(reached > 0, np.maximum(law["stiffness"] * reached - damping * end[:, 2], 0), 0)
+    lands = np.where(reached > 0, np.maximum(law["stiffness"] * reached - law["damping"] * reached * end[:, 2], 0), 0)
+    push = np.where(depth > 0, rests, lands)
     flat = np.array([1, 1, 0])
-    before, after = start * flat, end * flat
-    slow, fast = (np.linalg.norm(x, axis=1) for x in (before, after))
-    direction = before / np.maximum(slow, 1e-300)[:, None]
-    along = (after * direction).sum(1)
-    slope = f * fn / np.maximum(slow, limit)
-    sticks = (slow <= limit) & (fast <= limit)
-    slides = -(f * fn)[:, None] * direction - slope[:, None] * (after - along[:, None] * direction)
-    tangential = np.where(sticks[:, None], -slope[:, None] * after, slides) * (push > 0)[:, None]
-    # Which side of a corner holds is decided in the solve (decision 15). Away from it: the contact keeps pressing, and
-    # keeps sticking or sliding about the same way, not within a quarter of v_lim.
-    near = ((slow <= limit) != (fast <= limit)) | (np.abs(fast / limit - 1) < 0.25)
-    near |= (push < fn / 2) | (push <= 0) | ((slow > limit) & (along < slow / 2))
-    return np.maximum(push, 0), tangential, ~((p > 0) & near)
+    slow, fast = (np.linalg.norm(x * flat, axis=1) for x in (start, end))
+    tangential = -(f * fn / np.maximum(fast, law["slip_speed"]))[:, None] * end * flat
+    sticks = (fast < 0.99 * law["slip_speed"]) & (slow < law["slip_speed"])
+    return push, tangential, ((fn == 0) | sticks) & ((depth > 0) | (push == 0))
 
 
 def runge_kutta(gate, run, rules):

@@ -1,0 +1,105 @@
+#include "report/trust.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/scenario/value.h"
+#include "core/simulation/step_advice.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kGood = 0.01;         // of a torque's peak, of what is drawn
+constexpr double kLeastPeak = 0.02;    // of the largest of all joints: smaller ones are judged by this
+constexpr double kOftenCoarse = 0.1;   // share of the time
+constexpr double kMargin = 2;          // by which a remedy is better than it seems to need
+
+/// One digit, downwards: 0.0037 becomes 0.003.
+double one_digit(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  return std::floor(value / decade) * decade;
+}
+
+/// What brings the torque error from `share` to kGood.
+std::string remedy(const Scenario& s, double share) {
+  const Physics& physics = s.physics;
+  const double ratio = kGood / share / kMargin;
+  if (physics.adapts()) return fmt::format("physics.accuracy: {:.1g}", one_digit(physics.accuracy * ratio));
+  const int order = std::max(1, physics.engine->orders[static_cast<std::size_t>(physics.integrator)]);
+  const double step = usable_step(s, physics.step * std::pow(ratio, 1.0 / order));
+  std::string text = step > 0 ? fmt::format("physics.step: {:.4g}", step) : "a smaller physics.step";
+  if (physics.engine->adaptive >= 0) {
+    text += fmt::format(", or physics.integrator: {} without a step",
+                        physics.engine->integrators[static_cast<std::size_t>(physics.engine->adaptive)]);
+  }
+  return text;
+}
+
+std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+
+}  // namespace
+
+TorqueError torque_error(const RunRecord& r) {
+  TorqueError worst;
+  double largest = 0;
+  for (const JointFigures& joint : r.joints) largest = std::max(largest, joint.torque_peak);
+  if (!r.tally.estimated || !(largest > 0)) return worst;
+  worst.estimated = true;
+  for (std::size_t j = 0; j < r.joints.size(); ++j) {
+    const double share = r.tally.torque_error[j] / std::max(r.joints[j].torque_peak, kLeastPeak * largest);
+    if (share > worst.share) worst = {true, share, j};
+  }
+  return worst;
+}
+
+std::string step_text(const Physics& physics) {
+  std::string text = physics.adaptive_step ? fmt::format("step auto (at most {:.4g} s)", physics.step)
+                                           : fmt::format("step {} s", number_text(physics.step));
+  if (physics.adapts()) text += fmt::format(", accuracy {}", percent(physics.accuracy));
+  return text;
+}
+
+std::string steps_text(const Scenario& scenario, const RunRecord& r) {
+  std::string text = step_text(scenario.physics);
+  if (r.tally.solves > 0) text += fmt::format(", {:.0f} solves", r.tally.solves);
+  const TorqueError error = torque_error(r);
+  if (error.estimated) {
+    text += fmt::format("; torque error about {} (joint {})", percent(error.share), scenario.robot->joints[error.joint].name);
+  } else if (scenario.actuator.entry != nullptr && !r.joints.empty()) {
+    text += "; torque error not estimated";
+  }
+  return text;
+}
+
+std::vector<std::string> trust_warnings(const Scenario& s, const RunRecord& r) {
+  std::vector<std::string> warnings;
+  const TorqueError error = torque_error(r);
+  const double allowed = s.physics.adapts() ? std::max(kGood, s.physics.accuracy) : kGood;
+  if (error.share > allowed) {
+    warnings.push_back(fmt::format("the torque of joint {} is off by about {} of its peak, estimated from other steps; take {}",
+                                   s.robot->joints[error.joint].name, percent(error.share), remedy(s, error.share)));
+  }
+  if (s.physics.adapts() && r.tally.coarse > kOftenCoarse * r.simulated) {
+    warnings.push_back(
+        fmt::format("in {} of the time the shortest steps of the integrator did not reach the accuracy {}: this motion may well "
+                    "be another at any other step; is something undamped, or driven without bounds?",
+                    percent(r.tally.coarse / r.simulated), percent(s.physics.accuracy)));
+  }
+  const double residual = std::abs(r.ledger.residual());
+  const double drawn = std::abs(r.ledger.electrical);
+  if (s.actuator.entry != nullptr && residual > kGood * drawn && residual > kGood * std::abs(r.ledger.stored)) {
+    warnings.push_back(fmt::format("the energy does not add up: {:.3g} J are missing of {:.3g} J drawn; take {}", residual, drawn,
+                                   s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step"));
+  }
+  if (r.tally.off > 0) {
+    warnings.push_back(fmt::format("{:.0f} joint-steps ended off the law of their motor or stop: the torques there are wrong; "
+                                   "does the torque of the actuator fall with the joint's speed, as it must?",
+                                   r.tally.off));
+  }
+  return warnings;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,29 @@
+// Whether the numbers of a run can be trusted: what its steps cost, and what to do about it.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/simulation/simulation.h"
+
+namespace gaitlab {
+
+/// Estimate (core/simulation/step_error.h) of how far the motor torques are off, RMS over the joint's peak, of the worst joint.
+/// A joint's peak counts as at least 2 % of the largest of all.
+struct TorqueError {
+  bool estimated = false;
+  double share = 0;
+  std::size_t joint = 0;
+};
+TorqueError torque_error(const RunRecord& record);
+
+/// `step auto (at most 0.005 s), accuracy 1 %`, or `step 2.5e-05 s`.
+std::string step_text(const Physics& physics);
+
+/// What the summary says of the steps: their kind, the solves, the torque error.
+std::string steps_text(const Scenario& scenario, const RunRecord& record);
+
+/// One sentence each, with its remedy: torques that are off by more than 1 % (or the accuracy asked for, if that is more), an
+/// energy that does not add up to 1 % of what is drawn, joint-steps off their law, steps that never reached the accuracy.
+std::vector<std::string> trust_warnings(const Scenario& scenario, const RunRecord& record);
+
+}  // namespace gaitlab
