@@ -21,7 +21,7 @@ constexpr double kPointSize = 0.001;  // m, drawn
 
 std::string text(const Quat& q) { return interchange::text({q.w(), q.x(), q.y(), q.z()}); }
 
-void set_pose(tinyxml2::XMLElement& element, const Pose& pose) {
+void set_pose(Xml& element, const Pose& pose) {
   set(element, "pos", interchange::text(pose.p));
   set(element, "quat", text(Quat(pose.R)));
 }
@@ -31,31 +31,32 @@ class Mjcf {
   explicit Mjcf(const Scenario& s) : s_(s), robot_(*s.robot), start_(start_state(s)), tree_(robot_), limits_(motor_limits(s)) {}
 
   std::string write() {
-    tinyxml2::XMLElement& root = add(document_, "mujoco");
+    Xml root;
+    root.name = "mujoco";
     set(root, "model", s_.name);
     comment(root, fmt::format(
                       "Written by gaitlab. Not in this file, because MJCF does not hold it:{}{} Geoms touch nothing: those of "
                       "group 3 are the contact elements (points are drawn as spheres of {} m), each with a site.{}",
                       left_out(s_), method(), interchange::text({kPointSize}), massless()));
     write_options(root);
-    tinyxml2::XMLElement& world = add(root, "worldbody");
+    Xml& world = add(root, "worldbody");
     write_ground(world);
     elements_.resize(robot_.bodies.size());
     for (ContactElement& e : contact_elements(robot_, static_cast<ContactSet>(s_.contact.on))) {
       elements_[e.body].push_back(std::move(e));
     }
-    std::vector<tinyxml2::XMLElement*> bodies(robot_.bodies.size());
+    std::vector<Xml*> bodies(robot_.bodies.size());
     for (const std::size_t b : tree_.order) {
       const Attachment& at = tree_.attachments[b];
       bodies[b] = &write_body(at.kind == Attachment::Kind::base ? world : *bodies[at.parent], b);
     }
     write_motors(root);
-    write_start(root);
-    return print(document_);
+    write_start(root, world);
+    return print(root);
   }
 
  private:
-  void write_ground(tinyxml2::XMLElement& world) {
+  void write_ground(Xml& world) {
     if (s_.ground.kind == Ground::Kind::heightfield) {
       throw InputError(s_.place("ground.type"), "MJCF holds no heightfield of this kind; expected type: none, plane or boxes");
     }
@@ -63,30 +64,30 @@ class Mjcf {
     set(geom(world, "ground", "plane", "0 0 1"), "group", "2");
     for (std::size_t i = 0; s_.ground.kind == Ground::Kind::boxes && i < s_.ground.boxes.size(); ++i) {
       const Box& box = s_.ground.boxes[i];
-      tinyxml2::XMLElement& e = geom(world, fmt::format("ground/{}", i), "box", interchange::text(Vec3(box.size / 2)));
+      Xml& e = geom(world, fmt::format("ground/{}", i), "box", interchange::text(Vec3(box.size / 2)));
       set_pose(e, {box.R, box.center});
       set(e, "group", "2");
     }
   }
 
-  void write_options(tinyxml2::XMLElement& root) {
-    tinyxml2::XMLElement& compiler = add(root, "compiler");
+  void write_options(Xml& root) {
+    Xml& compiler = add(root, "compiler");
     set(compiler, "angle", "radian");
     set(compiler, "inertiafromgeom", "false");
-    tinyxml2::XMLElement& option = add(root, "option");
+    Xml& option = add(root, "option");
     set(option, "timestep", interchange::text({s_.physics.step}));
     set(option, "gravity", interchange::text(s_.physics.gravity));
     set(option, "integrator", "RK4");
-    tinyxml2::XMLElement& drawn = add(add(root, "default"), "geom");
+    Xml& drawn = add(add(root, "default"), "geom");
     set(drawn, "contype", "0");
     set(drawn, "conaffinity", "0");
     set(drawn, "group", "1");
   }
 
-  tinyxml2::XMLElement& write_body(tinyxml2::XMLElement& parent, std::size_t b) {
+  Xml& write_body(Xml& parent, std::size_t b) {
     const Body& body = robot_.bodies[b];
     const Attachment& at = tree_.attachments[b];
-    tinyxml2::XMLElement& element = add(parent, "body");
+    Xml& element = add(parent, "body");
     set(element, "name", body.name);
     if (at.kind == Attachment::Kind::base) {
       set(element, "pos", interchange::text(start_.position));
@@ -105,12 +106,12 @@ class Mjcf {
   }
 
   /// The base's joints turn and shift a body that stands as the scenario starts it: world axes are R^T e there.
-  void write_base_joints(tinyxml2::XMLElement& element) {
+  void write_base_joints(Xml& element) {
     if (s_.base == Base::floating) set(add(element, "freejoint"), "name", "base");
     if (s_.base != Base::planar) return;
     const Mat3 R = start_.orientation.toRotationMatrix();
     const auto joint = [&](const char* name, const char* type, const Vec3& axis) {
-      tinyxml2::XMLElement& j = add(element, "joint");
+      Xml& j = add(element, "joint");
       set(j, "name", name);
       set(j, "type", type);
       set(j, "axis", interchange::text(Vec3(R.transpose() * axis)));
@@ -120,10 +121,10 @@ class Mjcf {
     joint("base/turn", "hinge", Vec3::UnitY());
   }
 
-  void write_hinge(tinyxml2::XMLElement& element, const Body& body, std::size_t j) {
+  void write_hinge(Xml& element, const Body& body, std::size_t j) {
     const Joint& joint = robot_.joints[j];
     const Pose hinge = body.in_link.inverse();  // the link's frame is the hinge's
-    tinyxml2::XMLElement& e = add(element, "joint");
+    Xml& e = add(element, "joint");
     set(e, "name", joint.name);
     set(e, "type", "hinge");
     set(e, "pos", interchange::text(hinge.p));
@@ -155,10 +156,10 @@ class Mjcf {
                        kMassless, names);
   }
 
-  void write_inertia(tinyxml2::XMLElement& element, const Body& body, Attachment::Kind kind) {
+  void write_inertia(Xml& element, const Body& body, Attachment::Kind kind) {
     const BodyType& t = type(body);
     if (!(t.mass > 0) && kind != Attachment::Kind::hinge) return;
-    tinyxml2::XMLElement& e = add(element, "inertial");
+    Xml& e = add(element, "inertial");
     set(e, "pos", interchange::text(t.com));
     set(e, "mass", interchange::text({std::max(t.mass, kMassless)}));
     // MuJoCo takes whole tensors, too, but turns them with errors of 1e-12 kg m^2: principal axes are exact.
@@ -168,16 +169,15 @@ class Mjcf {
     set(e, "diaginertia", interchange::text(Vec3(moments.cwiseMax(kMassless))));
   }
 
-  static tinyxml2::XMLElement& geom(tinyxml2::XMLElement& parent, const std::string& name, const char* type,
-                                    const std::string& size) {
-    tinyxml2::XMLElement& e = add(parent, "geom");
+  static Xml& geom(Xml& parent, const std::string& name, const char* type, const std::string& size) {
+    Xml& e = add(parent, "geom");
     if (!name.empty()) set(e, "name", name);
     set(e, "type", type);
     set(e, "size", size);
     return e;
   }
 
-  void draw(tinyxml2::XMLElement& element, const Body& body) {
+  void draw(Xml& element, const Body& body) {
     for (const Shape& shape : type(body).shapes) {
       Pose pose = shape.in_body;
       if (shape.kind == Shape::Kind::box) {
@@ -191,13 +191,13 @@ class Mjcf {
     }
   }
 
-  void draw(tinyxml2::XMLElement& element, const ContactElement& contact, const Body& body) {
+  void draw(Xml& element, const ContactElement& contact, const Body& body) {
     const std::string pos = interchange::text(body.in_link.inverse() * contact.centre);
     const std::string size = interchange::text({contact.radius > 0 ? contact.radius : kPointSize});
-    tinyxml2::XMLElement& e = geom(element, contact.name, "sphere", size);
+    Xml& e = geom(element, contact.name, "sphere", size);
     set(e, "pos", pos);
     set(e, "group", "3");
-    tinyxml2::XMLElement& site = add(element, "site");
+    Xml& site = add(element, "site");
     set(site, "name", contact.name);
     set(site, "pos", pos);
     set(site, "size", interchange::text({kPointSize}));
@@ -205,11 +205,11 @@ class Mjcf {
   }
 
   /// The controls are torques on the joints.
-  void write_motors(tinyxml2::XMLElement& root) {
+  void write_motors(Xml& root) {
     if (limits_.empty()) return;
-    tinyxml2::XMLElement& actuator = add(root, "actuator");
+    Xml& actuator = add(root, "actuator");
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
-      tinyxml2::XMLElement& e = add(actuator, "motor");
+      Xml& e = add(actuator, "motor");
       set(e, "name", robot_.joints[j].name);
       set(e, "joint", robot_.joints[j].name);
       const bool limited = std::isfinite(limits_[j].effort);
@@ -219,7 +219,7 @@ class Mjcf {
   }
 
   /// A free joint's angular velocity is in the body's axes.
-  void write_start(tinyxml2::XMLElement& root) {
+  void write_start(Xml& root, const Xml& world) {
     std::vector<double> q;
     std::vector<double> v;
     const Vec3& p = start_.position;
@@ -234,23 +234,23 @@ class Mjcf {
       v = {velocity.x(), velocity.z(), start_.angular_velocity.y()};
     }
     // MuJoCo numbers joints as the bodies come, depth first.
-    append_joints(*root.FirstChildElement("worldbody"), q, v);
+    append_joints(world, q, v);
     if (q.empty()) return;
-    tinyxml2::XMLElement& key = add(add(root, "keyframe"), "key");
+    Xml& key = add(add(root, "keyframe"), "key");
     set(key, "name", "start");
     set(key, "qpos", interchange::text(q));
     set(key, "qvel", interchange::text(v));
   }
 
-  void append_joints(const tinyxml2::XMLElement& element, std::vector<double>& q, std::vector<double>& v) const {
-    for (const auto* body = element.FirstChildElement("body"); body != nullptr; body = body->NextSiblingElement("body")) {
-      const auto* hinge = body->FirstChildElement("joint");
-      for (std::size_t j = 0; hinge != nullptr && j < robot_.joints.size(); ++j) {
-        if (robot_.joints[j].name != hinge->Attribute("name")) continue;
+  void append_joints(const Xml& element, std::vector<double>& q, std::vector<double>& v) const {
+    for (const Xml& child : element.children) {
+      const std::string* name = child.name == "joint" ? child.attribute("name") : nullptr;
+      for (std::size_t j = 0; name != nullptr && j < robot_.joints.size(); ++j) {
+        if (robot_.joints[j].name != *name) continue;
         q.push_back(start_.q[j]);
         v.push_back(start_.qd[j]);
       }
-      append_joints(*body, q, v);
+      if (child.name == "body") append_joints(child, q, v);
     }
   }
 
@@ -260,7 +260,6 @@ class Mjcf {
   BodyTree tree_;
   std::vector<MotorLimits> limits_;
   std::vector<std::vector<ContactElement>> elements_;  ///< a body
-  tinyxml2::XMLDocument document_;
 };
 
 }  // namespace

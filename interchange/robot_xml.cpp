@@ -52,23 +52,6 @@ Mat3 y_from_z() {
   return R;
 }
 
-tinyxml2::XMLElement& add(tinyxml2::XMLNode& parent, const char* name) {
-  tinyxml2::XMLElement* element = parent.GetDocument()->NewElement(name);
-  parent.InsertEndChild(element);
-  return *element;
-}
-
-void comment(tinyxml2::XMLNode& parent, std::string words) {
-  for (std::size_t at = words.find("--"); at != std::string::npos; at = words.find("--")) words.erase(at, 1);
-  parent.InsertEndChild(parent.GetDocument()->NewComment((" " + words + " ").c_str()));
-}
-
-std::string print(const tinyxml2::XMLDocument& document) {
-  tinyxml2::XMLPrinter printer;
-  document.Print(&printer);
-  return printer.CStr();
-}
-
 std::vector<MotorLimits> motor_limits(const Scenario& scenario) {
   const std::unique_ptr<Actuator> actuator = make_actuator(scenario.actuator, info(*scenario.robot));
   if (actuator == nullptr) return {};

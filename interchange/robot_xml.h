@@ -1,12 +1,11 @@
 // What the robot formats share: numbers that read back to the same double, poses at zero angles, motors as limits.
 #pragma once
-#include <tinyxml2.h>
-
 #include <string>
 #include <vector>
 
 #include "core/dynamics/body_tree.h"
 #include "core/scenario/scenario.h"
+#include "interchange/xml.h"
 
 namespace gaitlab::interchange {
 
@@ -17,15 +16,6 @@ inline std::string text(const Vec3& v) { return text({v.x(), v.y(), v.z()}); }
 
 /// For a cylinder whose axis is z elsewhere and y here.
 Mat3 y_from_z();
-
-/// A child element behind the others.
-tinyxml2::XMLElement& add(tinyxml2::XMLNode& parent, const char* name);
-/// A comment; two hyphens in a row, which XML forbids there, become one.
-void comment(tinyxml2::XMLNode& parent, std::string words);
-inline void set(tinyxml2::XMLElement& element, const char* name, const std::string& value) {
-  element.SetAttribute(name, value.c_str());
-}
-std::string print(const tinyxml2::XMLDocument& document);
 
 /// A joint's motor as others know motors: what it gives at rest under the largest command, the speed at which it gives nothing,
 /// and the inertia of its rotor on the joint.

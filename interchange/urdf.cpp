@@ -16,8 +16,8 @@ using namespace interchange;
 constexpr double kPointRadius = 0.001;  // m
 constexpr double kUnlimited = 1e6;      // N m, rad/s: a limit must stand there
 
-void add_origin(tinyxml2::XMLElement& element, const Pose& pose) {
-  tinyxml2::XMLElement& e = add(element, "origin");
+void add_origin(Xml& element, const Pose& pose) {
+  Xml& e = add(element, "origin");
   set(e, "xyz", text(pose.p));
   set(e, "rpy", text(to_rpy(pose.R)));
 }
@@ -28,7 +28,8 @@ class Urdf {
 
   std::string write() {
     const RobotState start = start_state(s_);
-    tinyxml2::XMLElement& root = add(document_, "robot");
+    Xml root;
+    root.name = "robot";
     set(root, "name", s_.name);
     comment(root,
             fmt::format(
@@ -46,7 +47,7 @@ class Urdf {
       write_link(root, b, contacts);
       if (tree_.attachments[b].kind != Attachment::Kind::base) write_joint(root, b);
     }
-    return print(document_);
+    return print(root);
   }
 
  private:
@@ -68,9 +69,9 @@ class Urdf {
     return names.empty() ? "" : fmt::format(" Rotors behind their gears, kg m^2: {}.", names);
   }
 
-  tinyxml2::XMLElement& write_connection(tinyxml2::XMLElement& root, const std::string& name, const char* type,
-                                         const std::string& parent, const std::string& child, const Pose& origin) {
-    tinyxml2::XMLElement& e = add(root, "joint");
+  Xml& write_connection(Xml& root, const std::string& name, const char* type, const std::string& parent,
+                        const std::string& child, const Pose& origin) {
+    Xml& e = add(root, "joint");
     set(e, "name", name);
     set(e, "type", type);
     set(add(e, "parent"), "link", parent);
@@ -80,26 +81,26 @@ class Urdf {
   }
 
   /// The pose at the start; a planar joint's axis is the plane's normal, world y, in the base frame.
-  void write_world(tinyxml2::XMLElement& root, const Pose& pose) {
+  void write_world(Xml& root, const Pose& pose) {
     set(add(root, "link"), "name", "world");
     const bool planar = s_.base == Base::planar;
     const std::string& child = robot_.bodies[tree_.order[0]].name;
-    tinyxml2::XMLElement& e = write_connection(root, "base", planar ? "planar" : "fixed", "world", child, pose);
+    Xml& e = write_connection(root, "base", planar ? "planar" : "fixed", "world", child, pose);
     if (planar) set(add(e, "axis"), "xyz", text(Vec3(pose.R.transpose() * Vec3::UnitY())));
   }
 
-  void write_joint(tinyxml2::XMLElement& root, std::size_t b) {
+  void write_joint(Xml& root, std::size_t b) {
     const Attachment& at = tree_.attachments[b];
     const Body& body = robot_.bodies[b];
     const bool hinge = at.kind == Attachment::Kind::hinge;
     const Pose step = hinge ? robot_.links[body.link].in_parent : Pose{};
     const std::string name = hinge ? robot_.joints[at.index].name : dock_name(at.index);
-    tinyxml2::XMLElement& e = write_connection(root, name, hinge ? "revolute" : "fixed", robot_.bodies[at.parent].name,
-                                               body.name, frame(at.parent).inverse() * step * frame(b));
+    Xml& e = write_connection(root, name, hinge ? "revolute" : "fixed", robot_.bodies[at.parent].name, body.name,
+                              frame(at.parent).inverse() * step * frame(b));
     if (!hinge) return;
     const Joint& joint = robot_.joints[at.index];
     set(add(e, "axis"), "xyz", text(robot_.links[body.link].axis));
-    tinyxml2::XMLElement& limit = add(e, "limit");
+    Xml& limit = add(e, "limit");
     const MotorLimits motor = limits_.empty() ? MotorLimits{} : limits_[at.index];
     set(limit, "lower", text({joint.lo}));
     set(limit, "upper", text({joint.hi}));
@@ -107,15 +108,15 @@ class Urdf {
     set(limit, "velocity", text({motor.speed > 0 ? motor.speed : kUnlimited}));
   }
 
-  void write_link(tinyxml2::XMLElement& root, std::size_t b, const std::vector<ContactElement>& contacts) {
+  void write_link(Xml& root, std::size_t b, const std::vector<ContactElement>& contacts) {
     const Body& body = robot_.bodies[b];
     const BodyType& t = type(body);
     const Pose body_in_frame = frame(b).inverse() * body.in_link;
-    tinyxml2::XMLElement& e = add(root, "link");
+    Xml& e = add(root, "link");
     set(e, "name", body.name);
     if (t.mass > 0) write_inertia(add(e, "inertial"), t, body_in_frame);
     for (const Shape& shape : t.shapes) {
-      tinyxml2::XMLElement& visual = add(e, "visual");
+      Xml& visual = add(e, "visual");
       const bool round = shape.kind == Shape::Kind::cylinder || shape.kind == Shape::Kind::half_cylinder;
       const Pose in_body = round ? Pose{shape.in_body.R * y_from_z(), shape.in_body.p} : shape.in_body;
       add_origin(visual, body_in_frame * in_body);
@@ -123,17 +124,17 @@ class Urdf {
     }
     for (const ContactElement& contact : contacts) {
       if (contact.body != b) continue;
-      tinyxml2::XMLElement& collision = add(e, "collision");
+      Xml& collision = add(e, "collision");
       set(collision, "name", contact.name);
       add_origin(collision, {Mat3::Identity(), frame(b).inverse() * contact.centre});
       set(add(add(collision, "geometry"), "sphere"), "radius", text({contact.radius > 0 ? contact.radius : kPointRadius}));
     }
   }
 
-  static void write_inertia(tinyxml2::XMLElement& inertial, const BodyType& t, const Pose& body_in_frame) {
+  static void write_inertia(Xml& inertial, const BodyType& t, const Pose& body_in_frame) {
     add_origin(inertial, {body_in_frame.R, body_in_frame * t.com});
     set(add(inertial, "mass"), "value", text({t.mass}));
-    tinyxml2::XMLElement& e = add(inertial, "inertia");
+    Xml& e = add(inertial, "inertia");
     const char* kNames[3][3] = {{"ixx", "ixy", "ixz"}, {"", "iyy", "iyz"}, {"", "", "izz"}};
     for (Eigen::Index i = 0; i < 3; ++i) {
       for (Eigen::Index j = i; j < 3; ++j) set(e, kNames[i][j], text({t.inertia(i, j)}));
@@ -141,13 +142,13 @@ class Urdf {
   }
 
   /// URDF has no half cylinder: a whole one, whose other half is inside the body.
-  static void draw(tinyxml2::XMLElement& geometry, const Shape& shape) {
+  static void draw(Xml& geometry, const Shape& shape) {
     if (shape.kind == Shape::Kind::box) {
       set(add(geometry, "box"), "size", text(shape.size));
     } else if (shape.kind == Shape::Kind::sphere) {
       set(add(geometry, "sphere"), "radius", text({shape.size.x()}));
     } else {
-      tinyxml2::XMLElement& cylinder = add(geometry, "cylinder");
+      Xml& cylinder = add(geometry, "cylinder");
       set(cylinder, "radius", text({shape.size.x()}));
       set(cylinder, "length", text({shape.size.y()}));
     }
@@ -157,7 +158,6 @@ class Urdf {
   const Robot& robot_;
   BodyTree tree_;
   std::vector<MotorLimits> limits_;
-  tinyxml2::XMLDocument document_;
 };
 
 }  // namespace

@@ -1,0 +1,34 @@
+// The XML of the robot formats, as text.
+#include "interchange/xml.h"
+
+#include <gtest/gtest.h>
+
+namespace gaitlab::interchange {
+namespace {
+
+TEST(Xml, IsIndentedAndEscaped) {
+  Xml root;
+  root.name = "robot";
+  set(root, "name", "a & b < c > \"d\" 'e' é");
+  comment(root, "a comment -- with ---- hyphens, & as it is");
+  Xml& body = add(root, "body");
+  set(add(body, "joint"), "axis", "0 0 1");
+  add(root, "key");
+  set(body, "pos", "1");
+  set(body, "quat", "2");
+  set(body, "pos", "3");
+  EXPECT_EQ(print(root),
+            "<robot name=\"a &amp; b &lt; c &gt; &quot;d&quot; &apos;e&apos; é\">\n"
+            "    <!-- a comment - with - hyphens, & as it is -->\n"
+            "    <body pos=\"3\" quat=\"2\">\n"
+            "        <joint axis=\"0 0 1\"/>\n"
+            "    </body>\n"
+            "    <key/>\n"
+            "</robot>\n");
+  ASSERT_NE(body.attribute("pos"), nullptr);
+  EXPECT_EQ(*body.attribute("pos"), "3");
+  EXPECT_EQ(body.attribute("size"), nullptr);
+}
+
+}  // namespace
+}  // namespace gaitlab::interchange
