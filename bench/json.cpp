@@ -40,6 +40,11 @@ const char* word(Group group) {
 
 Json errors(const TorqueError& error) { return {{"worst", error.worst}, {"median", error.median}}; }
 
+void add_course(Json& out, const Course& course) {
+  out["travel"] = course.travel;
+  out["contact_force"] = course.force;
+}
+
 Json to_json(const Point& p) {
   Json out{
       {"scenario", p.scenario}, {"contender", p.contender}, {"group", word(p.group)}, {"step", p.step}, {"lanes", p.lanes}};
@@ -50,6 +55,7 @@ Json to_json(const Point& p) {
   out["error"] = errors(p.error);
   out["worst_joint"] = p.worst_joint;
   if (p.other) out["error_to_bullet"] = errors(*p.other);
+  add_course(out, p.course);
   out["simulated"] = p.seconds;
   out["speed"] = {{"median", p.speed()}, {"min", p.slowest()}, {"max", p.fastest()}, {"cpu", p.cpu_speed()}};
   out["wall"] = p.wall;
@@ -68,7 +74,9 @@ std::string json(const Results& results, const RaceSettings& settings) {
                      {"rounds", settings.rounds},
                      {"least", settings.least}};
   for (const Converged& c : results.references) {
-    out["references"].push_back({{"scenario", c.scenario}, {"name", c.name}, {"step", c.step}, {"left", errors(c.left)}});
+    Json reference{{"scenario", c.scenario}, {"name", c.name}, {"step", c.step}, {"left", errors(c.left)}};
+    add_course(reference, c.course);
+    out["references"].push_back(std::move(reference));
   }
   for (const Point& p : results.points) out["points"].push_back(to_json(p));
   out["left_out"] = results.left_out;

@@ -1,5 +1,7 @@
 #include "bench/measure.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,6 +16,8 @@ double cpu_seconds() {
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
+
+constexpr double kStays = 1e-3;  // m
 
 double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -48,6 +52,31 @@ TorqueError torque_error(const Torques& torques, const Torques& reference, doubl
   return {*worst, median(errors), static_cast<std::size_t>(worst - errors.begin())};
 }
 
+Course course(const RunRecord& record, double from) {
+  const std::size_t rows = record.com_x.size();
+  std::size_t first = 0;
+  while (first < rows && record.trace.at(first, 0) < from) ++first;
+  if (first == rows) return {};
+  const std::size_t modules = record.loads.size() / rows;
+  double force = 0;
+  for (std::size_t i = first * modules; i < rows * modules; ++i) force += record.loads[i];
+  return {std::hypot(record.com_x.back() - record.com_x[first], record.com_y.back() - record.com_y[first]),
+          force / static_cast<double>(rows - first)};
+}
+
+std::string strays(const Course& seen, const Course& bullet) {
+  const auto apart = [](double a, double b, double least) { return !(std::abs(a - b) <= std::max(kApart * b, least)); };
+  std::string out;
+  if (apart(seen.travel, bullet.travel, kStays)) {
+    out = fmt::format("travels {:.3g} m, under bullet {:.3g} m", seen.travel, bullet.travel);
+  }
+  if (apart(seen.force, bullet.force, 0)) {
+    out += fmt::format("{}the ground carries {:.3g} N in the mean, under bullet {:.3g} N", out.empty() ? "" : "; ", seen.force,
+                       bullet.force);
+  }
+  return out;
+}
+
 Measured measure(const std::vector<Scenario>& lanes, double least) {
   Measured measured;
   double runs = 0;
@@ -65,6 +94,7 @@ Measured measure(const std::vector<Scenario>& lanes, double least) {
     if (++runs > 1) continue;
     RunRecord record = simulation.take_record(0);
     for (std::size_t row = 0; row < record.trace.rows(); ++row) measured.torques.time.push_back(record.trace.at(row, 0));
+    measured.course = course(record, lanes[0].duration / 2);
     measured.torques.values = std::move(record.torques);
   }
   measured.timing = {sum.wall / runs, sum.cpu / runs};

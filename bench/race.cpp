@@ -13,7 +13,7 @@ struct Runner {
   Point point;
   std::vector<Scenario> lanes;
   const Converged* reference = nullptr;
-  const Converged* other = nullptr;
+  const Converged* bullet = nullptr;  ///< reference kOther
 };
 
 class Race {
@@ -37,10 +37,13 @@ class Race {
     std::vector<Converged> references;
     references.reserve(all.references.size());
     for (const Reference& r : all.references) {
-      const bool wanted = std::ranges::any_of(contenders, [&](const Contender* c) {
-        return c->reference == r.name || (c->group == Group::ours && r.name == kOther);
-      });
+      const bool wanted =
+          std::ranges::any_of(contenders, [&](const Contender* c) { return c->reference == r.name || r.name == kOther; });
       if (wanted) converge(file, name, r, references);
+    }
+    if (!contenders.empty() && find(references, kOther) == nullptr) {
+      results_.left_out.push_back(
+          fmt::format("{}: no reference {}: nobody's travel and contact force are checked", name, kOther));
     }
     std::vector<Runner> runners;
     for (const Contender* c : contenders) enter(file, name, *c, references, runners);
@@ -65,11 +68,17 @@ class Race {
   void converge(const std::string& file, const std::string& name, const Reference& r, std::vector<Converged>& references) {
     try {
       Torques before;
-      Converged converged{name, r.name, r.steps.back(), {}, {}};
+      Converged converged{name, r.name, r.steps.back(), {}, {}, {}};
       for (const double step : r.steps) {
         settings_.say(fmt::format("{}: reference {}, step {} s", name, r.name, step));
         before = std::move(converged.torques);
-        converged.torques = measure({scenario(file, r.sets, step)}, 0).torques;
+        Measured measured = measure({scenario(file, r.sets, step)}, 0);
+        converged.torques = std::move(measured.torques);
+        converged.course = measured.course;
+      }
+      if (const Converged* bullet = find(references, kOther)) {
+        const std::string reason = strays(converged.course, bullet->course);
+        if (!reason.empty()) throw RunError(reason);
       }
       converged.left = torque_error(before, converged.torques, settings_.seconds / 2);
       references.push_back(std::move(converged));
@@ -78,21 +87,22 @@ class Race {
     }
   }
 
+  static const Converged* find(const std::vector<Converged>& references, const std::string& name) {
+    const auto at = std::ranges::find(references, name, &Converged::name);
+    return at == references.end() ? nullptr : &*at;
+  }
+
   /// Every lane drives other motors, so that lanes differ as they do in a study.
   void enter(const std::string& file, const std::string& name, const Contender& c, const std::vector<Converged>& references,
              std::vector<Runner>& runners) {
-    const auto find = [&](const std::string& wanted) {
-      const auto at = std::ranges::find(references, wanted, &Converged::name);
-      return at == references.end() ? nullptr : &*at;
-    };
-    const Converged* reference = find(c.reference);
+    const Converged* reference = find(references, c.reference);
     if (reference == nullptr) return;  // and said why
     for (const double step : c.steps) {
       Runner runner;
-      runner.point = {name, c.name, c.group, step, c.lanes, settings_.seconds * static_cast<double>(c.lanes),
-                      {},   {},     {},      {},   {},      {}};
+      runner.point = {name, c.name, c.group, step, c.lanes, settings_.seconds * static_cast<double>(c.lanes), {}, {},
+                      {},   {},     {},      {},   {}};
       runner.reference = reference;
-      if (c.group == Group::ours) runner.other = find(kOther);
+      runner.bullet = find(references, kOther);
       try {
         for (std::size_t lane = 0; lane < c.lanes; ++lane) {
           std::vector<std::string> sets = c.sets;
@@ -111,12 +121,17 @@ class Race {
     if (!p.note.empty()) return;
     try {
       const Measured measured = measure(r.lanes, settings_.least);
+      p.course = measured.course;
+      if (r.bullet != nullptr) p.note = strays(p.course, r.bullet->course);
+      if (!p.note.empty()) return;
       p.wall.push_back(measured.timing.wall);
       p.cpu.push_back(measured.timing.cpu);
       if (p.wall.size() > 1) return;  // the same run again
       p.error = torque_error(measured.torques, r.reference->torques, settings_.seconds / 2);
       p.worst_joint = r.lanes[0].robot->joints[p.error.joint].name;
-      if (r.other != nullptr) p.other = torque_error(measured.torques, r.other->torques, settings_.seconds / 2);
+      if (p.group == Group::ours && r.bullet != nullptr) {
+        p.other = torque_error(measured.torques, r.bullet->torques, settings_.seconds / 2);
+      }
     } catch (const std::runtime_error& error) {  // refused for its step, or diverged
       p.note = error.what();
     }

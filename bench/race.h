@@ -26,6 +26,7 @@ struct Converged {
   double step = 0;  ///< s
   Torques torques;
   TorqueError left;  ///< of the run before, with a longer step
+  Course course;
 };
 
 /// A contender at one step.
@@ -35,11 +36,12 @@ struct Point {
   double step = 0;  ///< s
   std::size_t lanes = 1;
   double seconds = 0;  ///< simulated by a run, all lanes
-  std::string note;    ///< why there is nothing else: refused, diverged
+  std::string note;    ///< why it does not count: refused, diverged, another walk than bullet's
   TorqueError error;   ///< against its own reference
   std::string worst_joint;
   std::optional<TorqueError> other;  ///< ours: against kOther
-  std::vector<double> wall, cpu;     ///< s a run; one a round
+  Course course;
+  std::vector<double> wall, cpu;  ///< s a run; one a round
 
   [[nodiscard]] bool ran() const { return note.empty() && !wall.empty(); }
   /// Simulated seconds per second.
@@ -58,7 +60,8 @@ struct Results {
   [[nodiscard]] const Point* fastest(const std::string& scenario, Group group, double error) const;
 };
 
-/// Throws InputError: a scenario that no engine reads.
+/// What strays from the walk of reference kOther (strays(), bench/measure.h) does not count: a point has a note then, and a
+/// reference is left out with all that are measured against it. Throws InputError: a scenario that no engine reads.
 Results race(const RaceSettings& settings, Catalog& catalog);
 
 }  // namespace gaitlab::versus

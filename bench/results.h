@@ -8,7 +8,8 @@ namespace gaitlab::versus {
 
 inline constexpr double kGood = 0.01;  ///< worst joint's error at which engines are compared
 
-/// A line a point, and the fastest of each kind at kGood with what it is to MuJoCo at its best and to bullet.
+/// A line per point that counts, the fastest of each kind at kGood with what it is to MuJoCo at its best and to bullet, and why
+/// the other points do not count.
 std::string table(const Results& results, bool markdown);
 
 /// Everything: machine, versions, settings, references, every point with the times of every round.

@@ -41,10 +41,6 @@ std::string times(const Point& p, const Point* than) {
 
 Row row(const Point& p, const Point* mujoco, const Point* bullet) {
   Row row{p.contender, fmt::format("{:.4g}", 1e3 * p.step)};
-  if (!p.ran()) {
-    row.resize(10, "-");
-    return row;
-  }
   for (std::string cell : {percent(p.error.worst), percent(p.error.median), p.other ? percent(p.other->worst) : "-",
                            fmt::format("{:.3g}", p.speed()), fmt::format("{:.3g} .. {:.3g}", p.slowest(), p.fastest()),
                            fmt::format("{:.3g}", p.cpu_speed()), times(p, mujoco), times(p, bullet)}) {
@@ -90,8 +86,8 @@ std::string table(const Results& results, bool markdown) {
     std::string notes;
     for (const Point& p : results.points) {
       if (p.scenario != scenario) continue;
-      rows.push_back(row(p, mujoco, bullet));
-      if (!p.note.empty()) notes += fmt::format("- {} at {:.4g} ms: {}\n", p.contender, 1e3 * p.step, p.note);
+      if (p.ran()) rows.push_back(row(p, mujoco, bullet));
+      if (!p.note.empty()) notes += fmt::format("- left out: {} at {:.4g} ms: {}\n", p.contender, 1e3 * p.step, p.note);
     }
     std::vector<Row> best{head};
     for (const Point* p : fastest(results, scenario)) best.push_back(row(*p, mujoco, bullet));

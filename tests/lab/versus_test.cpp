@@ -31,6 +31,77 @@ TEST(Versus, ErrorIsTheRmsOverTheJointsPeakBehindAMoment) {
   EXPECT_EQ(none.worst, 0);
 }
 
+TEST(Versus, CourseIsTravelAndMeanContactForceBehindAMoment) {
+  RunRecord record;
+  record.trace.columns.resize(1);  // t
+  record.trace.values = {0, 1, 2, 3};
+  record.com_x = {9, 1, 2, 4};
+  record.com_y = {9, 1, 0, 5};
+  record.loads = {50, 50, 10, 20, 20, 10, 30, 30};  // of two modules
+  const versus::Course course = versus::course(record, 0.5);
+  EXPECT_EQ(course.travel, 5);  // 3, 4, 5
+  EXPECT_EQ(course.force, 40);
+  EXPECT_EQ(versus::course(record, 3.5).force, 0);
+}
+
+TEST(Versus, AnotherWalkThanBulletsIsNamed) {
+  const versus::Course bullet{1.2, 33};
+  EXPECT_EQ(versus::strays({1.31, 36}, bullet), "");
+  EXPECT_EQ(versus::strays({1.09, 30}, bullet), "");
+  EXPECT_EQ(versus::strays({1.07, 33}, bullet), "travels 1.07 m, under bullet 1.2 m");
+  EXPECT_EQ(versus::strays({1.33, 0}, bullet),
+            "travels 1.33 m, under bullet 1.2 m; the ground carries 0 N in the mean, under bullet 33 N");
+  EXPECT_EQ(versus::strays({1.2, 29}, bullet), "the ground carries 29 N in the mean, under bullet 33 N");
+  EXPECT_NE(versus::strays({std::nan(""), 33}, bullet), "");
+  EXPECT_EQ(versus::strays({9e-4, 33}, {1e-5, 33}), "");  // both stay
+  EXPECT_EQ(versus::strays({1.2, 0}, {1.2, 0}), "");      // in the air
+  EXPECT_NE(versus::strays({1.2, 1}, {1.2, 0}), "");
+}
+
+/// The robot of a broken comparison fell through the ground, and every error of a torque looked plausible.
+TEST(Versus, WhoFallsThroughTheGroundIsLeftOutWithTheReason) {
+  Catalog catalog = app::standard_catalog();
+  Engine falling = *with_mujoco().engine("mujoco");
+  falling.make = [](const PlantSettings& s) -> std::unique_ptr<Plant> {
+    PlantSettings without = s;
+    without.ground.kind = Ground::Kind::none;
+    return with_mujoco().engine("mujoco")->make(without);
+  };
+  catalog.add(falling);
+  versus::RaceSettings settings;
+  settings.scenarios = {kScenarios + "hexapod.yaml"};
+  settings.only = "mujoco armature";
+  settings.seconds = 0.2;
+  settings.rounds = 1;
+  settings.least = 0;
+  versus::Results results = versus::race(settings, catalog);
+  EXPECT_TRUE(results.points.empty());
+  const std::string table = versus::table(results, true);
+  EXPECT_NE(table.find("left out: hexapod: reference mujoco armature: "), std::string::npos) << table;
+  EXPECT_NE(table.find("the ground carries 0 N in the mean, under bullet "), std::string::npos) << table;
+}
+
+TEST(Versus, APointThatIsLeftOutIsInNeitherTableNorPlot) {
+  versus::Results results;
+  versus::Point point;
+  point.scenario = "walk";
+  point.contender = "good";
+  point.step = 1e-3;
+  point.seconds = 8;
+  point.error = {0.005, 0.005, 0};
+  point.wall = point.cpu = {1};
+  results.points.push_back(point);
+  point.contender = "bad";
+  point.note = "travels 1 m, under bullet 2 m";
+  results.points.push_back(point);
+  const std::string table = versus::table(results, true);
+  EXPECT_NE(table.find("| good "), std::string::npos);
+  EXPECT_EQ(table.find("| bad "), std::string::npos);
+  EXPECT_NE(table.find("- left out: bad at 1 ms: travels 1 m, under bullet 2 m\n"), std::string::npos) << table;
+  EXPECT_EQ(versus::plot(results).find(">bad<"), std::string::npos);
+  EXPECT_EQ(results.fastest("walk", versus::Group::ours, 0.01), &results.points[0]);
+}
+
 /// In the air there is no contact law to differ in: motors, joints' order and the base's state are all that is left.
 TEST(Versus, MujocoInTheAirIsOurRobot) {
   const auto torques = [](const std::string& engine, const std::string& integrator, double step) {
