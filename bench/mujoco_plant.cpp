@@ -179,18 +179,25 @@ class MujocoPlant final : public Plant {
     return mjINT_EULER;
   }
 
-  /// The exported geoms touch nothing: elements shall touch the ground, and only that.
+  /// The exported geoms touch nothing: elements shall touch the ground, and only that. MuJoCo 3 first
+  /// compares masks of the bodies, which it computed from those of their geoms when it compiled the model.
   void touch_with_contacts() {
     mjModel& m = *model_;
     element_.assign(static_cast<std::size_t>(m.ngeom), 0);
     const int ground = mj_name2id(&m, mjOBJ_GEOM, "ground");
     if (ground < 0) return;
     m.geom_conaffinity[ground] = 1;
+#if mjVERSION_HEADER >= 300
+    m.body_conaffinity[m.geom_bodyid[ground]] = 1;
+#endif
     for (std::size_t e = 0; e < settings_.contacts.size(); ++e) {
       const ContactElement& element = settings_.contacts[e];
       const std::ptrdiff_t geom = mj_name2id(&m, mjOBJ_GEOM, element.name.c_str());
       element_[static_cast<std::size_t>(geom)] = e;
       m.geom_contype[geom] = 1;
+#if mjVERSION_HEADER >= 300
+      m.body_contype[m.geom_bodyid[geom]] = 1;
+#endif
       if (!(element.radius > 0)) m.geom_size[3 * geom] = m.geom_rbound[geom] = kPointRadius;
     }
     for (std::ptrdiff_t g = 0; g < m.ngeom; ++g) {
@@ -253,16 +260,6 @@ class MujocoPlant final : public Plant {
   OnePart part_;
 };
 
-/// "GCC: (Debian 12.2.0) 12.2.0" and the like, which compilers leave in what they make.
-std::string compiler_of(const std::string& library) {
-  const std::string bytes = read_file(library);
-  for (const char* mark : {"GCC: (", "clang version "}) {
-    const std::size_t at = bytes.find(mark);
-    if (at != std::string::npos) return std::string(bytes.c_str() + at).substr(0, 80);
-  }
-  return "unknown compiler";
-}
-
 }  // namespace
 
 void register_mujoco(Catalog& catalog) {
@@ -276,11 +273,19 @@ void register_mujoco(Catalog& catalog) {
       }});
 }
 
+std::string compiler_of(const std::string& library) {
+  for (const char* mark : {"clang version ", "GCC: ("}) {
+    const std::size_t at = library.find(mark);
+    if (at != std::string::npos) return std::string(library.c_str() + at).substr(0, 80);
+  }
+  return "unknown compiler";
+}
+
 std::string mujoco_version() {
   Dl_info library{};
   if (dladdr(reinterpret_cast<const void*>(&mj_versionString), &library) == 0) return mj_versionString();
   const std::string file = std::filesystem::weakly_canonical(library.dli_fname).filename();
-  return fmt::format("{} ({}, {})", mj_versionString(), file, compiler_of(library.dli_fname));
+  return fmt::format("{} ({}, {})", mj_versionString(), file, compiler_of(read_file(library.dli_fname)));
 }
 
 }  // namespace gaitlab

@@ -17,6 +17,10 @@ namespace gaitlab {
 /// base, a model that MuJoCo does not take, accelerations asked for.
 void register_mujoco(Catalog& catalog);
 
+/// What compilers leave in what they make, "GCC: (Debian 12.2.0) 12.2.0" and the like, of a library's bytes. clang's mark
+/// counts before GCC's, which every library has from the C library's start-up files.
+std::string compiler_of(const std::string& library);
+
 /// Version of the library that is loaded, its file, and the compiler that file names (Debian's names none).
 std::string mujoco_version();
 

@@ -64,9 +64,11 @@ class InMujoco {
     return T;
   }
 
+  /// By its columns M e_i: the function for the whole matrix has other arguments in every second version.
   Eigen::MatrixXd mass() {
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> M(model_->nv, model_->nv);
-    mj_fullM(model_.get(), M.data(), data_->qM);
+    const Eigen::MatrixXd units = Eigen::MatrixXd::Identity(model_->nv, model_->nv);
+    Eigen::MatrixXd M(model_->nv, model_->nv);
+    for (Eigen::Index i = 0; i < M.cols(); ++i) mj_mulM(model_.get(), data_.get(), M.col(i).data(), units.col(i).data());
     return M;
   }
   Eigen::VectorXd bias() { return Eigen::Map<const Eigen::VectorXd>(data_->qfrc_bias, model_->nv); }

@@ -102,6 +102,14 @@ TEST(Versus, APointThatIsLeftOutIsInNeitherTableNorPlot) {
   EXPECT_EQ(results.fastest("walk", versus::Group::ours, 0.01), &results.points[0]);
 }
 
+TEST(Versus, ClangIsNamedBeforeTheStartUpFilesCompiler) {
+  const std::string end(1, '\0');
+  const std::string gcc = "ELF" + end + "GCC: (Debian 12.2.0-14) 12.2.0" + end;
+  EXPECT_EQ(compiler_of(gcc + "Debian clang version 14.0.6" + end + "more"), "clang version 14.0.6");
+  EXPECT_EQ(compiler_of(gcc), "GCC: (Debian 12.2.0-14) 12.2.0");
+  EXPECT_EQ(compiler_of("ELF"), "unknown compiler");
+}
+
 /// In the air there is no contact law to differ in: motors, joints' order and the base's state are all that is left.
 TEST(Versus, MujocoInTheAirIsOurRobot) {
   const auto torques = [](const std::string& engine, const std::string& integrator, double step) {
