@@ -40,6 +40,11 @@ void add_mujoco(Field& field, const Engine* engine) {
     field.contenders.push_back({fmt::format("mujoco {}", integrator), Group::mujoco_user, "mujoco user",
                                 sets("mujoco", integrator), std::string(integrator) == "implicit" ? kImplicit : kUser});
   }
+  if (has(engine, "dcmotor")) {  // limits the current, not the torque at rest: another limit
+    const auto motors = sets("mujoco", "dcmotor");
+    field.references.push_back({"mujoco dcmotor", motors, {1e-5, 5e-6}});
+    field.contenders.push_back({"mujoco dcmotor", Group::mujoco_user, "mujoco dcmotor", motors, kUser});
+  }
   const auto best = sets("mujoco", "armature");
   field.references.push_back({"mujoco armature", best, {5e-5, 2.5e-5}});
   field.contenders.push_back({"mujoco armature", Group::mujoco_best, "mujoco armature", best, kLong});

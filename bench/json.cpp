@@ -9,10 +9,6 @@
 
 namespace gaitlab::versus {
 
-namespace {
-
-using Json = nlohmann::ordered_json;
-
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {
@@ -21,6 +17,10 @@ std::string processor() {
   }
   return "unknown";
 }
+
+namespace {
+
+using Json = nlohmann::ordered_json;
 
 const char* word(Group group) {
   switch (group) {

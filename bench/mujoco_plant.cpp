@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "core/laws/dc_motor.h"
 #include "core/simulation/plant.h"
 #include "core/trace/atomic_file.h"
 #include "interchange/mjcf.h"
@@ -25,6 +26,9 @@ constexpr double kPointRadius = 1e-6;  // m; MuJoCo has no points
 // depth over which the whole is reached, m. MuJoCo has 0.02, 0.9 and 0.001: then the torques converge slowly, whatever the
 // solver does (hexapod: 4 % off at 1.25 ms, with these 0.9 %). Chosen among those with about our own depth.
 constexpr double kTime = 0.01, kOnset = 0.001, kDepth = 0.002;
+
+// Set-up armature: Newton's method starts from the last step's solution and needs no more (default: 100, until the tolerance).
+constexpr int kIterations = 3;
 
 struct Delete {
   void operator()(mjModel* m) const { mj_deleteModel(m); }
@@ -67,6 +71,27 @@ std::string lean(const std::string& mjcf) {
   return out;
 }
 
+/// The motors as MuJoCo's own actuators, one per joint, in the order of the joints. Theirs has one constant K for torque and
+/// back-EMF, and no efficiency:
+///     T = n K (u - K n w) / R', |T| <= n T_max.
+/// It is ours, T = eta Kt n (u - Ks n w) / R and |T| <= eta Kt n i_max, for K = Ks, R' = R Ks / (eta Kt) and
+/// T_max = eta Kt i_max.
+std::string dc_motors(const PlantSettings& s) {
+  const DcMotor* motor = s.actuator == nullptr ? nullptr : s.actuator->dc_motors();
+  const std::size_t joints = s.robot->joints.size();
+  if (motor == nullptr || std::any_of(motor, motor + joints, [](const DcMotor& m) { return m.turn > 0; })) {
+    throw RunError("set-up dcmotor of the benchmarks needs actuator dc_motor with efficiency_model: paper");
+  }
+  std::string out = "<actuator>\n";
+  for (std::size_t j = 0; j < joints; ++j, ++motor) {
+    const double kt = motor->efficiency * motor->Kt;
+    out += fmt::format(R"(<dcmotor joint="{}" gear="{}" motorconst="{}" resistance="{}" saturation="{}" )",
+                       s.robot->joints[j].name, motor->gear, motor->Ks, motor->R * motor->Ks / kt, kt * motor->i_max);
+    out += fmt::format("ctrllimited=\"true\" ctrlrange=\"{} {}\"/>\n", -motor->u_max, motor->u_max);
+  }
+  return out + "</actuator>\n";
+}
+
 /// MuJoCo reads models from files.
 Model load(const std::string& mjcf) {
   std::string path = std::filesystem::temp_directory_path() / "gaitlab-XXXXXX.xml";
@@ -86,7 +111,7 @@ Model load(const std::string& mjcf) {
   }
 }
 
-enum class SetUp { armature, euler, implicit, implicitfast };
+enum class SetUp { armature, euler, implicit, implicitfast, dcmotor };
 
 class MujocoPlant final : public Plant {
  public:
@@ -111,12 +136,13 @@ class MujocoPlant final : public Plant {
     }
     touch_with_contacts();
     m.opt.integrator = integrator();
+    if (set_up_ == SetUp::armature) hurry();
     if (s.actuator == nullptr) return;
     const In rotor = s.actuator->reflected_inertia();
     s.actuator->effort(zero_, zero_, torque_, slope_);
     for (std::size_t j = 0; j < joints_; ++j) {
       if (!rotor.empty()) m.dof_armature[dof_[j]] = rotor[j];
-      if (set_up_ != SetUp::armature) m.dof_damping[dof_[j]] = slope_[j];
+      if (set_up_ != SetUp::armature && set_up_ != SetUp::dcmotor) m.dof_damping[dof_[j]] = slope_[j];
     }
   }
 
@@ -129,6 +155,9 @@ class MujocoPlant final : public Plant {
     std::copy_n(numbers_.begin() + static_cast<std::ptrdiff_t>(layout_.speeds()), joints_, speed_.begin());
     if (settings_.actuator != nullptr) drive(command, h);
     mj_step(model_.get(), data_.get());
+    if (set_up_ == SetUp::dcmotor) {
+      for (std::size_t j = 0; j < joints_; ++j) torque_[j] = data_->qfrc_actuator[dof_[j]];
+    }
     write();
     part_.set(torque_, speed_, In(numbers_).subspan(layout_.angles(), joints_), h);
     // MuJoCo starts anew after what it takes for divergence: a run must not go on from there.
@@ -167,16 +196,25 @@ class MujocoPlant final : public Plant {
  private:
   static Model make_model(const PlantSettings& s) {
     if (s.base != Base::floating) throw RunError("engine mujoco of the benchmarks has floating bases only");
-    const std::string mjcf = to_mjcf(bare(s));
-    return load(lean(mjcf));
+    std::string mjcf = lean(to_mjcf(bare(s)));
+    if (static_cast<SetUp>(s.integrator) == SetUp::dcmotor) mjcf.insert(mjcf.rfind("</mujoco>"), dc_motors(s));
+    return load(mjcf);
   }
 
   [[nodiscard]] int integrator() const {
     if (set_up_ == SetUp::implicit) return mjINT_IMPLICIT;
 #if mjVERSION_HEADER >= 300
-    if (set_up_ == SetUp::implicitfast) return mjINT_IMPLICITFAST;
+    if (set_up_ == SetUp::implicitfast || set_up_ == SetUp::dcmotor) return mjINT_IMPLICITFAST;
 #endif
     return mjINT_EULER;
+  }
+
+  /// What a robot in one piece can do without.
+  void hurry() {
+    model_->opt.iterations = kIterations;
+#if mjVERSION_HEADER >= 336
+    model_->opt.disableflags |= mjDSBL_ISLAND;
+#endif
   }
 
   /// The exported geoms touch nothing: elements shall touch the ground, and only that. MuJoCo 3 first
@@ -210,6 +248,10 @@ class MujocoPlant final : public Plant {
   }
 
   void drive(In command, double h) {
+    if (set_up_ == SetUp::dcmotor) {
+      std::ranges::copy(command, data_->ctrl);
+      return;
+    }
     if (set_up_ == SetUp::armature) {
       settings_.actuator->effort(command, speed_, torque_, slope_);
       const In rotor = settings_.actuator->reflected_inertia();
@@ -266,6 +308,9 @@ void register_mujoco(Catalog& catalog) {
   std::vector<std::string> set_ups{"armature", "euler", "implicit"};
 #if mjVERSION_HEADER >= 300
   set_ups.emplace_back("implicitfast");
+#endif
+#if mjVERSION_HEADER >= 3007000  // 3.7; until 3.4 the number was 340 and the like
+  set_ups.emplace_back("dcmotor");
 #endif
   catalog.add(Engine{
       "mujoco", "MuJoCo, for comparison.", set_ups, 1e-3, {1}, true, [](const PlantSettings& s) -> std::unique_ptr<Plant> {

@@ -8,7 +8,15 @@ namespace gaitlab::versus {
 
 namespace {
 
+constexpr std::string_view kBegin = "<!-- versus: written by --renew -->";
+constexpr std::string_view kEnd = "<!-- end of versus -->";
+
 using Row = std::vector<std::string>;
+
+Row head() {
+  return {"contender", "step, ms",   "error",     "median",   "to bullet",
+          "sim s/s",   "min .. max", "per CPU s", "x MuJoCo", "x bullet"};
+}
 
 /// Columns as wide as their widest entry; the first is aligned to the left. Markdown: with a rule under the head.
 std::string lay_out(const std::vector<Row>& rows, bool markdown) {
@@ -72,37 +80,77 @@ std::vector<const Point*> fastest(const Results& results, const std::string& sce
   return best;
 }
 
+std::string best_table(const Results& results, const std::string& scenario, bool markdown) {
+  const Point* mujoco = results.fastest(scenario, Group::mujoco_best, kGood);
+  const Point* bullet = results.fastest(scenario, Group::bullet, kGood);
+  std::vector<Row> rows{head()};
+  for (const Point* p : fastest(results, scenario)) rows.push_back(row(*p, mujoco, bullet));
+  return lay_out(rows, markdown);
+}
+
+/// Of the points that do not count.
+std::string reasons(const Results& results, const std::string& scenario) {
+  std::string out;
+  for (const Point& p : results.points) {
+    if (p.scenario != scenario || p.note.empty()) continue;
+    out += fmt::format("- left out: {} at {:.4g} ms: {}\n", p.contender, 1e3 * p.step, p.note);
+  }
+  return out;
+}
+
+std::string references(const Results& results, const std::string& scenario) {
+  std::string out;
+  for (const Converged& c : results.references) {
+    if (c.scenario != scenario) continue;
+    out += fmt::format("- reference {}: step {:.4g} ms; the next longer one differs by {} ({} of the median joint)\n", c.name,
+                       1e3 * c.step, percent(c.left.worst), percent(c.left.median));
+  }
+  return out;
+}
+
+std::string left_out(const Results& results) {
+  std::string out;
+  for (const std::string& sentence : results.left_out) out += fmt::format("- left out: {}\n", sentence);
+  return out;
+}
+
 }  // namespace
 
 std::string table(const Results& results, bool markdown) {
-  const Row head{"contender", "step, ms",   "error",     "median",   "to bullet",
-                 "sim s/s",   "min .. max", "per CPU s", "x MuJoCo", "x bullet"};
   const std::string title = markdown ? "### " : "";
   std::string out;
   for (const std::string& scenario : scenarios(results)) {
     const Point* mujoco = results.fastest(scenario, Group::mujoco_best, kGood);
     const Point* bullet = results.fastest(scenario, Group::bullet, kGood);
-    std::vector<Row> rows{head};
-    std::string notes;
+    std::vector<Row> rows{head()};
     for (const Point& p : results.points) {
-      if (p.scenario != scenario) continue;
-      if (p.ran()) rows.push_back(row(p, mujoco, bullet));
-      if (!p.note.empty()) notes += fmt::format("- left out: {} at {:.4g} ms: {}\n", p.contender, 1e3 * p.step, p.note);
+      if (p.scenario == scenario && p.ran()) rows.push_back(row(p, mujoco, bullet));
     }
-    std::vector<Row> best{head};
-    for (const Point* p : fastest(results, scenario)) best.push_back(row(*p, mujoco, bullet));
     out += fmt::format("{}{}\n\n{}\n{}{}: the fastest with at most {} of error\n\n{}\n", title, scenario,
-                       lay_out(rows, markdown), title, scenario, percent(kGood), lay_out(best, markdown));
+                       lay_out(rows, markdown), title, scenario, percent(kGood), best_table(results, scenario, markdown));
+    const std::string notes = reasons(results, scenario);
     if (!notes.empty()) out += notes + "\n";
-    for (const Converged& c : results.references) {
-      if (c.scenario != scenario) continue;
-      out += fmt::format("- reference {}: step {:.4g} ms; the next longer one differs by {} ({} of the median joint)\n", c.name,
-                         1e3 * c.step, percent(c.left.worst), percent(c.left.median));
-    }
-    out += "\n";
+    out += references(results, scenario) + "\n";
   }
-  for (const std::string& sentence : results.left_out) out += fmt::format("- left out: {}\n", sentence);
-  return out;
+  return out + left_out(results);
+}
+
+std::string digest(const Results& results) {
+  std::string out;
+  for (const std::string& scenario : scenarios(results)) {
+    out += fmt::format("### {}: the fastest with at most {} of error\n\n{}\n{}{}\n", scenario, percent(kGood),
+                       best_table(results, scenario, true), references(results, scenario), reasons(results, scenario));
+  }
+  return out + left_out(results);
+}
+
+std::string renewed(const std::string& page, const std::string& part) {
+  const std::size_t begin = page.find(kBegin);
+  const std::size_t end = page.find(kEnd);
+  if (begin == std::string::npos || end == std::string::npos || end < begin) {
+    throw RunError(fmt::format("the page has no lines '{}' and, below it, '{}'", kBegin, kEnd));
+  }
+  return page.substr(0, begin + kBegin.size()) + "\n\n" + part + "\n" + page.substr(end);
 }
 
 }  // namespace gaitlab::versus

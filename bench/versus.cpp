@@ -22,6 +22,7 @@ int versus_of(int argc, char** argv) {
       "far torques are from the engine's own converged run; writes versus.json and versus.svg."};
   versus::RaceSettings settings;
   std::string out = "runs/versus";
+  std::string page;
   bool markdown = false;
   app.add_option("SCENARIO", settings.scenarios, "scenario files (default: the shipped hexapod and caterpillar)");
   app.add_option("--seconds", settings.seconds, "simulated; errors are of the second half (default 8)")
@@ -31,6 +32,8 @@ int versus_of(int argc, char** argv) {
       ->check(CLI::Range(0.0, 1e3));
   app.add_option("--only", settings.only, "pattern of the contenders' names, with * and ? (default *)");
   app.add_option("--out", out, "folder of versus.json and versus.svg (default runs/versus)");
+  app.add_option("--renew", page, "page whose tables are written anew, with its plot beside it: docs/benchmarks.md")
+      ->check(CLI::ExistingFile);
   app.add_flag("--markdown", markdown, "the tables as Markdown");
   try {
     app.parse(argc, argv);
@@ -42,6 +45,7 @@ int versus_of(int argc, char** argv) {
       settings.scenarios.push_back(fmt::format("{}/scenarios/{}.yaml", GAITLAB_SOURCE_DIR, name));
     }
   }
+  if (!page.empty()) versus::renewed(read_file(page), "");  // throws before the runs, which take long
   settings.say = [](const std::string& what) { fmt::print(stderr, "versus: {}\n", what); };
 
   Catalog catalog = app::standard_catalog();
@@ -50,9 +54,16 @@ int versus_of(int argc, char** argv) {
   std::filesystem::create_directories(out);
   write_file(out + "/versus.json", versus::json(results, settings));
   write_file(out + "/versus.svg", versus::plot(results));
-  fmt::print("gaitlab {}\nBullet {}, MuJoCo {}\n{} rounds, interleaved; {} s simulated, errors from {} s on; medians\n\n{}",
-             build_id(), bullet_version(), mujoco_version(), settings.rounds, settings.seconds, settings.seconds / 2,
-             versus::table(results, markdown));
+  const std::string versions = fmt::format("Bullet {}, MuJoCo {}", bullet_version(), mujoco_version());
+  const std::string rounds = fmt::format("{} rounds, interleaved; {} s simulated, errors from {} s on; medians",
+                                         settings.rounds, settings.seconds, settings.seconds / 2);
+  if (!page.empty()) {
+    const std::string head =
+        fmt::format("gaitlab {}. {}. {}, one thread; {}.", build_id(), versions, versus::processor(), rounds);
+    write_file(page, versus::renewed(read_file(page), head + "\n\n" + versus::digest(results)));
+    write_file(std::filesystem::path(page).replace_extension(".svg"), versus::plot(results));
+  }
+  fmt::print("gaitlab {}\n{}\n{}\n\n{}", build_id(), versions, rounds, versus::table(results, markdown));
   return 0;
 }
 
