@@ -136,7 +136,7 @@ class MujocoPlant final : public Plant {
     }
     touch_with_contacts();
     m.opt.integrator = integrator();
-    if (set_up_ == SetUp::armature) hurry();
+    if (set_up_ == SetUp::armature) set_fast_options();
     if (s.actuator == nullptr) return;
     const In rotor = s.actuator->reflected_inertia();
     s.actuator->effort(zero_, zero_, torque_, slope_);
@@ -209,8 +209,8 @@ class MujocoPlant final : public Plant {
     return mjINT_EULER;
   }
 
-  /// What a robot in one piece can do without.
-  void hurry() {
+  /// A single robot is one island, and searching for islands costs time.
+  void set_fast_options() {
     model_->opt.iterations = kIterations;
 #if mjVERSION_HEADER >= 336
     model_->opt.disableflags |= mjDSBL_ISLAND;

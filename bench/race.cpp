@@ -43,7 +43,7 @@ class Race {
     }
     if (!contenders.empty() && find(references, kOther) == nullptr) {
       results_.left_out.push_back(
-          fmt::format("{}: no reference {}: nobody's travel and contact force are checked", name, kOther));
+          fmt::format("{}: travel and contact force are not checked, for want of reference {}", name, kOther));
     }
     std::vector<Runner> runners;
     for (const Contender* c : contenders) enter(file, name, *c, references, runners);

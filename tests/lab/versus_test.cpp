@@ -45,7 +45,7 @@ TEST(Versus, CourseIsTravelAndMeanContactForceBehindAMoment) {
   EXPECT_EQ(versus::course(record, 3.5).force, 0);
 }
 
-TEST(Versus, AnotherWalkThanBulletsIsNamed) {
+TEST(Versus, AWalkThatDiffersFromBulletsIsNamed) {
   const versus::Course bullet{1.2, 33};
   EXPECT_EQ(versus::strays({1.31, 36}, bullet), "");
   EXPECT_EQ(versus::strays({1.09, 30}, bullet), "");
@@ -59,8 +59,8 @@ TEST(Versus, AnotherWalkThanBulletsIsNamed) {
   EXPECT_NE(versus::strays({1.2, 1}, {1.2, 0}), "");
 }
 
-/// The robot of a broken comparison fell through the ground, and every error of a torque looked plausible.
-TEST(Versus, WhoFallsThroughTheGroundIsLeftOutWithTheReason) {
+/// It did once, and every torque error looked plausible.
+TEST(Versus, ARobotThatFallsThroughTheGroundIsLeftOut) {
   Catalog catalog = app::standard_catalog();
   Engine falling = *with_mujoco().engine("mujoco");
   falling.make = [](const PlantSettings& s) -> std::unique_ptr<Plant> {
