@@ -21,7 +21,7 @@ struct Done {
 /// the v+ that makes the strictly convex
 ///     phi(v+) = (v+ - v_free)^T M (v+ - v_free) / 2 + h sum of the laws' potentials
 /// least: there is one, for any h. Newton: every law is replaced by its tangent at the iterate, the recursion solves (Body), and
-/// where the whole way to that solution ends uphill, it is gone only as far as phi falls (docs/decisions/0015).
+/// where the whole way to that solution ends uphill, it is gone only as far as phi falls (docs/decisions/0017).
 template <class T>
 class Implicit {
  public:

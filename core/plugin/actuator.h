@@ -24,8 +24,7 @@ class Actuator {
   };
   virtual void report(In command, In speed, Report) const = 0;  ///< for trace and ledger only
   /// effort as it would be without the limit that depends on the speed (a motor's largest current); the same bits where that
-  /// does not bind. An implicit step starts from it, for the limit may bind at its end and not at its start, or the other way
-  /// round. Without such a limit: effort.
+  /// does not bind. Asked by contact.law: bullet, whose rows have the limit apart. Without such a limit: effort.
   virtual void unlimited(In command, In speed, Out torque, Out slope) const { effort(command, speed, torque, slope); }
   /// Where effort is nothing but DC motors (core/laws/dc_motor.h): one a joint * lanes + lane, which an engine may then
   /// evaluate itself, several lanes at once. Else nullptr.
