@@ -47,7 +47,8 @@ void StepError::follow(std::int64_t step, In state, In command, double h) {
     for (int i = 0; i < -how_.steps; ++i) twin_->advance(command, h / -how_.steps);
     if (how_.steps == 1) twin_->advance(command, h);
   }
-  if (at < settle_ || (at + 1) % stride_ != 0) return;
+  const bool grows = at < settle_ && step >= cycle_;  // from equal states; at the start they are equal in truth
+  if (grows || (at + 1) % stride_ != 0) return;
   const auto speeds = [&](In of) { return of.subspan(layout_.speeds(), torque_.size()); };
   actuator_.effort(command, speeds(state), torque_, slope_);
   actuator_.effort(command, speeds(state_), twin_torque_, slope_);

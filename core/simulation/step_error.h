@@ -21,7 +21,7 @@ struct StepTwin {
 ///     error = factor |T_1 - T_2|
 /// with steps of twice the length and order p: factor kSafety / (2^p - 1); half the length: 2^p times that; with an accuracy
 /// made coarser by kCoarser: kSafety / (kCoarser^(2/3) - 1), the error going with about the 2/3rd power of the accuracy
-/// (measured, docs/equations.md, 7). The first control period of a window, in which the difference grows, does not count. Errors
+/// (measured, docs/equations.md, 7). The first control period of a window, in which the difference grows, does not count but at the start of the run. Errors
 /// that build up over more than a window, and impacts outside of all windows, are not seen. All numbers that change lie in state(); nothing allocates after the constructor.
 class StepError {
  public:
