@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kFiner = 10;  // accuracy of the run that stands for a finer one, where the integrator chooses its steps
-constexpr int kEnsemble = 4;           // runs
+constexpr int kEnsemble = 4;   // runs
 constexpr double kWidestBand = 0.002;  // of the range; the smallest mutant that has to be seen moves a torque by 0.4 %
 
 /// Blank where there is none.

@@ -23,6 +23,9 @@ const std::vector<double> kImplicit{1e-4, 1e-3};  // two and a half times as dea
 const std::vector<double> kLong{2.5e-4, 5e-4, 6.25e-4, 1e-3, 1.25e-3, 5e-3 / 3, 2.5e-3, 5e-3};
 const std::vector<double> kLonger{5e-4, 1e-3, 1.25e-3, 5e-3 / 3, 2.5e-3, 5e-3};
 
+// Of steps of 5 ms, which the integrator divides.
+const std::vector<double> kAccuracies{0.05, 0.02, 0.01, 0.003, 0.001};
+
 void add_bullet(Field& field) {
   const auto penalty = sets("bullet", "semi_implicit");
   field.references.push_back({"bullet", penalty, {2.5e-5, 1.25e-5}});
@@ -62,6 +65,17 @@ void add_articulated(Field& field, const Engine& engine, std::vector<std::string
           lanes == 1 ? fmt::format("articulated {}", integrator) : fmt::format("articulated {} x{}", integrator, lanes);
       field.contenders.push_back({name, Group::ours, "articulated", sets("articulated", integrator),
                                   std::string(integrator) == "implicit" ? kLong : kLonger, lanes});
+    }
+    for (const double accuracy : kAccuracies) {
+      auto adaptive = sets("articulated", "adaptive");
+      adaptive.push_back(fmt::format("physics.accuracy={}", accuracy));
+      const std::string name = fmt::format("articulated adaptive {}", accuracy);
+      field.contenders.push_back({lanes == 1 ? name : fmt::format("{} x{}", name, lanes),
+                                  Group::ours,
+                                  "articulated",
+                                  std::move(adaptive),
+                                  {kLonger.back()},
+                                  lanes});
     }
   }
 }

@@ -166,9 +166,7 @@ class MujocoPlant final : public Plant {
     }
   }
 
-  [[nodiscard]] Applied applied() const override {
-    return part_.applied(works_);
-  }
+  [[nodiscard]] Applied applied() const override { return part_.applied(works_); }
 
   [[nodiscard]] std::optional<Vec3> com(std::size_t) const override { return {}; }
   void accelerate(std::size_t, const RobotState&, In, std::span<const BodyWrench>, Acceleration&) override {

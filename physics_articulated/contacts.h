@@ -83,8 +83,8 @@ class Contacts {
                      [&](std::size_t a, std::size_t b) { return tree.points[a].link < tree.points[b].link; });
   }
 
-  /// Fills touching() at the body's present place, to which it has moved for `ahead` seconds at its velocities. With `reach` > 0
-  /// s also what may come to touch within that time.
+  /// Fills touching() at the body's present place, to which it has moved for `ahead` seconds at its velocities. With `reach` >
+  /// 0 s also what may come to touch within that time.
   void find(const Body<T>& body, double ahead, double reach) {
     touching_.clear();
     std::size_t e = 0;
@@ -158,6 +158,8 @@ class Contacts {
     math::Mask<T> all{};
     for (const Contact<T>& c : touching_) {
       const T dn = dot(c.n, c.change);
+      const auto down = c.depth - T(h) * (c.vn + dn) > T(0.0);
+      if (!math::any(either(down, either(c.most > T(0.0), c.gn > T(0.0))))) continue;  // in the air
       const T fn = normal(c, c.vn + dn, h).fn;
       const T held = dot(c.n, c.held);
       all = either(all, math::abs(fn - held) > kNormalTolerance * math::select(fn > held, fn, held) + kNormalFloor);
@@ -201,17 +203,15 @@ class Contacts {
     using math::select;
     const T zero = 0.0;
     const T p = c.depth - T(h) * vn;
-    const auto at_end = site_.law.normal(p, vn);
-    const T steeper = at_end.normal_slope * site_.law.d / select(at_end.acts, p, T(1.0));  // d/dp of the damping's Cd p^d
-    const T lands = at_end.normal_slope + T(h) * (at_end.stiffness - steeper * vn);
+    const auto down = p > zero;
+    if (!math::any(down)) return {zero, zero};
     const auto touched = c.depth > zero;
-    const auto spring = site_.law.normal(p, zero);
-    const T damping = c.damping;
-    const T fn = spring.fn - damping * vn;
-    const auto acts = math::both(spring.acts, fn > zero);
-    return {select(touched, select(acts, fn, zero), at_end.fn),
-            select(touched, select(acts, damping + T(h) * spring.stiffness, zero),
-                   select(math::both(at_end.acts, lands > zero), lands, zero))};
+    const T damping = select(touched, c.damping, site_.law.damping(p));
+    const T fn = site_.law.spring(p) - damping * vn;
+    const T steeper = math::all(touched) ? zero : select(touched, zero, site_.law.damping_slope(p) * vn);
+    const T slope = damping + T(h) * (site_.law.stiffness(p) - steeper);
+    const auto acts = math::both(down, fn > zero);
+    return {select(acts, fn, zero), select(math::both(acts, slope > zero), slope, zero)};
   }
   /// Of friction, at a tangential velocity.
   [[nodiscard]] Vec<T> friction(const Contact<T>& c, const Vec<T>& v) const {
@@ -253,7 +253,7 @@ class Contacts {
     c.slip = math::sqrt(dot(c.vt, c.vt));
     c.law = site_.law.normal(touch.penetration, c.vn);
     c.depth = touch.penetration + T(ahead) * c.vn;
-    c.damping = site_.law.damping(touch.penetration);
+    c.damping = math::select(touch.penetration > T(0.0), site_.law.damping(touch.penetration), T(0.0));
     return c;
   }
 

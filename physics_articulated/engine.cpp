@@ -116,27 +116,28 @@ class ArticulatedPlant final : public Plant {
 }  // namespace
 
 void register_articulated(Catalog& catalog) {
-  catalog.add(Engine{
-      "articulated",
-      "Our own articulated-body recursion, implicit in motors, stops and contacts: long steps, no Bullet.\n\n"
-      "    M (v+ - v) = h (weight - c + tau(v+) + sum J^T f(v+))        q+ = q (+) h v+\n\n"
-      "tau: torques of motors and stops, f: forces of the ground, all by their laws at the velocity v+ of the step's end, which\n"
-      "Newton's method with a line search finds for any h (docs/equations.md, 7). Integrators:\n\n"
-      "    adaptive      takes steps of the control period or a whole part of it, at most 5 ms, and divides each until two orders\n"
-      "                  agree to physics.accuracy (0.01: 1 % of the torques). The default, with step: auto.\n"
-      "    implicit      order 1, steps as given by physics.step. The default where a step is given.\n"
-      "    extrapolated  order 2, steps as given: two half steps and a whole one.\n"
-      "    rk4           order 4, explicit; its step must be at most 1 / lambda (docs/equations.md, 7).\n\n"
-      "The summary tells the error that the steps leave in the torques, by an estimate.",
-      {"adaptive", "implicit", "extrapolated", "rk4"},
-      5e-4,
-      widths(),
-      true,
-      [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<ArticulatedPlant>(s); },
-      0,
-      articulated::kAdaptive,
-      articulated::kImplicit,
-      {0, 1, 2, 4}});
+  catalog.add(Engine{"articulated",
+                     "Our own articulated-body recursion, implicit in motors, stops and contacts: long steps, no Bullet.\n\n"
+                     "    M (v+ - v) = h (weight - c + tau(v+) + sum J^T f(v+))        q+ = q (+) h v+\n\n"
+                     "tau: torques of motors and stops, f: forces of the ground, all by their laws at the velocity v+ of the "
+                     "step's end, which\n"
+                     "Newton's method with a line search finds for any h (docs/equations.md, 7). Integrators:\n\n"
+                     "    adaptive      takes steps of the control period or a whole part of it, at most 5 ms, and divides "
+                     "each until two orders\n"
+                     "                  agree to physics.accuracy (0.01: 1 % of the torques). The default, with step: auto.\n"
+                     "    implicit      order 1, steps as given by physics.step. The default where a step is given.\n"
+                     "    extrapolated  order 2, steps as given: two half steps and a whole one.\n"
+                     "    rk4           order 4, explicit; its step must be at most 1 / lambda (docs/equations.md, 7).\n\n"
+                     "The summary tells the error that the steps leave in the torques, by an estimate.",
+                     {"adaptive", "implicit", "extrapolated", "rk4"},
+                     5e-4,
+                     widths(),
+                     true,
+                     [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<ArticulatedPlant>(s); },
+                     0,
+                     articulated::kAdaptive,
+                     articulated::kImplicit,
+                     {0, 1, 2, 4}});
 }
 
 }  // namespace gaitlab

@@ -20,14 +20,14 @@ struct Done {
 /// with M, c, J and which elements are near the ground at q (+) h v: for motors, stops and contacts that fall with their speed
 /// the v+ that makes the strictly convex
 ///     phi(v+) = (v+ - v_free)^T M (v+ - v_free) / 2 + h sum of the laws' potentials
-/// least: there is one, for any h. Newton: every law is replaced by its tangent at the iterate, the recursion solves (Body), and
-/// where the whole way to that solution ends uphill, it is gone only as far as phi falls (docs/decisions/0017).
+/// least: there is one, for any h. Newton: every law is replaced by its tangent at the iterate, the recursion solves (Body),
+/// and where the whole way to that solution ends uphill, it is gone only as far as phi falls (docs/decisions/0017).
 template <class T>
 class Implicit {
  public:
-  static constexpr int kSolves = 100;                   ///< of one step; most need 1, the most seen is 56
-  static constexpr double kTorqueTolerance = 1e-9;      ///< of a motor's largest torque at rest
-  static constexpr double kStopTolerance = 1e-9;        ///< N m
+  static constexpr int kSolves = 100;               ///< of one step; most need 1, the most seen is 56
+  static constexpr double kTorqueTolerance = 1e-9;  ///< of a motor's largest torque at rest
+  static constexpr double kStopTolerance = 1e-9;    ///< N m
 
   Implicit(const Tree<T>& tree, const Site<T>& site, const Actuator* actuator)
       : body(tree, site.gravity),
@@ -99,20 +99,23 @@ class Implicit {
       force_[j] = motors.torque[j] + stop_[j];
       diagonal_[j] = rotor[j] + (h > 0 ? T(h) * (motors.slope[j] + stop_slope_[j]) : T(0.0));
     }
-    body.solve(force_, diagonal_, next_.a, [&](std::size_t link, typename Body<T>::Load load) { contacts.load(link, load, h); });
+    body.solve(force_, diagonal_, next_.a,
+               [&](std::size_t link, typename Body<T>::Load load) { contacts.load(link, load, h); });
   }
 
   [[nodiscard]] std::span<T> speeds(std::span<T> x) const { return x.subspan(StateLayout::kAngles + joints_, joints_); }
-  [[nodiscard]] std::span<const T> speeds(std::span<const T> x) const { return x.subspan(StateLayout::kAngles + joints_, joints_); }
+  [[nodiscard]] std::span<const T> speeds(std::span<const T> x) const {
+    return x.subspan(StateLayout::kAngles + joints_, joints_);
+  }
 
   Body<T> body;
   Contacts<T> contacts;
   Motors<T> motors;
-  std::vector<T> rotor;  ///< reflected inertia of each joint, kg m^2
-  Done<T> done;          ///< of the last step
-  T solves = 0.0;        ///< that the last step needed
+  std::vector<T> rotor;        ///< reflected inertia of each joint, kg m^2
+  Done<T> done;                ///< of the last step
+  T solves = 0.0;              ///< that the last step needed
   math::Mask<T> unfinished{};  ///< lanes whose search did not end
-  T off = 0.0;           ///< motors and stops that it left off their law
+  T off = 0.0;                 ///< motors and stops that it left off their law
 
  private:
   /// Where the search is: accelerations, and the torques that the solve took there.
@@ -226,8 +229,8 @@ class Implicit {
     contacts.touch(which, h);
   }
 
-  /// A stop's torque where a step of h ends with the speed qd: -ks (q + h qd - q_lim) - cs qd, cut off where it would pull. From
-  /// within the range the damping is its mean over the step, -cs (q + h qd - q_lim) / h: at the end alone it would jump.
+  /// A stop's torque where a step of h ends with the speed qd: -ks (q + h qd - q_lim) - cs qd, cut off where it would pull.
+  /// From within the range the damping is its mean over the step, -cs (q + h qd - q_lim) / h: at the end alone it would jump.
   Stop stopped(std::span<const T> x, std::size_t j, const T& qd, double h) const {
     using math::select;
     const T& q = x[StateLayout::kAngles + j];

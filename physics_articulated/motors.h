@@ -17,7 +17,13 @@ template <class T>
 class Motors {
  public:
   Motors(const Actuator* actuator, std::size_t joints)
-      : law(joints), law_slope(joints), torque(joints), slope(joints), scale(joints, T(1.0)), per_speed(joints, T(1.0 / kSpeed)), actuator_(actuator) {
+      : law(joints),
+        law_slope(joints),
+        torque(joints),
+        slope(joints),
+        scale(joints, T(1.0)),
+        per_speed(joints, T(1.0 / kSpeed)),
+        actuator_(actuator) {
     if (actuator == nullptr) return;
     find_scale();
     const DcMotor* from = actuator->dc_motors();

@@ -31,8 +31,8 @@ class Pack final : public Kernel {
   [[nodiscard]] Applied applied() const override {
     parts_.clear();
     for (const Part<T>& part : stepper_.parts()) {
-      parts_.push_back({numbers(part.torque), numbers(part.speed), numbers(part.angle), of(part.sum), of(part.share),
-                        !(part.h > 0)});
+      parts_.push_back(
+          {numbers(part.torque), numbers(part.speed), numbers(part.angle), of(part.sum), of(part.share), !(part.h > 0)});
     }
     return {parts_, of(stepper_.contact), of(stepper_.friction), of(stepper_.stops)};
   }

@@ -19,8 +19,13 @@ Touch<double> query(const Ground& ground, const Vec<double>& centre, double radi
 }
 
 Rollout rollout(const LaneSettings& lane, Base base) {
-  return {tree(*lane.robot, base, lane.contacts),  vec(lane.gravity),    lane.law,
-          lane.ground.kind == Ground::Kind::plane, lane.ground.friction, lane.accuracy, &lane.ground};
+  return {tree(*lane.robot, base, lane.contacts),
+          vec(lane.gravity),
+          lane.law,
+          lane.ground.kind == Ground::Kind::plane,
+          lane.ground.friction,
+          lane.accuracy,
+          &lane.ground};
 }
 
 Single::Single(const PlantSettings& settings, const LaneSettings& own, std::size_t lane, std::size_t lanes)

@@ -24,7 +24,7 @@ struct History {
   std::size_t joints = 0;
   [[nodiscard]] std::size_t peak() const { return 0; }  ///< of a joint: largest motor torque at the end of a step so far, N m
   [[nodiscard]] std::size_t solves() const { return joints; }
-  [[nodiscard]] std::size_t off() const { return joints + 1; }  ///< motors and stops that a step left off their law
+  [[nodiscard]] std::size_t off() const { return joints + 1; }     ///< motors and stops that a step left off their law
   [[nodiscard]] std::size_t coarse() const { return joints + 2; }  ///< s that shortest steps took beyond the accuracy
   [[nodiscard]] std::size_t size() const { return joints + 3; }
 };
@@ -156,7 +156,8 @@ class Stepper {
       const T apart = implicit.motors.per_speed[j] * math::abs(difference(StateLayout::kAngles + joints_ + j));
       within = math::both(within, apart <= allowed * math::select(peak > least, peak, least));
     }
-    for (const auto& [first, speed] : {std::pair(StateLayout::kVelocity, kBaseSpeed), {StateLayout::kAngularVelocity, kBaseTurn}}) {
+    for (const auto& [first, speed] :
+         {std::pair(StateLayout::kVelocity, kBaseSpeed), {StateLayout::kAngularVelocity, kBaseTurn}}) {
       const Vec<T> apart{difference(first), difference(first + 1), difference(first + 2)};
       const T most = speed * allowed;
       within = math::both(within, dot(apart, apart) <= most * most);

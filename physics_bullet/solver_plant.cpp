@@ -52,8 +52,8 @@ class SolverPlant final : public Plant {
     settle(h);
     ExplicitIntegrator::drift(state_, h);
     layout_.write(state_, 0, numbers_);
-    part_.set(applied_, numbers_.subspan(layout_.speeds(), layout_.joints),
-              numbers_.subspan(layout_.angles(), layout_.joints), h);
+    part_.set(applied_, numbers_.subspan(layout_.speeds(), layout_.joints), numbers_.subspan(layout_.angles(), layout_.joints),
+              h);
   }
 
   [[nodiscard]] Applied applied() const override { return part_.applied(work_); }

@@ -12,10 +12,10 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kGood = 0.01;         // of a torque's peak, of what is drawn
-constexpr double kLeastPeak = 0.02;    // of the largest of all joints: smaller ones are judged by this
-constexpr double kOftenCoarse = 0.1;   // share of the time
-constexpr double kMargin = 2;          // by which a remedy is better than it seems to need
+constexpr double kGood = 0.01;        // of a torque's peak, of what is drawn
+constexpr double kLeastPeak = 0.02;   // of the largest of all joints: smaller ones are judged by this
+constexpr double kOftenCoarse = 0.1;  // share of the time
+constexpr double kMargin = 2;         // by which a remedy is better than it seems to need
 
 /// One digit, downwards: 0.0037 becomes 0.003.
 double one_digit(double value) {
@@ -83,21 +83,22 @@ std::vector<std::string> trust_warnings(const Scenario& s, const RunRecord& r) {
                                    s.robot->joints[error.joint].name, percent(error.share), remedy(s, error.share)));
   }
   if (s.physics.adapts() && r.tally.coarse > kOftenCoarse * r.simulated) {
-    warnings.push_back(
-        fmt::format("in {} of the time the shortest steps of the integrator did not reach the accuracy {}: this motion may well "
-                    "be another at any other step; is something undamped, or driven without bounds?",
-                    percent(r.tally.coarse / r.simulated), percent(s.physics.accuracy)));
+    warnings.push_back(fmt::format(
+        "in {} of the time the shortest steps of the integrator did not reach the accuracy {}: this motion may well "
+        "be another at any other step; is something undamped, or driven without bounds?",
+        percent(r.tally.coarse / r.simulated), percent(s.physics.accuracy)));
   }
   const double residual = std::abs(r.ledger.residual());
   const double drawn = std::abs(r.ledger.electrical);
   if (s.actuator.entry != nullptr && residual > kGood * drawn && residual > kGood * std::abs(r.ledger.stored)) {
-    warnings.push_back(fmt::format("the energy does not add up: {:.3g} J are missing of {:.3g} J drawn; take {}", residual, drawn,
-                                   s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step"));
+    warnings.push_back(fmt::format("the energy does not add up: {:.3g} J are missing of {:.3g} J drawn; take {}", residual,
+                                   drawn, s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step"));
   }
   if (r.tally.off > 0) {
-    warnings.push_back(fmt::format("{:.0f} joint-steps ended off the law of their motor or stop: the torques there are wrong; "
-                                   "does the torque of the actuator fall with the joint's speed, as it must?",
-                                   r.tally.off));
+    warnings.push_back(
+        fmt::format("{:.0f} joint-steps ended off the law of their motor or stop: the torques there are wrong; "
+                    "does the torque of the actuator fall with the joint's speed, as it must?",
+                    r.tally.off));
   }
   return warnings;
 }

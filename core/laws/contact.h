@@ -29,13 +29,16 @@ struct BasicPenaltyContact {
   [[nodiscard]] Normal normal(const T& p, const T& vn) const {
     using math::select;
     const T zero = 0.0;
-    const T damping = cd * power(p, d);  // no number in the air, perhaps: not taken there
-    const T fn = kn * power(p, k) - damping * vn;
+    const T damper = damping(p);
+    const T fn = spring(p) - damper * vn;
     const math::Mask<T> acts = math::both(p > 0.0, fn > 0.0);
-    return {select(acts, fn, zero), select(acts, damping, zero), select(acts, kn * k * power(p, k - 1.0), zero), acts};
+    return {select(acts, fn, zero), select(acts, damper, zero), select(acts, stiffness(p), zero), acts};
   }
-  /// Cd p^d, N s/m; 0 in the air.
-  [[nodiscard]] T damping(const T& p) const { return math::select(p > T(0.0), cd * power(p, d), T(0.0)); }
+  // For p > 0 alone, perhaps no number in the air: Kn p^k, N; its slope, N/m; Cd p^d, N s/m; its slope, N s/m^2.
+  [[nodiscard]] T spring(const T& p) const { return kn * power(p, k); }
+  [[nodiscard]] T stiffness(const T& p) const { return kn * k * power(p, k - 1.0); }
+  [[nodiscard]] T damping(const T& p) const { return cd * power(p, d); }
+  [[nodiscard]] T damping_slope(const T& p) const { return cd * d * power(p, d - 1.0); }
   [[nodiscard]] math::Mask<T> slides(const Normal& n, const T& slip) const { return math::both(n.acts, slip > v_lim); }
   /// slip: |v|; friction: f of the ground.
   [[nodiscard]] Force operator()(const T& p, const T& vn, const T& slip, const T& friction) const {

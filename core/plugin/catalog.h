@@ -21,9 +21,9 @@ struct Engine {
   std::vector<std::size_t> lanes{1};     ///< how many rollouts it runs side by side, ascending
   bool rotor_inertia = false;            ///< can add a joint's reflected rotor inertia
   std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
-  double solver_step = 0;  ///< default with contact.law: bullet, s; 0: the engine has no such law
-  int adaptive = -1;       ///< the integrator that chooses its steps, whose default is step: auto; -1: none does
-  int fixed = 0;           ///< the default integrator where a step is given
+  double solver_step = 0;     ///< default with contact.law: bullet, s; 0: the engine has no such law
+  int adaptive = -1;          ///< the integrator that chooses its steps, whose default is step: auto; -1: none does
+  int fixed = 0;              ///< the default integrator where a step is given
   std::vector<int> orders{};  ///< of the integrators; 0: adaptive. Empty: no error is estimated
 };
 

@@ -343,12 +343,13 @@ class ScenarioReader {
     for (const std::string& name : catalog_.engines()) {
       const Engine& engine = *catalog_.engine(name);
       if (engine.adaptive >= 0) {
-        able.push_back(fmt::format("engine: {}, integrator: {}", name, engine.integrators[static_cast<std::size_t>(engine.adaptive)]));
+        able.push_back(
+            fmt::format("engine: {}, integrator: {}", name, engine.integrators[static_cast<std::size_t>(engine.adaptive)]));
       }
     }
-    problems_.add(step->place, fmt::format("integrator '{}' of engine '{}' chooses no steps; expected a number of seconds, or {}",
-                                           scenario_.physics.integrator_name(), scenario_.physics.engine->name,
-                                           fmt::join(able, " or ")));
+    problems_.add(step->place,
+                  fmt::format("integrator '{}' of engine '{}' chooses no steps; expected a number of seconds, or {}",
+                              scenario_.physics.integrator_name(), scenario_.physics.engine->name, fmt::join(able, " or ")));
   }
 
   /// Uses a plugin; what it throws is bad input like any other.

@@ -29,11 +29,11 @@ struct Initial {
 
 struct Physics {
   const Engine* engine = nullptr;
-  double step = 0;            ///< s; with `adaptive_step` the longest that the control period allows
+  double step = 0;             ///< s; with `adaptive_step` the longest that the control period allows
   bool adaptive_step = false;  ///< `step: auto`: the integrator divides each step as `accuracy` asks
-  double accuracy = 0.01;     ///< of the torques, relative; of integrators that choose their steps
-  int integrator = 0;         ///< index into engine->integrators
-  Vec3 gravity{0, 0, -9.81};  ///< m/s^2, world
+  double accuracy = 0.01;      ///< of the torques, relative; of integrators that choose their steps
+  int integrator = 0;          ///< index into engine->integrators
+  Vec3 gravity{0, 0, -9.81};   ///< m/s^2, world
   [[nodiscard]] const std::string& integrator_name() const { return engine->integrators[static_cast<std::size_t>(integrator)]; }
   /// Whether the integrator chooses its steps by `accuracy`.
   [[nodiscard]] bool adapts() const { return integrator == engine->adaptive; }

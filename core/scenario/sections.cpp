@@ -106,10 +106,11 @@ void PhysicsFields::fields(Fields& f) {
     physics.adaptive_step = step <= 0 && physics.adapts();
     if (step > 0 || !physics.adapts()) physics.step = step > 0 ? step : engine.step;
     if (physics.adapts()) {
-      f.number("accuracy", physics.accuracy,
-               {"", 1e-6, 0.5,
-                "Of the torques: of a joint's largest so far, and at least of 1 % of its motor's torque at rest. The integrator "
-                "adaptive divides its steps until they agree to that."});
+      f.number(
+          "accuracy", physics.accuracy,
+          {"", 1e-6, 0.5,
+           "Of the torques: of a joint's largest so far, and at least of 1 % of its motor's torque at rest. The integrator "
+           "adaptive divides its steps until they agree to that."});
     }
   } else {
     std::string any;  // which there are depends on the engine

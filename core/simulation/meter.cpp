@@ -17,7 +17,7 @@ double* at(Figures& figures, double JointFigures::*member) {
 
 }  // namespace
 
-Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()), time_(lanes.size()), seen_(lanes.size()) {
+Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()), time_(lanes.size()) {
   for (std::size_t j = 0; j < lanes[0].robot->joints.size(); ++j) {
     for (const Scenario& lane : lanes) {
       lo_.push_back(lane.robot->joints.at(j).lo);
@@ -25,38 +25,51 @@ Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()), time_(lane
     }
   }
   for (auto& figure : figures_) figure.assign(lo_.size(), 0.0);
+  for (auto* weights : {&sum_, &share_, &seen_}) weights->assign(lo_.size(), 0.0);
 }
 
-void Meter::add(const Applied::Part& part, In setpoint, const Actuator::Report& report, std::size_t from, std::size_t to) {
-  const std::size_t joints = lo_.size() / lanes_;
+void Meter::add(const Applied::Part& part, In setpoint, const Actuator::Report& report, In measured) {
+  const std::size_t n = lo_.size();
   const In angle = part.angle;
   const In speed = part.speed;
   const In torque = part.torque;
-  for (std::size_t l = from; l < to; ++l) seen_[l] = part.instant || part.share[l] > 0 ? 1 : 0;
+  bool some = false;  // whose motion the part is
+  for (std::size_t l = 0; l < lanes_; ++l) {
+    const double sum = part.instant ? 0 : measured[l] * part.sum[l];
+    const double share = part.instant ? 0 : measured[l] * part.share[l];
+    const double seen = part.instant ? measured[l] : share > 0 ? 1 : 0;
+    some = some || seen > 0;
+    time_[l] += sum;
+    for (std::size_t i = l; i < n; i += lanes_) {
+      sum_[i] = sum;
+      share_[i] = share;
+      seen_[i] = seen;
+    }
+  }
   const auto peak = [&](double JointFigures::*member, auto value) {
-    double* const figure = at(figures_, member);
-    for (std::size_t j = 0; j < joints; ++j) {
-      for (std::size_t l = from, i = j * lanes_ + l; l < to; ++l, ++i) figure[i] = std::max(figure[i], seen_[l] * value(i));
-    }
+    double* const to = at(figures_, member);
+    if (!some) return;
+    for (std::size_t i = 0; i < n; ++i) to[i] = std::max(to[i], seen_[i] * value(i));
   };
-  const auto weighted = [&](In weight, double JointFigures::*member, auto value) {
+  const auto sum = [&](double JointFigures::*member, auto value) {
     if (part.instant) return;
-    double* const figure = at(figures_, member);
-    for (std::size_t j = 0; j < joints; ++j) {
-      for (std::size_t l = from, i = j * lanes_ + l; l < to; ++l, ++i) figure[i] += weight[l] * value(i);
-    }
+    double* const to = at(figures_, member);
+    for (std::size_t i = 0; i < n; ++i) to[i] += sum_[i] * value(i);
   };
-  const auto sum = [&](double JointFigures::*member, auto value) { weighted(part.sum, member, value); };
-  const auto share = [&](double JointFigures::*member, auto value) { weighted(part.share, member, value); };
+  const auto share = [&](double JointFigures::*member, auto value) {
+    if (part.instant || !some) return;
+    double* const to = at(figures_, member);
+    for (std::size_t i = 0; i < n; ++i) to[i] += share_[i] * value(i);
+  };
   const auto error = [&](std::size_t i) { return setpoint[i] - angle[i]; };
   const auto excess = [&](std::size_t i) { return std::max(std::max(angle[i] - hi_[i], lo_[i] - angle[i]), 0.0); };
   const auto shaft = [&](std::size_t i) { return torque[i] * speed[i]; };
   using F = JointFigures;
   peak(&F::torque_peak, [&](std::size_t i) { return std::abs(torque[i]); });
-  sum(&F::torque_rms, [&](std::size_t i) { return torque[i] * torque[i]; });
+  share(&F::torque_rms, [&](std::size_t i) { return torque[i] * torque[i]; });
   peak(&F::speed_peak, [&](std::size_t i) { return std::abs(speed[i]); });
   peak(&F::current_peak, [&](std::size_t i) { return std::abs(report.current[i]); });
-  sum(&F::current_rms, [&](std::size_t i) { return report.current[i] * report.current[i]; });
+  share(&F::current_rms, [&](std::size_t i) { return report.current[i] * report.current[i]; });
   sum(&F::error_rms, [&](std::size_t i) { return error(i) * error(i); });
   peak(&F::error_peak, [&](std::size_t i) { return std::abs(error(i)); });
   share(&F::saturated_voltage, [&](std::size_t i) { return report.saturation[i] == 1 ? 1.0 : 0.0; });
@@ -67,10 +80,9 @@ void Meter::add(const Applied::Part& part, In setpoint, const Actuator::Report& 
   sum(&F::electrical, [&](std::size_t i) { return report.power_in[i]; });
   sum(&F::copper, [&](std::size_t i) { return report.copper[i]; });
   sum(&F::gear, [&](std::size_t i) { return report.gear[i]; });
-  sum(&F::created, [&](std::size_t i) { return std::max(-report.gear[i], 0.0); });
+  share(&F::created, [&](std::size_t i) { return std::max(-report.gear[i], 0.0); });
   sum(&F::shaft, shaft);
-  sum(&F::shaft_positive, [&](std::size_t i) { return std::max(shaft(i), 0.0); });
-  for (std::size_t l = from; l < to && !part.instant; ++l) time_[l] += part.sum[l];
+  share(&F::shaft_positive, [&](std::size_t i) { return std::max(shaft(i), 0.0); });
 }
 
 JointFigures Meter::figures(std::size_t joint, std::size_t lane) const {
@@ -79,7 +91,8 @@ JointFigures Meter::figures(std::size_t joint, std::size_t lane) const {
   auto f = std::bit_cast<JointFigures>(of_joint);
   const double time = time_[lane];
   if (!(time > 0)) return f;
-  for (double* mean_square : {&f.torque_rms, &f.current_rms, &f.error_rms}) *mean_square = std::sqrt(std::max(*mean_square, 0.0) / time);
+  for (double* mean_square : {&f.torque_rms, &f.current_rms, &f.error_rms})
+    *mean_square = std::sqrt(std::max(*mean_square, 0.0) / time);
   for (double* share : {&f.saturated_voltage, &f.saturated_current, &f.range_share, &f.setpoint_outside}) *share /= time;
   return f;
 }

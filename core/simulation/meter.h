@@ -30,16 +30,16 @@ class Meter {
  public:
   explicit Meter(std::span<const Scenario> lanes);
 
-  /// One part of a step of the lanes from..to: motion, torque and the actuator law there.
-  void add(const Applied::Part& part, In setpoint, const Actuator::Report& report, std::size_t from, std::size_t to);
+  /// One part of a step: motion, torque and the actuator law there. measured: a lane, 1 or, where it does not count, 0.
+  void add(const Applied::Part& part, In setpoint, const Actuator::Report& report, In measured);
   [[nodiscard]] JointFigures figures(std::size_t joint, std::size_t lane) const;
 
  private:
   std::vector<double> lo_, hi_;
   std::array<std::vector<double>, kFigures> figures_;  // by the members of JointFigures: plain loops over all joints and lanes
   std::size_t lanes_;
-  std::vector<double> time_;  ///< a lane, s: only a divisor
-  std::vector<double> seen_;  ///< scratch: 1 for a lane whose motion the part is
+  std::vector<double> time_;                ///< a lane, s: only a divisor
+  std::vector<double> sum_, share_, seen_;  ///< scratch, joint * lanes + lane: weights; 1 where the part is the motion itself
 };
 
 }  // namespace gaitlab

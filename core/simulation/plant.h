@@ -46,10 +46,10 @@ struct LaneSettings {
 
 /// What is known of a lane's steps since the start.
 struct StepTally {
-  double solves = 0;  ///< of the equations of motion; 0: not counted
-  double off = 0;     ///< joint-steps that ended off the law of their motor or stop
-  double coarse = 0;  ///< s in which the shortest steps that an integrator takes did not reach the accuracy
-  bool estimated = false;  ///< whether there is an estimate of the torque error yet (step_error.h)
+  double solves = 0;                 ///< of the equations of motion; 0: not counted
+  double off = 0;                    ///< joint-steps that ended off the law of their motor or stop
+  double coarse = 0;                 ///< s in which the shortest steps that an integrator takes did not reach the accuracy
+  bool estimated = false;            ///< whether there is an estimate of the torque error yet (step_error.h)
   std::vector<double> torque_error;  ///< of each joint, RMS, N m
 };
 

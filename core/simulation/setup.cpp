@@ -15,7 +15,8 @@ bool can_share(const Scenario& a, const Scenario& b) {
   const auto same_place = [](const ContactElement& x, const ContactElement& y) { return x.link == y.link; };
   const auto elements = [](const Scenario& s) { return contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on)); };
   return a.physics.engine == b.physics.engine && a.physics.integrator == b.physics.integrator &&
-         a.physics.step == b.physics.step && a.physics.adaptive_step == b.physics.adaptive_step && a.control_period == b.control_period && a.actuator.entry == b.actuator.entry && a.base == b.base &&
+         a.physics.step == b.physics.step && a.physics.adaptive_step == b.physics.adaptive_step &&
+         a.control_period == b.control_period && a.actuator.entry == b.actuator.entry && a.base == b.base &&
          a.contact.solver() == b.contact.solver() && std::ranges::equal(a.robot->links, b.robot->links, same_link) &&
          std::ranges::equal(elements(a), elements(b), same_place);
 }
@@ -94,6 +95,7 @@ void Simulation::cut_state() {
     lane->ledger = cut(Ledger::kSums);
   }
   saved_.resize(state_.size());
+  measured_.resize(lanes_.size());
   plant_->bind(plant_state_, plant_history_);
 }
 

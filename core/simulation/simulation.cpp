@@ -24,12 +24,8 @@ std::int64_t whole(double period, double step) { return std::llround(period / st
 SimulationError::SimulationError(std::int64_t at_step, double at_time, std::string at, const std::string& what)
     : RunError(what), step(at_step), time(at_time), where(std::move(at)) {}
 
-bool Simulation::control_tick(const Lane& lane) const {
-  return !lane.closed && lane.clock.commands(step_number());
-}
-bool Simulation::trace_tick(const Lane& lane) const {
-  return !lane.closed && lane.clock.records(step_number());
-}
+bool Simulation::control_tick(const Lane& lane) const { return !lane.closed && lane.clock.commands(step_number()); }
+bool Simulation::trace_tick(const Lane& lane) const { return !lane.closed && lane.clock.records(step_number()); }
 bool Simulation::any(bool (Simulation::*tick)(const Lane&) const) const {
   return std::any_of(lanes_.begin(), lanes_.end(), [&](const auto& lane) { return (this->*tick)(*lane); });
 }
@@ -42,16 +38,14 @@ void Simulation::step() {
   }
   record_within_step();
   if (step_error_) step_error_->begin(step_number(), plant_state_, plant_history_);
-  advance(h_);
-  measure(0, lanes_.size());
+  advance(h_, [](const Lane&) { return true; });
   if (step_error_) step_error_->follow(step_number(), plant_state_, command_, h_);
   state_[0] += 1;
   check();
 }
 
 bool Simulation::done() const {
-  return step_number() >= steps_ ||
-         std::all_of(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane->closed; });
+  return step_number() >= steps_ || std::all_of(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane->closed; });
 }
 
 bool Simulation::run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) try {
@@ -199,28 +193,25 @@ void Simulation::record_within_step() {
     for (const auto& lane : lanes_) row = std::min(row, next(*lane));
     if (!std::isfinite(row)) return;
     std::ranges::copy(state_, saved_.begin());
-    advance(row);
-    std::vector<Lane*>& ended = ended_;
-    ended.clear();
-    for (std::size_t l = 0; l < lanes_.size(); ++l) {
-      if (!lanes_[l]->closed && lanes_[l]->clock.ends_within(step_number(), row)) {
-        measure(l, l + 1);
-        ended.push_back(lanes_[l].get());
-      }
+    const auto ends = [&](const Lane& lane) { return !lane.closed && lane.clock.ends_within(step_number(), row); };
+    advance(row, ends);
+    ended_.clear();
+    for (const auto& lane : lanes_) {
+      if (ends(*lane)) ended_.push_back(lane.get());
     }
     within_ = row;
     look();
     for (const auto& lane : lanes_) {
       if (next(*lane) <= row) record(*lane);
     }
-    for (Lane* lane : ended) {
+    for (Lane* lane : ended_) {
       check(*lane);
       if (!lane->closed) close(*lane);
     }
     within_ = 0;
     std::ranges::copy(saved_, state_.begin());
     if (lanes_.size() > 1) {
-      for (Lane* lane : ended) place_at_start(*lane);
+      for (Lane* lane : ended_) place_at_start(*lane);
     }
     at = row;
   }
@@ -294,14 +285,16 @@ void Simulation::watch_stability() {
   }
 }
 
-/// A step of the plant; the ledger is part of the state.
-void Simulation::advance(double h) {
+/// A step of the plant, into the ledger, which is part of the state, and into the figures of the lanes that `measured` is told.
+void Simulation::advance(double h, const std::function<bool(const Lane&)>& measured) {
   plant_->advance(command_, h);
   const Applied applied = plant_->applied();
   const std::size_t lanes = lanes_.size();
+  for (std::size_t l = 0; l < lanes; ++l) measured_[l] = measured(*lanes_[l]) ? 1 : 0;
   for (const Applied::Part& part : applied.parts) {
-    if (part.instant) continue;
     report(part.speed);
+    meter_.add(part, setpoint_, {voltage_, current_, saturation_, power_in_, copper_, gear_}, measured_);
+    if (part.instant) continue;
     for (std::size_t l = 0; l < lanes; ++l) {
       const Out sums = lanes_[l]->ledger;
       for (std::size_t i = l; i < command_.size(); i += lanes) {
@@ -316,14 +309,6 @@ void Simulation::advance(double h) {
     sums[3] += applied.contact[l];
     sums[4] += applied.friction[l];
     sums[5] += applied.stops[l];
-  }
-}
-
-/// The last step's figures of the lanes from..to.
-void Simulation::measure(std::size_t from, std::size_t to) {
-  for (const Applied::Part& part : plant_->applied().parts) {
-    report(part.speed);
-    meter_.add(part, setpoint_, {voltage_, current_, saturation_, power_in_, copper_, gear_}, from, to);
   }
 }
 

@@ -41,10 +41,10 @@ struct RunRecord {
   std::vector<double> loads;
   /// Angles and pose at a trace tick; speeds 0.
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t tick) const;
-  Ledger ledger;    ///< at the last row
-  StepTally tally;  ///< of the engine's steps
+  Ledger ledger;         ///< at the last row
+  StepTally tally;       ///< of the engine's steps
   double simulated = 0;  ///< s
-  Stability worst;  ///< the largest rate seen at a control tick
+  Stability worst;       ///< the largest rate seen at a control tick
   double worst_time = 0;
   std::int64_t ticks = 0, ticks_above_1 = 0;
   std::int64_t steps = 0;
@@ -95,8 +95,7 @@ class Simulation {
   void sense();
   void command();
   void command(Lane& lane);
-  void advance(double h);
-  void measure(std::size_t from, std::size_t to);
+  void advance(double h, const std::function<bool(const Lane&)>& measured);
   void check();
   void check(Lane& lane);
 
@@ -127,12 +126,13 @@ class Simulation {
   std::vector<std::unique_ptr<Lane>> lanes_;
   StateLayout layout_;
   std::vector<double> state_;
-  std::unique_ptr<StepError> step_error_;  ///< nullptr: nothing to estimate
+  std::unique_ptr<StepError> step_error_;                                    ///< nullptr: nothing to estimate
   Out plant_state_, plant_history_, step_error_state_, setpoint_, command_;  ///< parts of state_; joint * lanes + lane
   std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_;  ///< scratch, elementwise
-  std::vector<double> saved_;  ///< scratch: state_ while a row within a step is made
-  std::vector<Lane*> ended_;   ///< scratch: of those that end at that row
-  double within_ = 0;          ///< s: how far into the step that row is
+  std::vector<double> saved_;     ///< scratch: state_ while a row within a step is made
+  std::vector<double> measured_;  ///< scratch: 1 for a lane whose figures a step counts for, else 0
+  std::vector<Lane*> ended_;      ///< scratch: of those that end at that row
+  double within_ = 0;             ///< s: how far into the step that row is
   Meter meter_;
   Stability standing_;
 };

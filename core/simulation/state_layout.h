@@ -29,11 +29,11 @@ struct StateLayout {
 struct Applied {
   /// Motors and joints at one moment within the step, and how the moment counts.
   struct Part {
-    In torque;              ///< of the motors, N m (joint * lanes + lane)
-    In speed;               ///< at which they gave it, rad/s: where their power is to be asked
-    In angle;               ///< rad
-    In sum;                 ///< a lane: weight in integrals, s; negative where an extrapolation takes it off
-    In share;               ///< a lane: weight in shares of time, s; 0: only a help of the integration, or `instant`
+    In torque;             ///< of the motors, N m (joint * lanes + lane)
+    In speed;              ///< at which they gave it, rad/s: where their power is to be asked
+    In angle;              ///< rad
+    In sum;                ///< a lane: weight in integrals, s; negative where an extrapolation takes it off
+    In share;              ///< a lane: weight in shares of time, s; 0: only a help of the integration, or `instant`
     bool instant = false;  ///< has no duration: the step's start under its command, for peaks alone
   };
   std::span<const Part> parts;

@@ -21,13 +21,14 @@ struct StepTwin {
 ///     error = factor |T_1 - T_2|
 /// with steps of twice the length and order p: factor kSafety / (2^p - 1); half the length: 2^p times that; with an accuracy
 /// made coarser by kCoarser: kSafety / (kCoarser^(2/3) - 1), the error going with about the 2/3rd power of the accuracy
-/// (measured, docs/equations.md, 7). The first control period of a window, in which the difference grows, does not count but at the start of the run. Errors
-/// that build up over more than a window, and impacts outside of all windows, are not seen. All numbers that change lie in state(); nothing allocates after the constructor.
+/// (measured, docs/equations.md, 7). The first control period of a window, in which the difference grows, does not count but at
+/// the start of the run. Errors that build up over more than a window, and impacts outside of all windows, are not seen. All
+/// numbers that change lie in state(); nothing allocates after the constructor.
 class StepError {
  public:
-  static constexpr double kApart = 5e-3;    ///< s
-  static constexpr double kCoarser = 4;     ///< accuracy of the second plant over that of the first
-  static constexpr double kSafety = 1.4;    ///< events lower the order, and windows miss some
+  static constexpr double kApart = 5e-3;  ///< s
+  static constexpr double kCoarser = 4;   ///< accuracy of the second plant over that of the first
+  static constexpr double kSafety = 1.4;  ///< events lower the order, and windows miss some
 
   StepError(std::unique_ptr<Plant> twin, const StepTwin& how, const Actuator& actuator, const StateLayout& layout,
             std::int64_t control_every, double h);
@@ -48,7 +49,7 @@ class StepError {
   const Actuator& actuator_;
   StateLayout layout_;
   std::int64_t window_, cycle_, settle_, stride_;  ///< steps
-  Out numbers_, state_, history_, squares_;  ///< count of comparisons; the twin's; sums, joint * lanes + lane
+  Out numbers_, state_, history_, squares_;        ///< count of comparisons; the twin's; sums, joint * lanes + lane
   std::vector<double> torque_, twin_torque_, slope_;
 };
 

@@ -311,8 +311,9 @@ TEST(Articulated, IsThereForTheProgram) {
   const Folder folder;
   const std::string engine = " --set physics.engine=articulated";
   EXPECT_NE(gaitlab("list engine", folder / "").out.find("  articulated "), std::string::npos);
-  EXPECT_NE(gaitlab("explain engine articulated", folder / "").out.find("adaptive, implicit, extrapolated, rk4 (default adaptive)"),
-            std::string::npos);
+  EXPECT_NE(
+      gaitlab("explain engine articulated", folder / "").out.find("adaptive, implicit, extrapolated, rk4 (default adaptive)"),
+      std::string::npos);
   const Result check = gaitlab("check '" + kScenarios + "hexapod.yaml'" + engine, folder / "");
   EXPECT_NE(check.out.find("engine articulated (adaptive), step auto (at most 0.005 s), accuracy 1 %\n"), std::string::npos)
       << check.out;
