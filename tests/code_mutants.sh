@@ -76,6 +76,6 @@ mutant "articulated: the bias in contacts' resistances is the base's" physics_ar
   's/l\.bias = parent\.bias \+ l\.c;/l.bias = parent.bias;/'
 mutant "articulated: friction's slope along the slip drives" physics_articulated/contacts.h \
   's/add_square\(-h \* gt, along\)/add_square(h * gt, along)/'
-mutant "articulated: the ledger gains what stops take" physics_articulated/stepper.h \
-  's/part_\.stops = part_\.stops - dt/part_.stops = part_.stops + dt/'
+mutant "articulated: the ledger gains what stops take" physics_articulated/implicit.h \
+  's/done\.stops = done\.stops - h/done.stops = done.stops + h/'
 exit "$bad"
