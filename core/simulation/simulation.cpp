@@ -132,7 +132,7 @@ Sample& Simulation::take_sample(Lane& lane, bool whole) {
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
   plant_->tally(l, s.tally);
   if (step_error_) {
-    s.tally.estimated = step_error_->any();
+    s.tally.estimated = step_error_->any(l);
     for (std::size_t j = 0; j < layout_.joints; ++j) s.tally.torque_error[j] = step_error_->rms(j, l);
   }
   s.ledger = Ledger::of(lane.ledger, energy(lane) - lane.energy_at_start);

@@ -21,12 +21,13 @@ StepError::StepError(std::unique_ptr<Plant> twin, const StepTwin& how, const Act
   for (auto* values : {&torque_, &twin_torque_, &slope_}) values->resize(layout.joints * layout.lanes);
 }
 
-std::size_t StepError::size() const { return 1 + layout_.size() + twin_->history() + torque_.size(); }
+std::size_t StepError::size() const { return 1 + layout_.lanes + layout_.size() + twin_->history() + torque_.size(); }
 
 void StepError::bind(Out numbers) {
   numbers_ = numbers;
-  state_ = numbers.subspan(1, layout_.size());
-  history_ = numbers.subspan(1 + layout_.size(), twin_->history());
+  sloped_ = numbers.subspan(1, layout_.lanes);
+  state_ = numbers.subspan(1 + layout_.lanes, layout_.size());
+  history_ = numbers.subspan(1 + layout_.lanes + layout_.size(), twin_->history());
   squares_ = numbers.last(torque_.size());
   twin_->bind(state_, history_);
 }
@@ -55,12 +56,13 @@ void StepError::follow(std::int64_t step, In state, In command, double h) {
   for (std::size_t i = 0; i < torque_.size(); ++i) {
     const double apart = torque_[i] - twin_torque_[i];
     squares_[i] += apart * apart;
+    if (slope_[i] != 0 || apart != 0) sloped_[i % layout_.lanes] = 1;
   }
   numbers_[0] += 1;
 }
 
 double StepError::rms(std::size_t joint, std::size_t lane) const {
-  return any() ? how_.factor * std::sqrt(squares_[joint * layout_.lanes + lane] / numbers_[0]) : 0;
+  return any(lane) ? how_.factor * std::sqrt(squares_[joint * layout_.lanes + lane] / numbers_[0]) : 0;
 }
 
 }  // namespace gaitlab

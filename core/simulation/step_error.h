@@ -22,8 +22,9 @@ struct StepTwin {
 /// with steps of twice the length and order p: factor kSafety / (2^p - 1); half the length: 2^p times that; with an accuracy
 /// made coarser by kCoarser: kSafety / (kCoarser^(2/3) - 1), the error going with about the 2/3rd power of the accuracy
 /// (measured, docs/equations.md, 7). The first control period of a window, in which the difference grows, does not count but at
-/// the start of the run. Errors that build up over more than a window, and impacts outside of all windows, are not seen. All
-/// numbers that change lie in state(); nothing allocates after the constructor.
+/// the start of the run. Errors that build up over more than a window, and impacts outside of all windows, are not seen. Of
+/// motors whose torque does not depend on the speed, such as ideal torque sources, nothing is estimated: no step shows in it.
+/// All numbers that change lie in state(); nothing allocates after the constructor.
 class StepError {
  public:
   static constexpr double kApart = 5e-3;  ///< s
@@ -41,15 +42,16 @@ class StepError {
   void follow(std::int64_t step, In state, In command, double h);
   /// RMS of the torque error of a joint so far, N m; 0 before the first comparison.
   [[nodiscard]] double rms(std::size_t joint, std::size_t lane) const;
-  [[nodiscard]] bool any() const { return numbers_[0] > 0; }
+  /// Whether a motor of the lane was compared whose torque depends on the speed.
+  [[nodiscard]] bool any(std::size_t lane) const { return sloped_[lane] > 0; }
 
  private:
   std::unique_ptr<Plant> twin_;
   StepTwin how_;
   const Actuator& actuator_;
   StateLayout layout_;
-  std::int64_t window_, cycle_, settle_, stride_;  ///< steps
-  Out numbers_, state_, history_, squares_;        ///< count of comparisons; the twin's; sums, joint * lanes + lane
+  std::int64_t window_, cycle_, settle_, stride_;     ///< steps
+  Out numbers_, sloped_, state_, history_, squares_;  ///< count of comparisons; a lane; the twin's; sums, joint * lanes + lane
   std::vector<double> torque_, twin_torque_, slope_;
 };
 

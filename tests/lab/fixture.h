@@ -28,11 +28,11 @@ inline Scenario shipped(const std::string& name, const std::vector<std::string>&
 }
 
 /// A scenario from text, with the shipped module types.
-inline Scenario scenario(const std::string& text) {
+inline Scenario scenario(const std::string& text, const std::vector<std::string>& sets = {}) {
   const Folder folder;
   std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
   std::filesystem::create_directory_symlink(kScenarios + "robots", folder / "robots");
-  return read_scenario(folder.write("test.yaml", text), {}, catalog());
+  return read_scenario(folder.write("test.yaml", text), sets, catalog());
 }
 
 inline RunRecord run(const Scenario& scenario) {
