@@ -33,13 +33,14 @@ class LaneClock {
     return ends(step) || std::abs(std::round(at / period_) * period_ - at) <= kSame;
   }
   /// The next row, or the end, after `after` seconds of the step that starts now and before its end; infinity: there is none.
+  /// To a picosecond: rows of one time are the same bits, of whatever period they are a multiple.
   [[nodiscard]] double row_within(std::int64_t step, double after) const {
     const double from = static_cast<double>(step) + after / step_;
     const double row = (std::floor(from / period_ + kSame) + 1) * period_;
     const double at = duration_ > from + kSame && duration_ < row + kSame ? duration_ : row;
     const double within = at - static_cast<double>(step);
     if (within > 1 - kSame || at > duration_ + kSame) return std::numeric_limits<double>::infinity();
-    return within * step_;
+    return std::round(at * step_ * kPicoseconds) / kPicoseconds - static_cast<double>(step) * step_;
   }
   /// Whether the rollout ends `within` seconds of the step that starts now.
   [[nodiscard]] bool ends_within(std::int64_t step, double within) const {
@@ -47,7 +48,8 @@ class LaneClock {
   }
 
  private:
-  static constexpr double kSame = 1e-7;  ///< steps: rounding of a run of 1e8 of them stays below
+  static constexpr double kSame = 1e-7;         ///< steps: rounding of a run of 1e8 of them stays below
+  static constexpr double kPicoseconds = 1e12;  ///< in a second
 
   double step_, duration_, period_;  ///< s; then in steps
   std::int64_t control_every_;

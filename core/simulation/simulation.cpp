@@ -354,8 +354,9 @@ void Simulation::close(Lane& lane) {
   plant_->look();
   lane.record.steps = step_number();
   lane.record.simulated = time();
-  lane.record.tally = lane.sample.tally;
-  lane.record.ledger = take_sample(lane, true).ledger;
+  const Sample& last = take_sample(lane, true);
+  lane.record.tally = last.tally;
+  lane.record.ledger = last.ledger;
   lane.record.joints.clear();
   for (std::size_t j = 0; j < layout_.joints; ++j) lane.record.joints.push_back(meter_.figures(j, lane.index));
 }
