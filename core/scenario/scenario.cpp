@@ -335,10 +335,11 @@ class ScenarioReader {
     const Period cpg{"CPG step", scenario_.cpg_step, given(root_, "cpg", "step")};
     check_periods({control}, cpg, place_of(root_, "cpg", "step"), problems_);
   }
+  /// What only integrators that choose their steps have.
   void refuse_auto() {
     const Node* physics = root_.find("physics");
     const Node* step = physics == nullptr ? nullptr : physics->find("step");
-    if (step == nullptr || step->text != "auto") return;
+    const Node* accuracy = physics == nullptr ? nullptr : physics->find("accuracy");
     std::vector<std::string> able;
     for (const std::string& name : catalog_.engines()) {
       const Engine& engine = *catalog_.engine(name);
@@ -347,9 +348,17 @@ class ScenarioReader {
             fmt::format("engine: {}, integrator: {}", name, engine.integrators[static_cast<std::size_t>(engine.adaptive)]));
       }
     }
-    problems_.add(step->place,
-                  fmt::format("integrator '{}' of engine '{}' chooses no steps; expected a number of seconds, or {}",
-                              scenario_.physics.integrator_name(), scenario_.physics.engine->name, fmt::join(able, " or ")));
+    const std::string chosen =
+        fmt::format("integrator '{}' of engine '{}'", scenario_.physics.integrator_name(), scenario_.physics.engine->name);
+    if (step != nullptr && step->text == "auto") {
+      problems_.add(step->place,
+                    fmt::format("{} chooses no steps; expected a number of seconds, or {}", chosen, fmt::join(able, " or ")));
+    }
+    if (accuracy != nullptr) {
+      problems_.add(accuracy->place,
+                    fmt::format("{} chooses no steps, so accuracy means nothing to it; leave it out, or take {}", chosen,
+                                fmt::join(able, " or ")));
+    }
   }
 
   /// Uses a plugin; what it throws is bad input like any other.
