@@ -4,7 +4,7 @@
 
 namespace gaitlab::test {
 
-/// `id` is SUBJECT.NAME and sorts the page; subjects: closed, cpg, published, order, property, format, ledger
+/// `id` is SUBJECT.NAME and sorts the page; subjects: closed, cpg, published, order, property, format, ledger, limits
 /// (tests/validation.sh).
 struct Row {
   std::string id;

@@ -46,7 +46,8 @@ fi
   # Of one id the row that is least far inside; a table a subject, in the order of the list.
   jq -rs '
     [["closed", "Closed forms and textbook systems"], ["cpg", "Pattern generators"], ["published", "Published numbers"], ["order", "Order of the integrators"],
-     ["property", "Laws of mechanics and symmetries"], ["format", "Other programs"], ["ledger", "Energy"]] as $subjects
+     ["property", "Laws of mechanics and symmetries"], ["format", "Other programs"], ["ledger", "Energy"],
+     ["limits", "Motors at their limits"]] as $subjects
     | (group_by(.id) | map(max_by(.share) + {count: length})) as $rows
     | (($rows | map(.id | split(".")[0]) | unique) - ($subjects | map(.[0]))) as $unknown
     | if $unknown != [] then error("unknown subjects: \($unknown)") else . end
