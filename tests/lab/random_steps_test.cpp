@@ -1,5 +1,6 @@
 // Implicit steps of random robots with tight limits, stiff contacts and stops, and steps as long as one likes: each ends on the
 // law of every motor, recomputed here from the actuator at the speeds where the step ended.
+#include "core/laws/hinge_stop.h"
 #include "core/scenario/plugin_instance.h"
 #include "core/simulation/plant.h"
 #include "random_scenario.h"
@@ -48,6 +49,55 @@ Rollout start(const Scenario& s, const char* integrator) {
   r.history.resize(r.plant->history());
   r.plant->bind(r.state, r.history);
   return r;
+}
+
+/// Torque of a stop where a step of h from the angle q ends with the speed qd: spring and damper at the end, which only push;
+/// of a joint that comes from within its range the damper acts on the mean of the depth's rate over the step.
+double stop(const Joint& joint, double q, double qd, double h) {
+  const bool up = q > (joint.lo + joint.hi) / 2;
+  const double excess = q - (up ? joint.hi : joint.lo);
+  const bool within = q <= joint.hi && q >= joint.lo;
+  const double end = excess + h * qd;
+  const double torque = -HingeStop::kStiffness * end - HingeStop::kDamping * (within ? end / h : qd);
+  return up ? std::min(torque, 0.0) : std::max(torque, 0.0);
+}
+
+TEST(RandomSteps, EndOnTheLawOfEveryStop) {
+  int pushed = 0;
+  int let_go = 0;
+  for (std::uint32_t seed = 1; seed <= 120; ++seed) {
+    RandomRobots random(seed);
+    const Scenario s = at_limits(random);
+    Rollout r = start(s, "implicit");
+    const std::size_t joints = s.robot->joints.size();
+    const StateLayout layout{joints, 1};
+    const double h = s.physics.step;
+    std::vector<double> command(joints);
+    for (int k = 0; k < 40; ++k) {
+      if (k % 4 == 0) {
+        for (std::size_t j = 0; j < joints; ++j) command[j] = random.uniform(-1, 1) * r.actuator->command_limit()[j];
+      }
+      const std::vector<double> before = r.state;
+      r.plant->advance(command, h);
+      const Applied applied = r.plant->applied();
+      if (applied.parts.size() != 2) continue;  // halved: the angles between are not seen
+      double work = 0;
+      double scale = 0;
+      for (std::size_t j = 0; j < joints; ++j) {
+        const double q = before[layout.angles() + j];
+        const double mean = (before[layout.speeds() + j] + r.state[layout.speeds() + j]) / 2;
+        const double torque = stop(s.robot->joints[j], q, r.state[layout.speeds() + j], h);
+        work -= h * torque * mean;
+        // 1e-9 N m, or the rounding of a speed times k h + c.
+        scale += h * std::abs(mean) * (1e-9 + 1e-12 * std::abs(torque));
+        pushed += torque != 0;
+        let_go += torque == 0 && (q > s.robot->joints[j].hi || q < s.robot->joints[j].lo);
+      }
+      EXPECT_NEAR(applied.stops[0], work, scale) << "seed " << seed << ", step " << k;
+    }
+  }
+  EXPECT_GT(pushed, 1000);
+  EXPECT_GT(let_go, 10);
 }
 
 TEST(RandomSteps, EndOnTheLawOfEveryMotor) {
