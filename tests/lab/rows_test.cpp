@@ -171,7 +171,8 @@ const std::vector<std::vector<std::string>> kOwn{
     {"physics.accuracy=1e-3"},
     {"duration=0.0031"},
     {"contact.stiffness=1e6", "contact.damping=1e7", "duration=0.2"},
-    {"physics.integrator=implicit", "physics.step=5e-3"},  // not in the same pack
+    {"physics.integrator=implicit", "physics.step=5e-3"},  // these two not in the same pack
+    {"physics.integrator=adaptive", "physics.step=5e-3"},
     {"initial.angles=0.1", "cpg.amplitude=1.5", "trace.period=7e-3"},
     {"actuator.u_max=2", "duration=0.2112"},
 };
@@ -200,6 +201,8 @@ TEST(Rows, AreTheSameBesideOthers) {
     EXPECT_NE(expected[4].find("diverged"), std::string::npos) << expected[4];
     EXPECT_TRUE(can_share(all[0], all[5]));
     EXPECT_FALSE(can_share(all[0], all[9]));
+    EXPECT_FALSE(can_share(all[0], all[10]));
+    EXPECT_FALSE(can_share(all[9], all[10]));
     for (const std::size_t lanes : {1U, 4U, 8U}) {
       for (const int threads : {1, 2}) {
         std::mutex lock;

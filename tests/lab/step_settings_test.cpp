@@ -1,6 +1,7 @@
 // What may be asked of the steps: physics.step, integrator and accuracy, as read, printed and halved.
 #include <regex>
 
+#include "core/trace/convergence.h"
 #include "fixture.h"
 
 namespace gaitlab::test {
@@ -162,6 +163,18 @@ TEST_F(Converge, HalvesTheAccuracy) {
   EXPECT_TRUE(std::regex_search(text, std::regex("\naccuracy +0[.]01 +0[.]005 +order\n"))) << text;
   EXPECT_TRUE(contains(text, "\naccuracy 0.01 is good for 1 %: the error is at most ")) << text;
   EXPECT_FALSE(contains(text, " s is good")) << text;
+  // Its errors are those of runs that were asked for these accuracies.
+  std::vector<Trace> traces;
+  for (const char* accuracy : {"0.01", "0.005", "0.0025"}) {
+    traces.push_back(run(shipped("caterpillar.yaml",
+                                 {"physics.engine=articulated", "duration=0.3", std::string("physics.accuracy=") + accuracy}))
+                         .trace);
+  }
+  const std::vector<ConvergenceRow> rows = convergence(traces, {"joint.3.torque"});
+  ASSERT_EQ(rows.size(), 1U);
+  const std::string row =
+      fmt::format("{:<24} {:>10.2g} % {:>10.2g} %", rows[0].name, 100 * rows[0].error[0], 100 * rows[0].error[1]);
+  EXPECT_TRUE(contains(text, "\n" + row)) << row << "\n" << text;
 }
 
 /// Feet on ground so stiff that a step sees an impact or not: errors that do not fall with the step follow no power of it.

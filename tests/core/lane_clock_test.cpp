@@ -1,0 +1,70 @@
+// When a rollout commands, records and ends: at whole steps, and within steps where the integrator chooses them.
+#include "core/simulation/lane_clock.h"
+
+#include <gtest/gtest.h>
+
+namespace gaitlab {
+namespace {
+
+Scenario scenario(double step, double duration, double period, bool adaptive) {
+  Scenario s;
+  s.physics.step = step;
+  s.physics.adaptive_step = adaptive;
+  s.duration = duration;
+  s.trace.period = period;
+  s.control_period = 0.015;
+  return s;
+}
+
+/// Times of all rows, s, and of the end last.
+std::vector<double> rows(const Scenario& s) {
+  const LaneClock clock(s);
+  std::vector<double> times;
+  for (std::int64_t step = 0; step < clock.steps(); ++step) {
+    const double start = static_cast<double>(step) * s.physics.step;
+    if (clock.records(step)) times.push_back(start);
+    for (double at = clock.row_within(step, 0); std::isfinite(at); at = clock.row_within(step, at)) {
+      times.push_back(start + at);
+      if (clock.ends_within(step, at)) return times;
+    }
+  }
+  EXPECT_TRUE(clock.ends(clock.steps()));
+  EXPECT_TRUE(clock.records(clock.steps()));
+  times.push_back(static_cast<double>(clock.steps()) * s.physics.step);
+  return times;
+}
+
+TEST(LaneClock, RowsAreMultiplesOfThePeriodAndTheEnd) {
+  for (const double duration : {0.3, 0.3127, 0.0031, 0.005, 20.0, 20.0001}) {
+    for (const double period : {5e-3, 1e-3, 7e-3, 0.0113, 1.0 / 3, 2.7e-4, 0.3127, 100.0}) {
+      const std::vector<double> times = rows(scenario(5e-3, duration, period, true));
+      const double whole = std::ceil(duration / period - 1e-9);
+      ASSERT_EQ(times.size(), static_cast<std::size_t>(whole) + 1) << duration << " " << period;
+      EXPECT_NEAR(times.back(), duration, 1e-12);
+      for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+        EXPECT_NEAR(times[k], static_cast<double>(k) * period, 1e-12);  // to a picosecond
+      }
+    }
+  }
+}
+
+TEST(LaneClock, TimesOfOneRowAreTheSameBitsOfAnyPeriod) {
+  const std::vector<double> fine = rows(scenario(5e-3, 20, 1e-3, true));
+  const std::vector<double> rare = rows(scenario(5e-3, 20, 7e-3, true));
+  for (std::size_t k = 0; k + 1 < rare.size(); ++k) EXPECT_EQ(rare[k], fine[7 * k]) << k;
+}
+
+TEST(LaneClock, NothingIsWithinAStepThatWasGiven) {
+  const LaneClock clock(scenario(1e-3, 0.3, 5e-3, false));
+  EXPECT_EQ(clock.steps(), 300);
+  for (std::int64_t step = 0; step <= 300; ++step) {
+    EXPECT_EQ(clock.records(step), step % 5 == 0) << step;
+    EXPECT_EQ(clock.commands(step), step % 15 == 0 && step < 300) << step;
+    EXPECT_EQ(clock.ends(step), step == 300);
+  }
+  // 1/40000 s is no binary number: the count of steps is rounded, not their sum.
+  EXPECT_EQ(LaneClock(scenario(2.5e-5, 20, 5e-3, false)).steps(), 800000);
+}
+
+}  // namespace
+}  // namespace gaitlab
