@@ -124,7 +124,9 @@ void check_widest(const Golden& golden, const Scenario& scenario) {
                    fmt::format("the band of {} would be {} of its range, more than {}: {}; shorten the run{}, so that less "
                                "grows from nothing. Nothing was written",
                                golden.run.trace.columns[widest].name, percent(band.width()), percent(kWidestBand), parts(band),
-                               band.halving > band.ensemble ? " or take a smaller step" : ""));
+                               band.halving > band.ensemble
+                                   ? (scenario.physics.adapts() ? " or set physics.accuracy: 0.001" : " or take a smaller step")
+                                   : ""));
 }
 
 /// What a pair of eyes should see before it is blessed.

@@ -159,7 +159,8 @@ class Contacts {
     for (const Contact<T>& c : touching_) {
       const T dn = dot(c.n, c.change);
       const auto down = c.depth - T(h) * (c.vn + dn) > T(0.0);
-      if (!math::any(either(down, either(c.most > T(0.0), c.gn > T(0.0))))) continue;  // in the air
+      const auto held_before = dot(c.held, c.held) > T(0.0);
+      if (!math::any(either(down, either(held_before, either(c.most > T(0.0), c.gn > T(0.0)))))) continue;  // in the air
       const T fn = normal(c, c.vn + dn, h).fn;
       const T held = dot(c.n, c.held);
       all = either(all, math::abs(fn - held) > kNormalTolerance * math::select(fn > held, fn, held) + kNormalFloor);

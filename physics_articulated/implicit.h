@@ -25,7 +25,7 @@ struct Done {
 template <class T>
 class Implicit {
  public:
-  static constexpr int kSolves = 100;               ///< of one step; most need 1, the most seen is 56
+  static constexpr int kSolves = 100;               ///< of one step; most need 1
   static constexpr double kTorqueTolerance = 1e-9;  ///< of a motor's largest torque at rest
   static constexpr double kStopTolerance = 1e-9;    ///< N m
 

@@ -15,6 +15,7 @@ class Pack final : public Kernel {
         stepper_(tree_, site_, s.actuator, s.method, accuracy(s)),
         x_(StateLayout::kAngles + 2 * tree_.lo.size()) {
     presses_.reserve(tree_.points.size());
+    parts_.reserve(stepper_.most_parts());
     forces_.reserve(tree_.points.size());
   }
 

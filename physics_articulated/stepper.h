@@ -17,6 +17,7 @@ struct Part : Done<T> {
   double h = 0;           ///< s that it stands for, alone; 0: the start, where a new command is met
   T sum = 0.0;            ///< weight in integrals, s: Richardson's, which may be negative
   T share = 0.0;          ///< weight in shares of time, s
+  T off = 0.0;            ///< motors and stops that it left off their law
 };
 
 /// Numbers that a rollout keeps between steps beside its state: an entry a joint, then single ones.
@@ -70,6 +71,7 @@ class Stepper {
 
   /// The numbers to go on from; entries as in History.
   std::span<T> history() { return history_; }
+  [[nodiscard]] std::size_t most_parts() const { return parts_.size(); }  ///< but where a search does not end
   [[nodiscard]] std::span<const Part<T>> parts() const { return {parts_.data(), used_}; }
 
   Implicit<T> implicit;
@@ -106,7 +108,7 @@ class Stepper {
   Part<T>& add_part() {
     if (used_ == parts_.size()) parts_.emplace_back(joints_);
     Part<T>& part = parts_[used_++];
-    part.sum = part.share = T(0.0);
+    part.sum = part.share = part.off = T(0.0);
     return part;
   }
 
@@ -120,10 +122,8 @@ class Stepper {
     static_cast<Done<T>&>(part) = implicit.done;
     part.lanes = halve ? math::fresh(which, implicit.unfinished) : which;
     part.h = h;
-    if (!halve) {
-      history_[layout.off()] = history_[layout.off()] + implicit.off;
-      return;
-    }
+    part.off = implicit.off;
+    if (!halve) return;
     const math::Mask<T> again = implicit.unfinished;
     for (std::size_t e = 0; e < x.size(); ++e) x[e] = math::select(again, halved_[halvings][e], x[e]);
     for (int half = 0; half < 2; ++half) settle(x, command, h / 2, again, halvings + 1);
@@ -217,6 +217,8 @@ class Stepper {
       contact = contact + weight * part.contact;
       friction = friction + weight * part.friction;
       stops = stops + weight * part.stops;
+      T& off = history_[layout.off()];
+      off = off + math::select(part.share > T(0.0), part.off, T(0.0));
     }
     for (std::size_t j = 0; j < joints_; ++j) {
       T& peak = history_[layout.peak() + j];

@@ -284,7 +284,7 @@ std::string fall_warning(const Scenario& scenario, const RunRecord& r) {
   for (std::size_t tick = 0; start > 0 && tick < r.com_z.size(); ++tick) {
     if (r.com_z[tick] > 0.5 * start) continue;
     return fmt::format("it fell: at t = {:.2f} s the centre of mass is at {:.3f} m, from {:.3f} m at the start",
-                       static_cast<double>(tick) * scenario.trace.period, r.com_z[tick], start);
+                       std::min(static_cast<double>(tick) * scenario.trace.period, r.simulated), r.com_z[tick], start);
   }
   return "";
 }

@@ -12,10 +12,12 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kGood = 0.01;        // of a torque's peak, of what is drawn
-constexpr double kLeastPeak = 0.02;   // of the largest of all joints: smaller ones are judged by this
-constexpr double kOftenCoarse = 0.1;  // share of the time
-constexpr double kMargin = 2;         // by which a remedy is better than it seems to need
+constexpr double kGood = 0.01;           // of a torque's peak, of what is drawn
+constexpr double kLeastPeak = 0.02;      // of the largest of all joints: smaller ones are judged by this
+constexpr double kOftenCoarse = 0.1;     // share of the time
+constexpr double kLeastAccuracy = 1e-6;  // that a scenario may ask for
+constexpr double kHeight = 1e-3;         // m: lifting the robot by it is the least energy that is judged
+constexpr double kMargin = 2;            // by which a remedy is better than it seems to need
 
 /// One digit, downwards: 0.0037 becomes 0.003.
 double one_digit(double value) {
@@ -27,7 +29,9 @@ double one_digit(double value) {
 std::string remedy(const Scenario& s, double share) {
   const Physics& physics = s.physics;
   const double ratio = kGood / share / kMargin;
-  if (physics.adapts()) return fmt::format("physics.accuracy: {:.1g}", one_digit(physics.accuracy * ratio));
+  if (physics.adapts()) {
+    return fmt::format("physics.accuracy: {:.1g}", std::max(one_digit(physics.accuracy * ratio), kLeastAccuracy));
+  }
   const int order = std::max(1, physics.engine->orders[static_cast<std::size_t>(physics.integrator)]);
   const double step = usable_step(s, physics.step * std::pow(ratio, 1.0 / order));
   std::string text = step > 0 ? fmt::format("physics.step: {:.4g}", step) : "a smaller physics.step";
@@ -38,7 +42,7 @@ std::string remedy(const Scenario& s, double share) {
   return text;
 }
 
-std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+std::string percent(double share) { return fmt::format("{:.{}g} %", 100 * share, share < 0.1 ? 2 : 3); }
 
 }  // namespace
 
@@ -47,11 +51,11 @@ TorqueError torque_error(const RunRecord& r) {
   double largest = 0;
   for (const JointFigures& joint : r.joints) largest = std::max(largest, joint.torque_peak);
   if (!r.tally.estimated || !(largest > 0)) return worst;
-  worst.estimated = true;
   for (std::size_t j = 0; j < r.joints.size(); ++j) {
     const double share = r.tally.torque_error[j] / std::max(r.joints[j].torque_peak, kLeastPeak * largest);
     if (share > worst.share) worst = {true, share, j};
   }
+  worst.estimated = worst.share > 0;  // else both took the same steps, which says nothing
   return worst;
 }
 
@@ -83,14 +87,15 @@ std::vector<std::string> trust_warnings(const Scenario& s, const RunRecord& r) {
                                    s.robot->joints[error.joint].name, percent(error.share), remedy(s, error.share)));
   }
   if (s.physics.adapts() && r.tally.coarse > kOftenCoarse * r.simulated) {
-    warnings.push_back(fmt::format(
-        "in {} of the time the shortest steps of the integrator did not reach the accuracy {}: this motion may well "
-        "be another at any other step; is something undamped, or driven without bounds?",
-        percent(r.tally.coarse / r.simulated), percent(s.physics.accuracy)));
+    warnings.push_back(
+        fmt::format("in {} of the time the shortest steps of the integrator did not reach the accuracy {}: the result depends "
+                    "on the steps and may not be reproducible at any; is something undamped, or driven without bounds?",
+                    percent(r.tally.coarse / r.simulated), percent(s.physics.accuracy)));
   }
   const double residual = std::abs(r.ledger.residual());
   const double drawn = std::abs(r.ledger.electrical);
-  if (s.actuator.entry != nullptr && residual > kGood * drawn && residual > kGood * std::abs(r.ledger.stored)) {
+  const double judged = std::max({drawn, std::abs(r.ledger.stored), s.robot->mass * s.physics.gravity.norm() * kHeight});
+  if (s.actuator.entry != nullptr && residual > kGood * judged) {
     warnings.push_back(fmt::format("the energy does not add up: {:.3g} J are missing of {:.3g} J drawn; take {}", residual,
                                    drawn, s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step"));
   }

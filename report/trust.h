@@ -23,7 +23,8 @@ std::string step_text(const Physics& physics);
 std::string steps_text(const Scenario& scenario, const RunRecord& record);
 
 /// One sentence each, with its remedy: torques that are off by more than 1 % (or the accuracy asked for, if that is more), an
-/// energy that does not add up to 1 % of what is drawn, joint-steps off their law, steps that never reached the accuracy.
+/// energy that does not add up to 1 % of what is drawn (or stored, or lifts the robot by 1 mm, if that is more), joint-steps
+/// off their law, steps that never reached the accuracy.
 std::vector<std::string> trust_warnings(const Scenario& scenario, const RunRecord& record);
 
 }  // namespace gaitlab

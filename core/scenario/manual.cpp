@@ -71,6 +71,14 @@ std::string scenario_page(const Catalog& catalog) {
          markdown_table(scenario_keys(catalog));
 }
 
+std::string default_step(const Engine& engine) {
+  const std::string given = number_text(engine.step) + " s";
+  if (engine.adaptive < 0) return given;
+  return fmt::format("auto (integrator {}); {} with another, and {} is the integrator where a step is given",
+                     engine.integrators[static_cast<std::size_t>(engine.adaptive)], given,
+                     engine.integrators[static_cast<std::size_t>(engine.fixed)]);
+}
+
 std::string plugins_page(const Catalog& catalog) {
   std::string page = "# CPGs, controllers, actuators and engines\n\n" + std::string(kRenewed) +
                      "The manuals of what is built in, as `gaitlab explain KIND NAME` prints them. One of your own:\n"
@@ -86,8 +94,8 @@ std::string plugins_page(const Catalog& catalog) {
   for (const std::string& name : catalog.engines()) {
     const Engine& engine = *catalog.engine(name);
     page +=
-        fmt::format("\n## engine `{}`\n\n{}\nIntegrators: {} (default {}). Default step: {} s.\n", name, fenced(engine.manual),
-                    fmt::join(engine.integrators, ", "), engine.integrators.front(), number_text(engine.step));
+        fmt::format("\n## engine `{}`\n\n{}\nIntegrators: {} (default {}). Default step: {}.\n", name, fenced(engine.manual),
+                    fmt::join(engine.integrators, ", "), engine.integrators.front(), default_step(engine));
   }
   return page;
 }

@@ -356,7 +356,7 @@ class ScenarioReader {
     }
     if (accuracy != nullptr) {
       problems_.add(accuracy->place,
-                    fmt::format("{} chooses no steps, so accuracy means nothing to it; leave it out, or take {}", chosen,
+                    fmt::format("{} takes steps as given, so accuracy means nothing to it; remove it, or use {}", chosen,
                                 fmt::join(able, " or ")));
     }
   }

@@ -105,7 +105,7 @@ void PhysicsFields::fields(Fields& f) {
     f.choice("integrator", physics.integrator, integrators.pointers, "Integrator of the engine.");
     physics.adaptive_step = step <= 0 && physics.adapts();
     if (step > 0 || !physics.adapts()) physics.step = step > 0 ? step : engine.step;
-    if (physics.adapts()) {
+    if (physics.adapts() || catalog != nullptr) {  // written out only where it means something
       f.number(
           "accuracy", physics.accuracy,
           {"", 1e-6, 0.5,
@@ -171,7 +171,7 @@ void PluginFields::fields(Fields& f) {
 }
 
 void TraceSettings::fields(Fields& f) {
-  f.number("period", period, {"s", 1e-9, 1e6, "Time between rows; a whole multiple of the step."});
+  f.number("period", period, {"s", 1e-9, 1e6, "Time between rows; a whole multiple of the step where one is given."});
   f.texts("columns", columns, "Names or patterns with * and ? of the columns to keep.");
 }
 
@@ -183,7 +183,8 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
       cpg{Kind::cpg, s.cpg, default_type("cpg"), catalog} {
   actuator.problems = controller.problems = cpg.problems = problems;
   controller.host = [&s](Fields& f) {
-    f.number("period", s.control_period, {"s", 1e-9, 1000, "Time between commands; a whole multiple of the step."});
+    f.number("period", s.control_period,
+             {"s", 1e-9, 1000, "Time between commands; a whole multiple of the step where one is given."});
   };
   cpg.host = [&s](Fields& f) {
     if (s.cpg_step <= 0) s.cpg_step = s.control_period;

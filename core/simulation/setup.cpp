@@ -96,6 +96,7 @@ void Simulation::cut_state() {
   }
   saved_.resize(state_.size());
   measured_.resize(lanes_.size());
+  ended_.reserve(lanes_.size());
   plant_->bind(plant_state_, plant_history_);
 }
 
@@ -139,13 +140,13 @@ void Simulation::watch_error() {
   if (physics.adapts()) {
     settings.accuracy *= StepError::kCoarser;
     for (LaneSettings& other : settings.others) other.accuracy *= StepError::kCoarser;
-    twin = {1, StepError::kSafety / (std::cbrt(StepError::kCoarser * StepError::kCoarser) - 1), 12, 6};
+    twin = {1, StepError::kSafety / (std::cbrt(StepError::kCoarser * StepError::kCoarser) - 1), 0.18, 6};
   } else {
     const double ratio = 1 << orders[static_cast<std::size_t>(physics.integrator)];
     // An explicit step of twice the length may be too long for the robot.
     const bool longer = control_every % 2 == 0 && !(standing_.rate > 0);
     const double factor = StepError::kSafety / (ratio - 1);
-    twin = longer ? StepTwin{2, factor, 12, 5} : StepTwin{-2, ratio * factor, 6, 20};
+    twin = longer ? StepTwin{2, factor, 0.18, 5} : StepTwin{-2, ratio * factor, 0.09, 20};
   }
   step_error_ = std::make_unique<StepError>(physics.engine->make(settings), twin, *actuator_, layout_, control_every, h_);
   step_error_->bind(step_error_state_);

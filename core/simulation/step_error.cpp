@@ -5,15 +5,25 @@
 
 namespace gaitlab {
 
+namespace {
+
+/// Steps of h in as many control periods as last for `seconds`.
+std::int64_t whole_periods(double seconds, double h, std::int64_t control_every) {
+  const double periods = seconds / (h * static_cast<double>(control_every));
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(periods - 1e-9))) * control_every;
+}
+
+}  // namespace
+
 StepError::StepError(std::unique_ptr<Plant> twin, const StepTwin& how, const Actuator& actuator, const StateLayout& layout,
                      std::int64_t control_every, double h)
     : twin_(std::move(twin)),
       how_(how),
       actuator_(actuator),
       layout_(layout),
-      window_(how.window * control_every),
+      window_(whole_periods(how.window, h, control_every)),
       cycle_(how.cycle * window_),
-      settle_(control_every),
+      settle_(whole_periods(kGrowth, h, control_every)),
       stride_(1) {
   for (std::int64_t n = 1; n <= control_every; ++n) {
     if (control_every % n == 0 && static_cast<double>(n) * h <= kApart * (1 + 1e-9)) stride_ = n;

@@ -12,7 +12,7 @@ namespace gaitlab {
 struct StepTwin {
   int steps = 0;      ///< of the first plant for one of the second: 2; 1: as many of both; -2: two of the second for one
   double factor = 0;  ///< error of the first over the difference of the two
-  int window = 0;     ///< control periods
+  double window = 0;  ///< s, rounded up to control periods
   int cycle = 0;      ///< a window every so many window lengths
 };
 
@@ -21,15 +21,16 @@ struct StepTwin {
 ///     error = factor |T_1 - T_2|
 /// with steps of twice the length and order p: factor kSafety / (2^p - 1); half the length: 2^p times that; with an accuracy
 /// made coarser by kCoarser: kSafety / (kCoarser^(2/3) - 1), the error going with about the 2/3rd power of the accuracy
-/// (measured, docs/equations.md, 7). The first control period of a window, in which the difference grows, does not count but at
+/// (measured, docs/equations.md, 7). The first kGrowth of a window, in which the difference grows, does not count but at
 /// the start of the run. Errors that build up over more than a window, and impacts outside of all windows, are not seen. Of
 /// motors whose torque does not depend on the speed, such as ideal torque sources, nothing is estimated: no step shows in it.
 /// All numbers that change lie in state(); nothing allocates after the constructor.
 class StepError {
  public:
-  static constexpr double kApart = 5e-3;  ///< s
-  static constexpr double kCoarser = 4;   ///< accuracy of the second plant over that of the first
-  static constexpr double kSafety = 1.4;  ///< events lower the order, and windows miss some
+  static constexpr double kApart = 5e-3;    ///< s
+  static constexpr double kGrowth = 15e-3;  ///< s, rounded up to control periods
+  static constexpr double kCoarser = 4;     ///< accuracy of the second plant over that of the first
+  static constexpr double kSafety = 1.4;    ///< events lower the order, and windows miss some
 
   StepError(std::unique_ptr<Plant> twin, const StepTwin& how, const Actuator& actuator, const StateLayout& layout,
             std::int64_t control_every, double h);
