@@ -140,7 +140,7 @@ void Simulation::watch_error() {
   if (physics.adapts()) {
     settings.accuracy *= StepError::kCoarser;
     for (LaneSettings& other : settings.others) other.accuracy *= StepError::kCoarser;
-    twin = {1, StepError::kSafety / (std::cbrt(StepError::kCoarser * StepError::kCoarser) - 1), 0.18, 6};
+    twin = {1, StepError::kSafety / (StepError::kCoarserError - 1), 0.18, 6};
   } else {
     const double ratio = 1 << orders[static_cast<std::size_t>(physics.integrator)];
     // An explicit step of twice the length may be too long for the robot.

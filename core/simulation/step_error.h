@@ -27,10 +27,11 @@ struct StepTwin {
 /// All numbers that change lie in state(); nothing allocates after the constructor.
 class StepError {
  public:
-  static constexpr double kApart = 5e-3;    ///< s
-  static constexpr double kGrowth = 15e-3;  ///< s, rounded up to control periods
-  static constexpr double kCoarser = 4;     ///< accuracy of the second plant over that of the first
-  static constexpr double kSafety = 1.4;    ///< events lower the order, and windows miss some
+  static constexpr double kApart = 5e-3;         ///< s
+  static constexpr double kGrowth = 15e-3;       ///< s, rounded up to control periods
+  static constexpr double kCoarser = 4;          ///< accuracy of the second plant over that of the first
+  static constexpr double kCoarserError = 2.52;  ///< kCoarser^(2/3): error of the second plant over that of the first
+  static constexpr double kSafety = 1.4;         ///< events lower the order, and windows miss some
 
   StepError(std::unique_ptr<Plant> twin, const StepTwin& how, const Actuator& actuator, const StateLayout& layout,
             std::int64_t control_every, double h);
