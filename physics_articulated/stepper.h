@@ -79,15 +79,15 @@ class Stepper {
   History layout;
 
  private:
-  static constexpr int kLevels = 5;    ///< lengths of an adaptive step: h to h / 16
-  static constexpr int kHalvings = 6;  ///< of a step whose search does not end
+  static constexpr std::size_t kLevels = 5;    ///< lengths of an adaptive step: h to h / 16
+  static constexpr std::size_t kHalvings = 6;  ///< of a step whose search does not end
   // What two orders may differ by, in units of the accuracy: chosen, with the base's speeds, as the least that brings the gaits
   // and limits of docs/validation.md within the accuracy.
   static constexpr double kSecondOrder = 1, kThirdOrder = 2;
   static constexpr double kBaseSpeed = 0.02, kBaseTurn = 0.2;  ///< m/s, rad/s: what the base's differences are relative to
   static constexpr double kFloor = 0.01;  ///< of the largest torque at rest: what the accuracy is relative to at least
 
-  static constexpr std::size_t kMostParts = 1 + 7 * ((1 << kLevels) - 1);
+  static constexpr std::size_t kMostParts = 1 + 7 * ((std::size_t{1} << kLevels) - 1);
 
   struct Level {
     std::vector<T> start, whole, quarters;
@@ -113,7 +113,7 @@ class Stepper {
   }
 
   /// One implicit step of the lanes `which`; parts are added.
-  void settle(std::span<T> x, In command, double h, const math::Mask<T>& which, int halvings = 0) {
+  void settle(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t halvings = 0) {
     if (halvings < kHalvings) std::copy(x.begin(), x.end(), halved_[halvings].begin());
     implicit.step(x, command, h, which);
     history_[layout.solves()] = history_[layout.solves()] + math::select(which, implicit.solves, T(0.0));
@@ -166,10 +166,13 @@ class Stepper {
   }
 
   /// A step of h of the lanes `which`. Level kLevels: second order, whatever its error.
-  void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, int level) {
+  void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t level) {
     using math::select;
     const bool fixed = level == kLevels;
-    auto& [start, whole, quarters] = levels_[fixed ? 0 : level];
+    Level& own = levels_[fixed ? 0 : level];
+    std::vector<T>& start = own.start;
+    std::vector<T>& whole = own.whole;
+    std::vector<T>& quarters = own.quarters;
     std::copy(x.begin(), x.end(), start.begin());
     std::copy(x.begin(), x.end(), whole.begin());
     const std::size_t first = used_;
