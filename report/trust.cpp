@@ -49,10 +49,10 @@ std::string percent(double share) { return fmt::format("{:.{}g} %", 100 * share,
 TorqueError torque_error(const RunRecord& r) {
   TorqueError worst;
   double largest = 0;
-  for (const JointFigures& joint : r.joints) largest = std::max(largest, joint.torque_peak);
+  for (const double peak : r.tally.torque_peak) largest = std::max(largest, peak);
   if (!r.tally.estimated || !(largest > 0)) return worst;
   for (std::size_t j = 0; j < r.joints.size(); ++j) {
-    const double share = r.tally.torque_error[j] / std::max(r.joints[j].torque_peak, kLeastPeak * largest);
+    const double share = r.tally.torque_error[j] / std::max(r.tally.torque_peak[j], kLeastPeak * largest);
     if (share > worst.share) worst = {true, share, j};
   }
   worst.estimated = worst.share > 0;  // else both took the same steps, which says nothing

@@ -7,8 +7,8 @@
 
 namespace gaitlab {
 
-/// Estimate (core/simulation/step_error.h) of how far the motor torques are off, RMS over the joint's peak, of the worst joint.
-/// A joint's peak counts as at least 2 % of the largest of all.
+/// Estimate (core/simulation/step_error.h) of how far the motor torques are off, RMS over the joint's largest, both at the
+/// moments of the estimate, of the worst joint. A joint's peak counts as at least 2 % of the largest of all.
 struct TorqueError {
   bool estimated = false;
   double share = 0;

@@ -51,6 +51,7 @@ struct StepTally {
   double coarse = 0;                 ///< s in which the shortest steps that an integrator takes did not reach the accuracy
   bool estimated = false;            ///< whether there is an estimate of the torque error yet (step_error.h)
   std::vector<double> torque_error;  ///< of each joint, RMS, N m
+  std::vector<double> torque_peak;   ///< of each joint, largest torque where that error is asked for, N m
 };
 
 /// What an engine is made from; everything outlives the plant. The base: what lane 0 has, and all there is for an engine of

@@ -72,7 +72,7 @@ PlantSettings Simulation::plant_settings() const {
 /// step counter | plant | its history | set points | commands | per lane: CPG states, controller states, ledger's sums.
 void Simulation::cut_state() {
   const std::size_t joints = layout_.joints * lanes_.size();
-  const std::size_t watch = 1 + lanes_.size() + layout_.size() + plant_->history() + joints;  // StepError
+  const std::size_t watch = StepError::size(layout_, plant_->history());
   std::size_t size = 1 + layout_.size() + plant_->history() + 2 * joints + watch;
   for (const auto& lane : lanes_) {
     size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states()) + Ledger::kSums;

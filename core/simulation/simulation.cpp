@@ -133,7 +133,10 @@ Sample& Simulation::take_sample(Lane& lane, bool whole) {
   plant_->tally(l, s.tally);
   if (step_error_) {
     s.tally.estimated = step_error_->any(l);
-    for (std::size_t j = 0; j < layout_.joints; ++j) s.tally.torque_error[j] = step_error_->rms(j, l);
+    for (std::size_t j = 0; j < layout_.joints; ++j) {
+      s.tally.torque_error[j] = step_error_->rms(j, l);
+      s.tally.torque_peak[j] = step_error_->peak(j, l);
+    }
   }
   s.ledger = Ledger::of(lane.ledger, energy(lane) - lane.energy_at_start);
   return s;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gaitlab {
 
@@ -31,14 +32,19 @@ StepError::StepError(std::unique_ptr<Plant> twin, const StepTwin& how, const Act
   for (auto* values : {&torque_, &twin_torque_, &slope_}) values->resize(layout.joints * layout.lanes);
 }
 
-std::size_t StepError::size() const { return 1 + layout_.lanes + layout_.size() + twin_->history() + torque_.size(); }
+std::size_t StepError::size(const StateLayout& layout, std::size_t history) {
+  return 1 + layout.lanes + layout.size() + history + 2 * layout.joints * layout.lanes;
+}
 
 void StepError::bind(Out numbers) {
-  numbers_ = numbers;
-  sloped_ = numbers.subspan(1, layout_.lanes);
-  state_ = numbers.subspan(1 + layout_.lanes, layout_.size());
-  history_ = numbers.subspan(1 + layout_.lanes + layout_.size(), twin_->history());
-  squares_ = numbers.last(torque_.size());
+  std::size_t at = 0;
+  const auto cut = [&](std::size_t size) { return numbers.subspan(std::exchange(at, at + size), size); };
+  count_ = cut(1);
+  sloped_ = cut(layout_.lanes);
+  state_ = cut(layout_.size());
+  history_ = cut(twin_->history());
+  squares_ = cut(torque_.size());
+  peaks_ = cut(torque_.size());
   twin_->bind(state_, history_);
 }
 
@@ -50,6 +56,12 @@ void StepError::begin(std::int64_t step, In state, In history) {
 
 void StepError::follow(std::int64_t step, In state, In command, double h) {
   const std::int64_t at = step % cycle_;
+  const auto speeds = [&](In of) { return of.subspan(layout_.speeds(), torque_.size()); };
+  const bool asked = (at + 1) % stride_ == 0;
+  if (asked) {
+    actuator_.effort(command, speeds(state), torque_, slope_);
+    for (std::size_t i = 0; i < torque_.size(); ++i) peaks_[i] = std::max(peaks_[i], std::abs(torque_[i]));
+  }
   if (at >= window_) return;
   if (how_.steps > 1) {
     if (at % how_.steps != how_.steps - 1) return;
@@ -59,20 +71,19 @@ void StepError::follow(std::int64_t step, In state, In command, double h) {
     if (how_.steps == 1) twin_->advance(command, h);
   }
   const bool grows = at < settle_ && step >= cycle_;  // from equal states; at the start they are equal in truth
-  if (grows || (at + 1) % stride_ != 0) return;
-  const auto speeds = [&](In of) { return of.subspan(layout_.speeds(), torque_.size()); };
-  actuator_.effort(command, speeds(state), torque_, slope_);
+  if (grows || !asked) return;
   actuator_.effort(command, speeds(state_), twin_torque_, slope_);
+  const double weight = step < cycle_ ? kStart : 1;
   for (std::size_t i = 0; i < torque_.size(); ++i) {
     const double apart = torque_[i] - twin_torque_[i];
-    squares_[i] += apart * apart;
+    squares_[i] += weight * apart * apart;
     if (slope_[i] != 0 || apart != 0) sloped_[i % layout_.lanes] = 1;
   }
-  numbers_[0] += 1;
+  count_[0] += weight;
 }
 
 double StepError::rms(std::size_t joint, std::size_t lane) const {
-  return any(lane) ? how_.factor * std::sqrt(squares_[joint * layout_.lanes + lane] / numbers_[0]) : 0;
+  return any(lane) ? how_.factor * std::sqrt(squares_[joint * layout_.lanes + lane] / count_[0]) : 0;
 }
 
 }  // namespace gaitlab
