@@ -41,7 +41,7 @@ void DcMotorActuator::Settings::fields(Fields& f) {
   f.per_joint("i_max", i_max, {"A", 0, 1e6, "Absolute rating: the current is cut to +- this."});
   f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1, "Of the rotor (J); acts on the joint as n^2 J."});
   const auto useless = [](double eta) { return !(eta > 0); };
-  if (efficiency_model == 1 &&
+  if (efficiency_model == EfficiencyModel::directional &&
       (useless(efficiency.common) || std::any_of(efficiency.each.begin(), efficiency.each.end(), useless)))
     f.problem("efficiency", "must be above 0 with efficiency_model: directional, which divides by it");
 }
@@ -50,7 +50,7 @@ DcMotorActuator::DcMotorActuator(const RobotInfo& robot, const std::vector<const
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     for (const Settings* s : lanes) {
       motors_.push_back({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], s->efficiency[j], s->u_max[j], s->i_max[j],
-                         s->efficiency_model == 1 ? s->turn_speed : 0.0});
+                         s->efficiency_model == EfficiencyModel::directional ? s->turn_speed : 0.0});
       limit_.push_back(s->u_max[j]);
       inertia_.push_back(s->gear[j] * s->gear[j] * s->rotor_inertia[j]);
     }

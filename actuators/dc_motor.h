@@ -7,9 +7,10 @@ namespace gaitlab {
 
 class DcMotorActuator final : public Actuator {
  public:
+  enum class EfficiencyModel { paper, directional };
   struct Settings {
     PerJoint R{4.3}, Kt{0.00395}, Ks{0.00395}, gear{594}, efficiency{0.7}, u_max{7.4}, i_max{1.2}, rotor_inertia{0};
-    int efficiency_model = 0;  // of kEfficiencyModels
+    EfficiencyModel efficiency_model = EfficiencyModel::paper;
     double turn_speed = 0.6;
     void fields(Fields& f);
   };

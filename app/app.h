@@ -1,5 +1,5 @@
-// The program: one function a subcommand, each returning the exit code (docs/conventions: 0 ok, 1 failed run, 2 bad input,
-// 3 gait infeasible, 4 regression).
+// The program: one function a subcommand, each returning the exit code (docs/conventions.md: 0 ok, 1 failed run, 2 bad input,
+// 4 regression).
 #pragma once
 #include <cstdint>
 #include <map>

@@ -18,12 +18,12 @@ int check(const ScenarioArguments& arguments) {
   const Scenario s = read(arguments, catalog);
   const Simulation simulation({&s, 1});  // checks the columns and the step, too
   const Robot& robot = *s.robot;
-  const auto contacts = contact_elements(robot, static_cast<ContactSet>(s.contact.on));
+  const auto contacts = contact_elements(robot, s.contact.on);
   fmt::print("{}: fine\n", s.name);
   fmt::print("  {} modules, {} bodies (moving as {}), {} degrees of freedom, {:.3f} kg\n", robot.modules.size(),
              robot.bodies.size(), robot.links.size(), robot.dof(s.base), robot.mass);
   const double rate = simulation.standing().rate;
-  fmt::print("  engine {} ({}), {}{}\n", s.physics.engine->name, s.physics.integrator_name(), step_text(s.physics),
+  fmt::print("  engine {} ({}), {}{}\n", s.physics.engine->name, s.physics.integrator->name, step_text(s.physics),
              rate > 0 ? fmt::format(": h lambda = {:.2f} standing (at most 1)", s.physics.step * rate) : "");
   const Vec3 start = start_state(s).position;
   fmt::print("  base frame at [{:.4g}, {:.4g}, {:.4g}] m at the start: {}\n", start.x(), start.y(), start.z(),

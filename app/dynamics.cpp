@@ -31,7 +31,7 @@ Acceleration forward(const Scenario& scenario, const DynamicsInput& input) {
   settings.base = scenario.base;
   settings.gravity = scenario.physics.gravity;
   settings.ground.kind = Ground::Kind::none;
-  settings.integrator = scenario.physics.integrator;
+  settings.integrator = scenario.physics.integrator->name;
   const std::unique_ptr<Plant> plant = scenario.physics.engine->make(settings);
   Acceleration acceleration;
   acceleration.joints.resize(input.tau.size());

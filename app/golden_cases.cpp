@@ -108,11 +108,10 @@ Scenario with_engine(const std::string& file, const Scenario& scenario, const st
                                  near.empty() ? fmt::format("there are: {}", fmt::join(catalog.engines(), ", "))
                                               : "did you mean '" + near + "'?"));
   }
-  const bool extrapolated = std::ranges::find(engine->integrators, "extrapolated") != engine->integrators.end();
-  const std::string& first_order = engine->integrators[static_cast<std::size_t>(engine->fixed)];
+  const bool extrapolated = engine->integrator("extrapolated") != nullptr;
   return read_scenario(file,
                        {"physics.engine=" + name, fmt::format("physics.step={}", step),
-                        "physics.integrator=" + (extrapolated ? "extrapolated" : first_order)},
+                        "physics.integrator=" + (extrapolated ? "extrapolated" : engine->fixed().name)},
                        catalog);
 }
 

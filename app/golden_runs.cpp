@@ -135,7 +135,7 @@ GoldenOrigin golden_origin(const Scenario& scenario) {
   const std::string build = build_id();
   // `VERSION (COMPILER; LIBRARIES)`
   const std::size_t from = std::min(build.find('('), build.size() - 1) + 1;
-  return {scenario.name,           engine.name, engine.integrators[static_cast<std::size_t>(scenario.physics.integrator)],
+  return {scenario.name,           engine.name, scenario.physics.integrator->name,
           scenario.physics.step,   build,       build.substr(from, build.find_first_of(";)", from) - from),
           hash(resolved(scenario))};
 }

@@ -82,8 +82,8 @@ int explain(const ManualArguments& arguments) {
   }
   if (kind == "engine") {
     const Engine& engine = *catalog.engine(name);
-    fmt::print("{}\n\nintegrators: {} (default {}); default step {}\n", engine.manual, fmt::join(engine.integrators, ", "),
-               engine.integrators.front(), default_step(engine));
+    fmt::print("{}\n\nintegrators: {} (default {}); default step {}\n", engine.manual,
+               fmt::join(engine.integrator_names(), ", "), engine.integrators.front().name, default_step(engine));
   }
   if (kind == "module" || kind == "robot") fmt::print("{}", read_text(shipped_files(kind).at(name)));
   return 0;

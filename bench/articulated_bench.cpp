@@ -44,14 +44,13 @@ void kernel(benchmark::State& state, const Scenario& s, std::size_t lanes) {
   }
   const std::vector<const Choice*> choices(lanes, &s.actuator);
   const std::unique_ptr<Actuator> motors = make_actuator(choices, info(*s.robot));
-  const LaneSettings own{s.robot, s.physics.gravity, s.ground,
-                         contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on)), s.contact.penalty};
+  const LaneSettings own{s.robot, s.physics.gravity, s.ground, contact_elements(*s.robot, s.contact.on), s.contact.penalty};
   PlantSettings settings;
   static_cast<LaneSettings&>(settings) = own;
   settings.others.assign(lanes - 1, own);
   settings.base = s.base;
   settings.actuator = motors.get();
-  settings.integrator = s.physics.engine->fixed;
+  settings.integrator = s.physics.engine->fixed().name;
   const std::unique_ptr<Plant> plant = s.physics.engine->make(settings);
   const StateLayout layout{s.robot->joints.size(), lanes};
   std::vector<double> x(layout.size());

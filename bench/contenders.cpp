@@ -13,7 +13,7 @@ std::vector<std::string> sets(const std::string& engine, const std::string& inte
 }
 
 bool has(const Engine* engine, const std::string& integrator) {
-  return engine != nullptr && std::ranges::find(engine->integrators, integrator) != engine->integrators.end();
+  return engine != nullptr && engine->integrator(integrator) != nullptr;
 }
 
 // Steps divide the trace's 5 ms and the controller's 15 ms.

@@ -25,7 +25,7 @@ template <class Model>
 void cpg(benchmark::State& state) {
   const auto joints = static_cast<std::size_t>(state.range(0));
   typename Model::Settings settings;
-  settings.rule = static_cast<int>(state.range(1));
+  settings.rule = static_cast<CouplingRule>(state.range(1));
   const Model model(chain(joints), settings);
   std::vector<double> x(model.states()), rate(x.size()), setpoint(joints);
   model.start(x);

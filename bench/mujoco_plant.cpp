@@ -113,11 +113,19 @@ Model load(const std::string& mjcf) {
 
 enum class SetUp { armature, euler, implicit, implicitfast, dcmotor };
 
+const std::map<std::string, SetUp> kSetUps{{"armature", SetUp::armature},
+                                           {"euler", SetUp::euler},
+                                           {"implicit", SetUp::implicit},
+                                           {"implicitfast", SetUp::implicitfast},
+                                           {"dcmotor", SetUp::dcmotor}};
+
+SetUp set_up(const std::string& name) { return name.empty() ? SetUp::armature : kSetUps.at(name); }
+
 class MujocoPlant final : public Plant {
  public:
   explicit MujocoPlant(const PlantSettings& s)
       : settings_(s),
-        set_up_(static_cast<SetUp>(s.integrator)),
+        set_up_(set_up(s.integrator)),
         joints_(s.robot->joints.size()),
         layout_{joints_, 1},
         model_(make_model(s)),
@@ -195,7 +203,7 @@ class MujocoPlant final : public Plant {
   static Model make_model(const PlantSettings& s) {
     if (s.base != Base::floating) throw RunError("engine mujoco of the benchmarks has floating bases only");
     std::string mjcf = lean(to_mjcf(bare(s)));
-    if (static_cast<SetUp>(s.integrator) == SetUp::dcmotor) mjcf.insert(mjcf.rfind("</mujoco>"), dc_motors(s));
+    if (set_up(s.integrator) == SetUp::dcmotor) mjcf.insert(mjcf.rfind("</mujoco>"), dc_motors(s));
     return load(mjcf);
   }
 
@@ -303,12 +311,12 @@ class MujocoPlant final : public Plant {
 }  // namespace
 
 void register_mujoco(Catalog& catalog) {
-  std::vector<std::string> set_ups{"armature", "euler", "implicit"};
+  std::vector<Integrator> set_ups{{"armature"}, {"euler"}, {"implicit"}};
 #if mjVERSION_HEADER >= 300
-  set_ups.emplace_back("implicitfast");
+  set_ups.push_back({"implicitfast"});
 #endif
 #if mjVERSION_HEADER >= 3007000  // 3.7; until 3.4 the number was 340 and the like
-  set_ups.emplace_back("dcmotor");
+  set_ups.push_back({"dcmotor"});
 #endif
   catalog.add(Engine{
       "mujoco", "MuJoCo, for comparison.", set_ups, 1e-3, {1}, true, [](const PlantSettings& s) -> std::unique_ptr<Plant> {

@@ -6,16 +6,17 @@ namespace gaitlab {
 
 class Pid final : public Controller {
  public:
+  enum class Unit { volt, newton_metre };  ///< of the command
   struct Settings {
     PerJoint Kp{100}, Ki{0}, Kd{0.6}, N{10};
     bool anti_windup = true;
-    int unit = 0;
+    Unit unit = Unit::volt;
     void fields(Fields& f);
   };
   static const char* const kManual;
 
   Pid(const RobotInfo& robot, Settings settings) : joints_(robot.joints.size()), s_(std::move(settings)) {}
-  [[nodiscard]] std::string_view command_unit() const override { return s_.unit == 0 ? "V" : "N m"; }
+  [[nodiscard]] std::string_view command_unit() const override { return s_.unit == Unit::volt ? "V" : "N m"; }
   /// Whether it has run, then I, D, e and u of the last tick for every joint.
   [[nodiscard]] std::size_t states() const override { return 1 + 4 * joints_; }
   void start(Out x) const override;

@@ -144,7 +144,7 @@ Keyframes::Keyframes(const RobotInfo& robot, const Settings& settings)
   }
   if (repeat_) check_closed(robot);
   curvature_.assign(angle_.size(), 0.0);
-  if (settings.model.interpolation == 0) curve();
+  if (settings.model.interpolation == Interpolation::spline) curve();
 }
 
 void Keyframes::check_closed(const RobotInfo& robot) {

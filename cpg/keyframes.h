@@ -6,6 +6,7 @@ namespace gaitlab {
 
 class Keyframes final : public Cpg {
  public:
+  enum class Interpolation { spline, linear };
   struct Frame {
     double time = 0;
     PerJoint angles;
@@ -13,7 +14,7 @@ class Keyframes final : public Cpg {
   };
   struct Model {
     std::vector<Frame> frames{{0, {}}, {1, {}}};
-    int interpolation = 0;  ///< spline, linear
+    Interpolation interpolation = Interpolation::spline;
     bool repeat = true;
     double ramp = 0;
     void fields(Fields& f);

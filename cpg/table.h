@@ -10,7 +10,7 @@ class Table final : public Cpg {
  public:
   struct Model {
     std::string file = "time\n0\n1\n";
-    int interpolation = 0;  ///< spline, linear
+    Keyframes::Interpolation interpolation = Keyframes::Interpolation::spline;
     bool repeat = true;
     double ramp = 0;
     void fields(Fields& f);

@@ -64,7 +64,7 @@ Tripod::Tripod(const RobotInfo& robot, const Settings& settings) : joints_(robot
     const bool other = (at + (leg.left ? 1 : 0)) % 2 == 1;
     const double from_rear = static_cast<double>(left - 1 - at);
     const double wave = (leg.left ? 0.5 : 0.0) - from_rear * (1 - s_.model.duty_factor);
-    steps_.push_back({leg, s_.model.order == 0 ? (other ? 0.5 : 0.0) : wave});
+    steps_.push_back({leg, s_.model.order == Order::alternate ? (other ? 0.5 : 0.0) : wave});
   }
 }
 

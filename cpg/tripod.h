@@ -7,9 +7,10 @@ namespace gaitlab {
 
 class Tripod final : public Cpg {
  public:
+  enum class Order { alternate, wave };
   struct Model {
     double tilt = 0.4, duty_factor = 0.5, ramp = 1;
-    int order = 0;
+    Order order = Order::alternate;
     bool reverse = false;
     void fields(Fields& f);
   };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/model/principal_axes.h"
+#include "core/scenario/value.h"
 #include "core/simulation/start.h"
 #include "interchange/robot_xml.h"
 
@@ -42,7 +43,7 @@ class Mjcf {
     Xml& world = add(root, "worldbody");
     write_ground(world);
     elements_.resize(robot_.bodies.size());
-    for (ContactElement& e : contact_elements(robot_, static_cast<ContactSet>(s_.contact.on))) {
+    for (ContactElement& e : contact_elements(robot_, s_.contact.on)) {
       elements_[e.body].push_back(std::move(e));
     }
     std::vector<Xml*> bodies(robot_.bodies.size());
@@ -75,7 +76,7 @@ class Mjcf {
     set(compiler, "angle", "radian");
     set(compiler, "inertiafromgeom", "false");
     Xml& option = add(root, "option");
-    set(option, "timestep", interchange::text({s_.physics.step}));
+    set(option, "timestep", interchange::text({step()}));
     set(option, "gravity", interchange::text(s_.physics.gravity));
     set(option, "integrator", "RK4");
     Xml& drawn = add(add(root, "default"), "geom");
@@ -141,10 +142,16 @@ class Mjcf {
     principal_axes(t.inertia, moments);
     return t.mass < kMassless || moments.minCoeff() < kMassless;
   }
-  /// Two programs' methods of order 1 differ by their errors: RK4 stands for both of ours.
+  /// Where the integrator divides its steps, MuJoCo gets one that is short enough for its own.
+  [[nodiscard]] double step() const { return s_.physics.adapts() ? s_.physics.engine->step : s_.physics.step; }
+  /// Methods of two programs differ by their errors: RK4, whose error is small, stands for any of ours.
   std::string method() const {
-    return s_.physics.integrator == 0 ? " Integrator: semi_implicit, of order 1; RK4 at the same step stands here, of order 4."
-                                      : "";
+    const Integrator& own = *s_.physics.integrator;
+    if (own.name == "rk4") return "";
+    const std::string order =
+        own.adapts ? fmt::format("accuracy {}", number_text(s_.physics.accuracy)) : fmt::format("of order {}", own.order);
+    return fmt::format(" Integrator: {}, {}; RK4 at {} stands here, of order 4.", own.name, order,
+                       own.adapts ? fmt::format("{} s", number_text(step())) : "the same step");
   }
   std::string massless() const {
     std::string names;

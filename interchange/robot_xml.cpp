@@ -71,7 +71,7 @@ std::vector<MotorLimits> motor_limits(const Scenario& scenario) {
 
 std::string left_out(const Scenario& s) {
   std::string out;
-  if (s.ground.kind != Ground::Kind::none && s.contact.on != static_cast<int>(ContactSet::none)) {
+  if (s.ground.kind != Ground::Kind::none && s.contact.on != ContactSet::none) {
     out += s.contact.solver()
                ? fmt::format(" Contact: Bullet's own solver, friction {}, on the contact elements.",
                              number_text(s.ground.friction))

@@ -42,7 +42,7 @@ class Urdf {
                 text(start.velocity), text(start.angular_velocity), text(start.q), text(start.qd), text({kPointRadius}),
                 text({kUnlimited})));
     if (s_.base != Base::floating) write_world(root, {start.orientation.toRotationMatrix(), start.position});
-    const std::vector<ContactElement> contacts = contact_elements(robot_, static_cast<ContactSet>(s_.contact.on));
+    const std::vector<ContactElement> contacts = contact_elements(robot_, s_.contact.on);
     for (const std::size_t b : tree_.order) {
       write_link(root, b, contacts);
       if (tree_.attachments[b].kind != Attachment::Kind::base) write_joint(root, b);

@@ -39,12 +39,33 @@ std::vector<std::size_t> widths() {
   return all;
 }
 
+/// What the engine offers; the first is its default.
+struct Offer {
+  articulated::Method method;
+  const char* name;
+  int order;  ///< 0: it divides its steps
+};
+constexpr std::array kOffers{
+    Offer{articulated::Method::adaptive, "adaptive", 0}, Offer{articulated::Method::implicit, "implicit", 1},
+    Offer{articulated::Method::extrapolated, "extrapolated", 2}, Offer{articulated::Method::rk4, "rk4", 4}};
+
+std::vector<Integrator> integrators() {
+  std::vector<Integrator> all;
+  for (const Offer& one : kOffers) all.push_back({one.name, one.order, one.order == 0});
+  return all;
+}
+
+articulated::Method method_of(const std::string& name) {
+  const auto found = std::find_if(kOffers.begin(), kOffers.end(), [&](const Offer& one) { return one.name == name; });
+  return (found == kOffers.end() ? kOffers.front() : *found).method;
+}
+
 class ArticulatedPlant final : public Plant {
  public:
   explicit ArticulatedPlant(const PlantSettings& s)
       : settings_(s),
         layout_{s.robot->joints.size(), 1 + s.others.size()},
-        explicit_(s.integrator == articulated::kRk4),
+        explicit_(method_of(s.integrator) == articulated::Method::rk4),
         x_(layout_.size() / layout_.lanes),
         state_{.q = std::vector<double>(layout_.joints), .qd = std::vector<double>(layout_.joints)} {
     std::vector<Rollout> rollouts;
@@ -57,7 +78,7 @@ class ArticulatedPlant final : public Plant {
     if (width == kWidths.end() || !width->runs()) {
       throw std::invalid_argument("no kernel for so many rollouts side by side on this processor");
     }
-    kernel_ = width->make({rollouts, s.actuator, static_cast<articulated::Method>(s.integrator), articulated::query});
+    kernel_ = width->make({rollouts, s.actuator, method_of(s.integrator), articulated::query});
   }
 
   [[nodiscard]] std::size_t lanes() const override { return layout_.lanes; }
@@ -129,15 +150,9 @@ void register_articulated(Catalog& catalog) {
                      "    extrapolated  order 2, steps as given: two half steps and a whole one.\n"
                      "    rk4           order 4, explicit; its step must be at most 1 / lambda (docs/equations.md, 7).\n\n"
                      "The summary tells the error that the steps leave in the torques, by an estimate.",
-                     {"adaptive", "implicit", "extrapolated", "rk4"},
-                     5e-4,
-                     widths(),
-                     true,
+                     integrators(), 5e-4, widths(), true,
                      [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<ArticulatedPlant>(s); },
-                     0,
-                     articulated::kAdaptive,
-                     articulated::kImplicit,
-                     {0, 1, 2, 4}});
+                     0});
 }
 
 }  // namespace gaitlab

@@ -46,7 +46,7 @@ class Kernel {
 struct KernelSettings {
   std::span<const Rollout> rollouts;
   const Actuator* actuator = nullptr;
-  Method method = kAdaptive;
+  Method method = Method::adaptive;
   Touch<double> (*query)(const Ground&, const Vec<double>& centre, double radius) = nullptr;
 };
 

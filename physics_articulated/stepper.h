@@ -6,8 +6,7 @@
 
 namespace gaitlab::articulated {
 
-/// By their order in the engine's list of integrators.
-enum Method { kAdaptive, kImplicit, kExtrapolated, kRk4 };
+enum class Method { adaptive, implicit, extrapolated, rk4 };
 
 /// What a step left behind at one moment within it, and how it counts.
 template <class T>
@@ -50,21 +49,21 @@ class Stepper {
     for (auto* state : {&sum_, &stage_, &rate_}) *state = zero;
     levels_.assign(kLevels, {zero, zero, zero});
     halved_.assign(kHalvings, zero);
-    parts_.assign(method == kAdaptive ? kMostParts : 4, Part<T>(joints_));
+    parts_.assign(method == Method::adaptive ? kMostParts : 4, Part<T>(joints_));
   }
 
   /// Held commands: joint * lanes + lane.
   void step(std::span<T> x, In command, double h) {
     used_ = 0;
     contact = friction = stops = T(0.0);
-    if (method_ == kRk4) {
+    if (method_ == Method::rk4) {
       runge_kutta(x, command, h);
     } else {
       take_start(x, command);
       const math::Mask<T> all = T(0.0) <= T(0.0);
-      if (method_ == kImplicit) single(x, command, h, all);
-      if (method_ == kExtrapolated) adapt(x, command, h, all, kLevels);
-      if (method_ == kAdaptive) adapt(x, command, h, all, 0);
+      if (method_ == Method::implicit) single(x, command, h, all);
+      if (method_ == Method::extrapolated) adapt(x, command, h, all, kLevels);
+      if (method_ == Method::adaptive) adapt(x, command, h, all, 0);
     }
     close();
   }

@@ -17,7 +17,8 @@ namespace gaitlab {
 namespace {
 
 constexpr int kMonitorIterations = 20;  // the rate is right to second order in the vector's error: 20 give 1 % and better
-constexpr int kStartIterations = 200;   // once, before the run
+constexpr const char* kRk4 = "rk4";
+constexpr int kStartIterations = 200;  // once, before the run
 
 class BulletPlant final : public Plant, private InverseMass {
  public:
@@ -27,7 +28,7 @@ class BulletPlant final : public Plant, private InverseMass {
         layout_{robot_.joints.size(), 1},
         body_(robot_, s.base, s.contacts),
         kinematics_(robot_),
-        integrator_(s.integrator == 0 ? ExplicitIntegrator::semi_implicit : ExplicitIntegrator::rk4, robot_.joints.size()),
+        integrator_(s.integrator == kRk4 ? ExplicitIntegrator::rk4 : ExplicitIntegrator::semi_implicit, robot_.joints.size()),
         monitor_(robot_) {
     const std::size_t n = robot_.joints.size();
     state_.q.resize(n);
@@ -204,7 +205,7 @@ void register_bullet(Catalog& catalog) {
       "penalty law for torques. It has no snapshots, goldens, reaction columns, rotor inertia and heightfield.\n\n"
       "    contact: {law: bullet, on: all}\n"
       "    ground: {type: boxes, boxes: [{center: [0.5, 0, 0.05], size: [0.1, 0.1, 0.1], mass: 0.2}]}",
-      {"semi_implicit", "rk4"},
+      {{"semi_implicit", 1}, {kRk4, 4}},
       2.5e-5,
       {1},
       true,
@@ -212,10 +213,7 @@ void register_bullet(Catalog& catalog) {
         if (s.solver) return make_solver_plant(s);
         return std::make_unique<BulletPlant>(s);
       },
-      1e-3,
-      -1,
-      0,
-      {1, 4}});
+      1e-3});
 }
 
 std::string bullet_version() {

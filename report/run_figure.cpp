@@ -23,7 +23,7 @@ View view_at(const Scenario& scenario, const RunRecord& r, std::size_t tick, std
   Kinematics k(robot);
   k.update(robot, r.state(robot, tick));
   View view{static_cast<double>(tick) * scenario.trace.period, side_view(robot, k)};
-  for (const ContactElement& element : contact_elements(robot, static_cast<ContactSet>(scenario.contact.on))) {
+  for (const ContactElement& element : contact_elements(robot, scenario.contact.on)) {
     const Ground::Touch touch = scenario.ground.query(k.point(element.link, element.centre), element.radius);
     if (scenario.ground.kind != Ground::Kind::none && touch.penetration > 0) {
       view.contacts.push_back({touch.point.x(), touch.point.z()});
@@ -71,7 +71,7 @@ constexpr double kAboutY = 0.9;      // least |y| of an axis
 constexpr double kSamePlace = 1e-3;  // m
 
 std::vector<Leg> legs_that_walk(const Scenario& s) {
-  if (s.ground.kind == Ground::Kind::none || static_cast<ContactSet>(s.contact.on) == ContactSet::none) return {};
+  if (s.ground.kind == Ground::Kind::none || s.contact.on == ContactSet::none) return {};
   std::vector<Leg> legs = find_legs(info(*s.robot));
   if (legs.size() < 4) legs.clear();
   return legs;

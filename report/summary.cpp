@@ -118,7 +118,7 @@ Summary summarise(const Scenario& scenario, const RunRecord& r, double wall_time
   s.limit_cycle = cycle(scenario, r, s);
   s.stability_max = scenario.physics.step * r.worst.rate;
   s.stability_share = r.ticks > 0 ? static_cast<double>(r.ticks_above_1) / static_cast<double>(r.ticks) : 0;
-  const auto contacts = contact_elements(*scenario.robot, static_cast<ContactSet>(scenario.contact.on));
+  const auto contacts = contact_elements(*scenario.robot, scenario.contact.on);
   if (r.worst.rate > 0) s.stability_source = source_of(r.worst, *scenario.robot, contacts);
   for (std::size_t j = 1; j < r.joints.size(); ++j) {
     if (r.joints[j].torque_peak > r.joints[s.most_loaded].torque_peak) s.most_loaded = j;
@@ -131,8 +131,7 @@ std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord&
   const Robot& robot = *scenario.robot;
   nlohmann::ordered_json names = nlohmann::ordered_json::array();
   nlohmann::ordered_json contacts = nlohmann::ordered_json::array();
-  for (const ContactElement& c : contact_elements(robot, static_cast<ContactSet>(scenario.contact.on)))
-    contacts.push_back(c.name);
+  for (const ContactElement& c : contact_elements(robot, scenario.contact.on)) contacts.push_back(c.name);
   nlohmann::ordered_json per_joint = nlohmann::ordered_json::object();
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const JointFigures& f = r.joints[j];
@@ -152,7 +151,7 @@ std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord&
       {"engine", scenario.physics.engine->name},
       {"step", scenario.physics.step},
       {"step_setting", scenario.physics.adaptive_step ? Json("auto") : Json(scenario.physics.step)},
-      {"integrator", scenario.physics.integrator_name()},
+      {"integrator", scenario.physics.integrator->name},
       {"accuracy", scenario.physics.adapts() ? Json(scenario.physics.accuracy) : Json()},
       {"solves", r.tally.solves},
       {"off_law", r.tally.off},
@@ -203,7 +202,7 @@ std::string to_text(const Summary& s, const Scenario& scenario, const RunRecord&
   const auto line = [](const char* what, const std::string& text) { return fmt::format("  {:<13} {}\n", what, text); };
   std::string text = fmt::format("{}: {:.6g} s simulated in {:.2f} s ({:.2g} times real time)\n", scenario.name, s.simulated,
                                  s.wall_time, s.wall_time > 0 ? s.simulated / s.wall_time : 0);
-  text += line("engine", fmt::format("{} ({})", scenario.physics.engine->name, scenario.physics.integrator_name()));
+  text += line("engine", fmt::format("{} ({})", scenario.physics.engine->name, scenario.physics.integrator->name));
   text += line("steps", steps_text(scenario, r));
   text += line("robot", fmt::format("{} modules, {} bodies, {} joints, {} degrees of freedom, {:.3f} kg", robot.modules.size(),
                                     robot.bodies.size(), robot.joints.size(), robot.dof(scenario.base), robot.mass));
@@ -272,7 +271,7 @@ std::string start_warning(const Scenario& scenario) {
                       number_text(start.position.z()), number_text(start.position.x()), number_text(start.position.y()));
   }
   return deep + fmt::format("only the elements of contact.on: {} touch it; is it upside down?",
-                            scenario.contact.on == static_cast<int>(ContactSet::feet) ? "feet" : "none");
+                            scenario.contact.on == ContactSet::feet ? "feet" : "none");
 }
 
 std::string fall_warning(const Scenario& scenario, const RunRecord& r) {
@@ -291,7 +290,7 @@ std::string fall_warning(const Scenario& scenario, const RunRecord& r) {
 
 std::string stability_warning(const Summary& s, const Scenario& scenario, const RunRecord& r) {
   if (!(s.stability_share > 0.01)) return "";
-  const auto contacts = contact_elements(*scenario.robot, static_cast<ContactSet>(scenario.contact.on));
+  const auto contacts = contact_elements(*scenario.robot, scenario.contact.on);
   return fmt::format("in {} of the control ticks {}", percent(s.stability_share),
                      step_advice(scenario, contacts, r.worst, fmt::format("at t = {:.2f} s", r.worst_time)));
 }

@@ -32,12 +32,11 @@ std::string remedy(const Scenario& s, double share) {
   if (physics.adapts()) {
     return fmt::format("physics.accuracy: {:.1g}", std::max(one_digit(physics.accuracy * ratio), kLeastAccuracy));
   }
-  const int order = std::max(1, physics.engine->orders[static_cast<std::size_t>(physics.integrator)]);
+  const int order = std::max(1, physics.integrator->order);
   const double step = usable_step(s, physics.step * std::pow(ratio, 1.0 / order));
   std::string text = step > 0 ? fmt::format("physics.step: {:.4g}", step) : "a smaller physics.step";
-  if (physics.engine->adaptive >= 0) {
-    text += fmt::format(", or physics.integrator: {} without a step",
-                        physics.engine->integrators[static_cast<std::size_t>(physics.engine->adaptive)]);
+  if (const Integrator* adaptive = physics.engine->adaptive(); adaptive != nullptr) {
+    text += fmt::format(", or physics.integrator: {} without a step", adaptive->name);
   }
   return text;
 }

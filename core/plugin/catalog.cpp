@@ -108,6 +108,24 @@ const Engine* Catalog::engine(const std::string& name) const {
   return nullptr;
 }
 
+const Integrator* Engine::integrator(std::string_view wanted) const {
+  const auto found = std::ranges::find(integrators, wanted, &Integrator::name);
+  return found == integrators.end() ? nullptr : &*found;
+}
+
+const Integrator* Engine::adaptive() const {
+  const auto found = std::ranges::find(integrators, true, &Integrator::adapts);
+  return found == integrators.end() ? nullptr : &*found;
+}
+
+const Integrator& Engine::fixed() const { return *std::ranges::find(integrators, false, &Integrator::adapts); }
+
+std::vector<std::string> Engine::integrator_names() const {
+  std::vector<std::string> names;
+  for (const Integrator& one : integrators) names.push_back(one.name);
+  return names;
+}
+
 std::vector<std::string> Catalog::names(Kind kind) const {
   std::vector<std::string> names;
   for (const Registered& known : entries_) {

@@ -13,18 +13,28 @@ namespace gaitlab {
 class Plant;
 struct PlantSettings;
 
+/// A method of time integration.
+struct Integrator {
+  std::string name;
+  int order = 0;        ///< of its error in the step; 0: unknown, or the method chooses its steps
+  bool adapts = false;  ///< divides its steps as physics.accuracy asks
+};
+
 /// A physics engine: what the scenario may ask of it and how to make it.
 struct Engine {
   std::string name, manual;
-  std::vector<std::string> integrators;  ///< the first is the default; where a step is given, `fixed`
-  double step = 0;                       ///< default of those that take steps as given, s
-  std::vector<std::size_t> lanes{1};     ///< how many rollouts it runs side by side, ascending
-  bool rotor_inertia = false;            ///< can add a joint's reflected rotor inertia
+  std::vector<Integrator> integrators;  ///< the first is the default; where a step is given, fixed()
+  double step = 0;                      ///< default of those that take steps as given, s
+  std::vector<std::size_t> lanes{1};    ///< how many rollouts it runs side by side, ascending
+  bool rotor_inertia = false;           ///< can add a joint's reflected rotor inertia
   std::unique_ptr<Plant> (*make)(const PlantSettings&) = nullptr;
-  double solver_step = 0;     ///< default with contact.law: bullet, s; 0: the engine has no such law
-  int adaptive = -1;          ///< the integrator that chooses its steps, whose default is step: auto; -1: none does
-  int fixed = 0;              ///< the default integrator where a step is given
-  std::vector<int> orders{};  ///< of the integrators; 0: adaptive. Empty: no error is estimated
+  double solver_step = 0;  ///< default with contact.law: bullet, s; 0: the engine has no such law
+
+  [[nodiscard]] const Integrator* integrator(std::string_view name) const;  ///< nullptr: unknown
+  [[nodiscard]] const Integrator* adaptive()
+      const;                                      ///< the one that chooses its steps, whose default is step: auto; or nullptr
+  [[nodiscard]] const Integrator& fixed() const;  ///< the default where a step is given: the first that takes it
+  [[nodiscard]] std::vector<std::string> integrator_names() const;
 };
 
 inline constexpr std::string_view kBuiltIn = "built in";  ///< an origin

@@ -1,11 +1,14 @@
 // The list of a plugin's settings: one walk over a Settings struct serves reading, the resolved scenario, range errors,
 // `gaitlab explain` and the JSON schema. Standard library only.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace gaitlab {
@@ -36,77 +39,172 @@ struct Named {
   bool operator==(const Named&) const = default;
 };
 
+/// A map whose keys the user chooses: texts alone, or numbers, too.
 enum class NamedValues { texts, texts_or_numbers };
 
+class Fields;
+
+/// What a field may be: a reference to the value, and what limits it. Keys, names and sentences are string literals or outlive
+/// the visit, because they are kept by address.
+namespace field {
+struct Number {
+  double& value;
+  Spec spec;
+};
+/// A number, or `word` instead of one: then `value` is 0.
+struct NumberOr {
+  double& value;
+  const char* word;
+  Spec spec;
+};
+struct Integer {
+  std::int64_t& value;
+  Spec spec;
+};
+struct Flag {
+  bool& value;
+};
+struct Text {
+  std::string& value;
+};
+/// A text that may stand in a file of its own: in YAML the file's path (relative to the scenario), or the text itself, which
+/// then has several lines. `value` is always the text; the resolved scenario holds it in full.
+struct File {
+  std::string& value;
+};
+struct OneOf {
+  std::string& value;
+  std::span<const char* const> names;
+};
+struct EachJoint {
+  PerJoint& value;
+  Spec spec;
+};
+/// A joint, by name or number in the file, by number here.
+struct Joint {
+  std::int64_t& value;
+};
+/// A list of exactly `value.size()` numbers.
+struct Vector {
+  std::span<double> value;
+  Spec spec;
+};
+/// A list of numbers of any length.
+struct Numbers {
+  std::vector<double>& value;
+  Spec spec;
+};
+/// A list of rows, each a list of as many numbers as the first.
+struct Rows {
+  std::vector<std::vector<double>>& value;
+  Spec spec;
+};
+struct Texts {
+  std::vector<std::string>& value;
+};
+/// A map whose keys the user chooses (a letter, then letters, digits and _), in the order of the file. One that is given
+/// takes the place of the whole default. Empty texts are refused.
+struct Map {
+  std::vector<Named>& value;
+  NamedValues kind;
+};
+/// A list of structs, each with `void fields(Fields&)`.
+struct List {
+  void* self;
+  void (*resize)(void* self, std::size_t size);
+  std::size_t (*size)(void* self);
+  void (*visit)(void* self, std::size_t index, Fields& fields);
+};
+/// Either one of `names` (then the list is empty) or a list of structs (then `rule` is empty).
+struct RuleOrList {
+  std::string& rule;
+  std::span<const char* const> names;
+  List list;
+};
+/// A nested map, a struct with `void fields(Fields&)`.
+struct Group {
+  void* self;
+  void (*visit)(void* self, Fields& fields);
+};
+using Value = std::variant<Number, NumberOr, Integer, Flag, Text, File, OneOf, EachJoint, Joint, Vector, Numbers, Rows, Texts,
+                           Map, List, RuleOrList, Group>;
+}  // namespace field
+
+struct Field {
+  const char* key;
+  const char* about;  ///< one sentence
+  field::Value value;
+};
+
 /// Visits the fields of a Settings struct in order. A Settings struct is default-constructible, its initial values are the
-/// defaults, and it has `void fields(Fields&)`. Keys and texts must be string literals (they are kept by address).
+/// defaults, and it has `void fields(Fields&)`. Whoever reads, writes or lists settings overrides visit and, where it reports
+/// problems, problem_at.
 class Fields {
  public:
-  virtual void number(const char* key, double& value, Spec spec) = 0;
-  /// A number, or `word` instead of one: then `value` is 0.
-  virtual void number_or(const char* key, double& value, const char* /*word*/, Spec spec) { number(key, value, spec); }
-  virtual void integer(const char* key, std::int64_t& value, Spec spec) = 0;
-  virtual void flag(const char* key, bool& value, const char* about) = 0;
-  virtual void text(const char* key, std::string& value, const char* about) = 0;
-  /// A text that may stand in a file of its own: in YAML the file's path (relative to the scenario), or the text itself, which
-  /// then has several lines. `value` is always the text; the resolved scenario holds it in full.
-  virtual void file(const char* key, std::string& value, const char* about) = 0;
-  /// `value` is the index of the chosen name.
-  virtual void choice(const char* key, int& value, std::span<const char* const> names, const char* about) = 0;
-  virtual void per_joint(const char* key, PerJoint& value, Spec spec) = 0;
-  /// A joint, by name or number in the file, by number here.
-  virtual void joint(const char* key, std::int64_t& value, const char* about) = 0;
-  /// A list of exactly `value.size()` numbers.
-  virtual void vector(const char* key, std::span<double> value, Spec spec) = 0;
-  /// A list of numbers of any length.
-  virtual void numbers(const char* key, std::vector<double>& value, Spec spec) = 0;
-  /// A list of rows, each a list of as many numbers as the first.
-  virtual void rows(const char* key, std::vector<std::vector<double>>& value, Spec spec) = 0;
-  virtual void texts(const char* key, std::vector<std::string>& value, const char* about) = 0;
-  /// A map whose keys the user chooses (a letter, then letters, digits and _), in the order of the file. One that is given
-  /// takes the place of the whole default. Empty texts are refused.
-  virtual void named(const char* key, std::vector<Named>& values, NamedValues kind, const char* about) = 0;
-  /// A check across fields failed: reported at the place of `key`.
-  virtual void problem(const char* key, std::string_view what) = 0;
-  /// The same at the byte `offset` of a text, `name` being empty for one of its own and else that of a named value; npos: at
-  /// the name itself.
+  virtual void visit(const Field& field) = 0;
+  /// A check across fields failed: reported at the place of `key`, at the byte `offset` of its text; `name`: at that of a named
+  /// value; offset npos: at the key or name itself.
   virtual void problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) = 0;
+  void problem(const char* key, std::string_view what) { problem_at(key, {}, std::string_view::npos, what); }
 
-  /// A list of structs, each with `void fields(Fields&)`.
+  void number(const char* key, double& value, Spec spec) { visit({key, spec.about, field::Number{value, spec}}); }
+  void number_or(const char* key, double& value, const char* word, Spec spec) {
+    visit({key, spec.about, field::NumberOr{value, word, spec}});
+  }
+  void integer(const char* key, std::int64_t& value, Spec spec) { visit({key, spec.about, field::Integer{value, spec}}); }
+  void flag(const char* key, bool& value, const char* about) { visit({key, about, field::Flag{value}}); }
+  void text(const char* key, std::string& value, const char* about) { visit({key, about, field::Text{value}}); }
+  void file(const char* key, std::string& value, const char* about) { visit({key, about, field::File{value}}); }
+  void one_of(const char* key, std::string& value, std::span<const char* const> names, const char* about) {
+    visit({key, about, field::OneOf{value, names}});
+  }
+  /// `names`: of the values of the enum, which start at 0, in their order.
+  template <class Enum>
+  void choice(const char* key, Enum& value, std::span<const char* const> names, const char* about) {
+    std::string name = names[static_cast<std::size_t>(value)];
+    one_of(key, name, names, about);
+    value = value_of<Enum>(name, names);
+  }
+  void per_joint(const char* key, PerJoint& value, Spec spec) { visit({key, spec.about, field::EachJoint{value, spec}}); }
+  void joint(const char* key, std::int64_t& value, const char* about) { visit({key, about, field::Joint{value}}); }
+  void vector(const char* key, std::span<double> value, Spec spec) { visit({key, spec.about, field::Vector{value, spec}}); }
+  void numbers(const char* key, std::vector<double>& value, Spec spec) {
+    visit({key, spec.about, field::Numbers{value, spec}});
+  }
+  void rows(const char* key, std::vector<std::vector<double>>& value, Spec spec) {
+    visit({key, spec.about, field::Rows{value, spec}});
+  }
+  void texts(const char* key, std::vector<std::string>& value, const char* about) { visit({key, about, field::Texts{value}}); }
+  void named(const char* key, std::vector<Named>& value, NamedValues kind, const char* about) {
+    visit({key, about, field::Map{value, kind}});
+  }
   template <class T>
   void list(const char* key, std::vector<T>& value, const char* about) {
-    list(key, about, list_of(value));
+    visit({key, about, list_of(value)});
   }
-  /// Either one of `names` (then `rule` is its index and the list is empty) or a list of structs (then `rule` is -1).
-  template <class T>
-  void rule_or_list(const char* key, int& rule, std::span<const char* const> names, std::vector<T>& value, const char* about) {
-    rule_or_list(key, rule, names, about, list_of(value));
+  /// `rule` without a value: the list.
+  template <class Enum, class T>
+  void rule_or_list(const char* key, std::optional<Enum>& rule, std::span<const char* const> names, std::vector<T>& value,
+                    const char* about) {
+    std::string name = rule ? names[static_cast<std::size_t>(*rule)] : "";
+    visit({key, about, field::RuleOrList{name, names, list_of(value)}});
+    rule = name.empty() ? std::nullopt : std::optional(value_of<Enum>(name, names));
   }
-  /// A nested map, a struct with `void fields(Fields&)`.
   template <class T>
   void group(const char* key, T& value, const char* about) {
-    group(key, about, Group{&value, [](void* self, Fields& f) { static_cast<T*>(self)->fields(f); }});
+    visit({key, about, field::Group{&value, [](void* self, Fields& f) { static_cast<T*>(self)->fields(f); }}});
   }
 
  protected:
-  struct List {
-    void* self;
-    void (*resize)(void* self, std::size_t size);
-    std::size_t (*size)(void* self);
-    void (*visit)(void* self, std::size_t index, Fields& fields);
-  };
-  struct Group {
-    void* self;
-    void (*visit)(void* self, Fields& fields);
-  };
-  virtual void list(const char* key, const char* about, List list) = 0;
-  virtual void rule_or_list(const char* key, int& rule, std::span<const char* const> names, const char* about, List list) = 0;
-  virtual void group(const char* key, const char* about, Group group) = 0;
   ~Fields() = default;
 
  private:
+  template <class Enum>
+  static Enum value_of(const std::string& name, std::span<const char* const> names) {
+    return static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
+  }
   template <class T>
-  static List list_of(std::vector<T>& value) {
+  static field::List list_of(std::vector<T>& value) {
     return {&value, [](void* p, std::size_t n) { static_cast<std::vector<T>*>(p)->resize(n); },
             [](void* p) { return static_cast<std::vector<T>*>(p)->size(); },
             [](void* p, std::size_t i, Fields& f) { (*static_cast<std::vector<T>*>(p))[i].fields(f); }};

@@ -12,7 +12,7 @@ namespace gaitlab {
 /// The common keys: frequency, amplitude, offset, phase_lag, couplings.
 struct OscillatorKeys {
   PerJoint frequency{0.25}, amplitude{0.6}, offset{0}, phase_lag{1.2};
-  int rule = 0;  ///< CouplingRule; -1: the list
+  std::optional<CouplingRule> rule = CouplingRule::chain;  ///< without a value: the list
   std::vector<Coupling> couplings;
 
   void fields(Fields& f) {
@@ -35,7 +35,7 @@ struct OscillatorKeys {
 
   /// The coupling graph; the rule's couplings get `weight`.
   [[nodiscard]] std::vector<Coupling> graph(const RobotInfo& robot, double weight) const {
-    return rule < 0 ? couplings : couple(robot, static_cast<CouplingRule>(rule), weight, phase_lag);
+    return rule ? couple(robot, *rule, weight, phase_lag) : couplings;
   }
 };
 

@@ -25,8 +25,8 @@ std::string range_without_unit(Spec spec) {
   return range_text(spec);
 }
 
-std::string name_at(std::span<const char* const> names, int index) {
-  return index >= 0 && static_cast<std::size_t>(index) < names.size() ? names[static_cast<std::size_t>(index)] : "";
+std::string if_among(std::span<const char* const> names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end() ? name : "";
 }
 
 }  // namespace
@@ -82,70 +82,77 @@ void Explainer::row(const std::string& key, const std::string& unit, const std::
   if (depth_ == 0) keys_.push_back(key);
 }
 
-void Explainer::number(const char* key, double& value, Spec spec) {
-  row(key, spec.unit, number_text(value), range_without_unit(spec), spec.about);
+void Explainer::visit(const Field& field) {
+  std::visit([&](const auto& value) { on(field.key, field.about, value); }, field.value);
 }
 
-void Explainer::number_or(const char* key, double& value, const char* word, Spec spec) {
-  row(key, spec.unit, value > 0 ? number_text(value) : word, word + (" | " + range_without_unit(spec)), spec.about);
+void Explainer::on(const char* key, const char* about, const field::Number& field) {
+  row(key, field.spec.unit, number_text(field.value), range_without_unit(field.spec), about);
 }
 
-void Explainer::integer(const char* key, std::int64_t& value, Spec spec) {
-  row(key, spec.unit, std::to_string(value), range_without_unit(spec), spec.about);
+void Explainer::on(const char* key, const char* about, const field::NumberOr& field) {
+  row(key, field.spec.unit, field.value > 0 ? number_text(field.value) : field.word,
+      field.word + (" | " + range_without_unit(field.spec)), about);
 }
 
-void Explainer::flag(const char* key, bool& value, const char* about) {
-  row(key, "", value ? "true" : "false", "true | false", about);
+void Explainer::on(const char* key, const char* about, const field::Integer& field) {
+  row(key, field.spec.unit, std::to_string(field.value), range_without_unit(field.spec), about);
 }
 
-void Explainer::text(const char* key, std::string& value, const char* about) { row(key, "", value, "text", about); }
-
-void Explainer::file(const char* key, std::string&, const char* about) { row(key, "", "", "file, or its text", about); }
-
-void Explainer::choice(const char* key, int& value, std::span<const char* const> names, const char* about) {
-  row(key, "", name_at(names, value), alternatives(names), about);
+void Explainer::on(const char* key, const char* about, const field::Flag& field) {
+  row(key, "", field.value ? "true" : "false", "true | false", about);
 }
 
-void Explainer::per_joint(const char* key, PerJoint& value, Spec spec) {
-  const std::string range = range_without_unit(spec);
-  row(key, spec.unit, value.each.empty() ? number_text(value.common) : list_text(value.each),
-      range.empty() ? "per joint" : range + ", per joint", spec.about);
+void Explainer::on(const char* key, const char* about, const field::Text& field) { row(key, "", field.value, "text", about); }
+
+void Explainer::on(const char* key, const char* about, const field::File&) {
+  row(key, "", "", "file, or its text", about);
 }
 
-void Explainer::joint(const char* key, std::int64_t& value, const char* about) {
-  row(key, "", value < 0 ? "" : std::to_string(value), "joint name or number", about);
+void Explainer::on(const char* key, const char* about, const field::OneOf& field) {
+  row(key, "", if_among(field.names, field.value), alternatives(field.names), about);
 }
 
-void Explainer::vector(const char* key, std::span<double> value, Spec spec) {
-  const std::string range = range_without_unit(spec);
-  row(key, spec.unit, list_text(value), std::to_string(value.size()) + " numbers" + (range.empty() ? "" : ", ") + range,
-      spec.about);
+void Explainer::on(const char* key, const char* about, const field::EachJoint& field) {
+  const std::string range = range_without_unit(field.spec);
+  row(key, field.spec.unit, field.value.each.empty() ? number_text(field.value.common) : list_text(field.value.each),
+      range.empty() ? "per joint" : range + ", per joint", about);
 }
 
-void Explainer::numbers(const char* key, std::vector<double>& value, Spec spec) {
-  const std::string range = range_without_unit(spec);
-  row(key, spec.unit, list_text(value), "list of numbers" + std::string(range.empty() ? "" : ", ") + range, spec.about);
+void Explainer::on(const char* key, const char* about, const field::Joint& field) {
+  row(key, "", field.value < 0 ? "" : std::to_string(field.value), "joint name or number", about);
 }
 
-void Explainer::rows(const char* key, std::vector<std::vector<double>>&, Spec spec) {
-  const std::string range = range_without_unit(spec);
-  row(key, spec.unit, "", "list of rows of numbers" + std::string(range.empty() ? "" : ", ") + range, spec.about);
+void Explainer::on(const char* key, const char* about, const field::Vector& field) {
+  const std::string range = range_without_unit(field.spec);
+  row(key, field.spec.unit, list_text(field.value),
+      std::to_string(field.value.size()) + " numbers" + (range.empty() ? "" : ", ") + range, about);
 }
 
-void Explainer::texts(const char* key, std::vector<std::string>& value, const char* about) {
+void Explainer::on(const char* key, const char* about, const field::Numbers& field) {
+  const std::string range = range_without_unit(field.spec);
+  row(key, field.spec.unit, list_text(field.value), "list of numbers" + std::string(range.empty() ? "" : ", ") + range, about);
+}
+
+void Explainer::on(const char* key, const char* about, const field::Rows& field) {
+  const std::string range = range_without_unit(field.spec);
+  row(key, field.spec.unit, "", "list of rows of numbers" + std::string(range.empty() ? "" : ", ") + range, about);
+}
+
+void Explainer::on(const char* key, const char* about, const field::Texts& field) {
   std::string preset;
-  for (const std::string& text : value) preset += (preset.empty() ? "" : ", ") + text;
+  for (const std::string& text : field.value) preset += (preset.empty() ? "" : ", ") + text;
   row(key, "", "[" + preset + "]", "list of texts", about);
 }
 
-void Explainer::named(const char* key, std::vector<Named>& values, NamedValues kind, const char* about) {
+void Explainer::on(const char* key, const char* about, const field::Map& field) {
   std::string names;
-  for (const Named& value : values) names += (names.empty() ? "" : ", ") + value.name;
-  row(key, "", names.empty() ? "{}" : names, kind == NamedValues::texts ? "NAME: text" : "NAME: text | number, per joint",
+  for (const Named& value : field.value) names += (names.empty() ? "" : ", ") + value.name;
+  row(key, "", names.empty() ? "{}" : names, field.kind == NamedValues::texts ? "NAME: text" : "NAME: text | number, per joint",
       about);
 }
 
-void Explainer::elements(const char* key, const List& list) {
+void Explainer::elements(const char* key, const field::List& list) {
   const std::size_t size = list.size(list.self);
   if (size == 0) list.resize(list.self, 1);  // an element with its defaults, to look at
   const std::string before = prefix_;
@@ -157,23 +164,23 @@ void Explainer::elements(const char* key, const List& list) {
   if (size == 0) list.resize(list.self, 0);
 }
 
-void Explainer::list(const char* key, const char* about, List list) {
-  row(key, "", list.size(list.self) == 0 ? "[]" : "", "list", about);
-  elements(key, list);
+void Explainer::on(const char* key, const char* about, const field::List& field) {
+  row(key, "", field.size(field.self) == 0 ? "[]" : "", "list", about);
+  elements(key, field);
 }
 
-void Explainer::rule_or_list(const char* key, int& rule, std::span<const char* const> names, const char* about, List list) {
-  row(key, "", name_at(names, rule), alternatives(names) + " | list", about);
-  elements(key, list);
+void Explainer::on(const char* key, const char* about, const field::RuleOrList& field) {
+  row(key, "", field.rule, alternatives(field.names) + " | list", about);
+  elements(key, field.list);
 }
 
-void Explainer::group(const char* key, const char* about, Group group) {
+void Explainer::on(const char* key, const char* about, const field::Group& field) {
   row(std::string(key) + ":", "", "", "", about);
   if (depth_ == 0) keys_.back() = key;
   const std::string before = prefix_;
   prefix_ += "  ";
   ++depth_;
-  group.visit(group.self, *this);
+  field.visit(field.self, *this);
   --depth_;
   prefix_ = before;
 }

@@ -79,8 +79,9 @@ Node grid_node(const std::string& text, const std::string& file) {
   return grid;
 }
 
-void Reader::rows(const char* key, std::vector<std::vector<double>>& value, Spec spec) {
-  if (const Node* node = take_list(key, "a list of rows of numbers")) value = read_rows(*node, key, spec, problems_);
+void Reader::on(const char* key, const field::Rows& field) {
+  if (const Node* node = take_list(key, "a list of rows of numbers"))
+    field.value = read_rows(*node, key, field.spec, problems_);
 }
 
 }  // namespace gaitlab

@@ -119,10 +119,8 @@ void finish_field(const Node& section, const std::string& folder, Heightfield& f
 }  // namespace
 
 void GroundFields::fields(Fields& f) {
-  int type = static_cast<int>(ground.kind);
-  f.choice("type", type, kTypes,
+  f.choice("type", ground.kind, kTypes,
            "plane: world z = 0, solid below; boxes: the same with boxes on it; heightfield: a surface through heights.");
-  ground.kind = static_cast<Ground::Kind>(type);
   f.number("friction", ground.friction, {"", 0, 100, "Coulomb coefficient f."});
   if (!writing || ground.kind == Ground::Kind::boxes) {
     std::vector<BoxFields> boxes;

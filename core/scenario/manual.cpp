@@ -73,10 +73,9 @@ std::string scenario_page(const Catalog& catalog) {
 
 std::string default_step(const Engine& engine) {
   const std::string given = number_text(engine.step) + " s";
-  if (engine.adaptive < 0) return given;
+  if (engine.adaptive() == nullptr) return given;
   return fmt::format("auto (integrator {}); {} with another, and {} is the integrator where a step is given",
-                     engine.integrators[static_cast<std::size_t>(engine.adaptive)], given,
-                     engine.integrators[static_cast<std::size_t>(engine.fixed)]);
+                     engine.adaptive()->name, given, engine.fixed().name);
 }
 
 std::string plugins_page(const Catalog& catalog) {
@@ -95,7 +94,7 @@ std::string plugins_page(const Catalog& catalog) {
     const Engine& engine = *catalog.engine(name);
     page +=
         fmt::format("\n## engine `{}`\n\n{}\nIntegrators: {} (default {}). Default step: {}.\n", name, fenced(engine.manual),
-                    fmt::join(engine.integrators, ", "), engine.integrators.front(), default_step(engine));
+                    fmt::join(engine.integrator_names(), ", "), engine.integrators.front().name, default_step(engine));
   }
   return page;
 }

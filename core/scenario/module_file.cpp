@@ -200,16 +200,14 @@ class ModuleReader {
     Reader reader = open(node, "face");
     FaceType face;
     std::int64_t id = 0;
-    int gender = 0;
     reader.require({"id", "gender", "origin", "normal", "reference"});
     reader.integer("id", id, {"", 0, 1000, "Number of the face in build files."});
     face.body = body_of(reader, "body");
-    reader.choice("gender", gender, kGenders, "An active face docks on a passive one.");
+    reader.choice("gender", face.gender, kGenders, "An active face docks on a passive one.");
     length(reader, "origin", face.origin, "Middle of the face, body frame.");
     direction(reader, "normal", face.normal, "Outward normal, body frame.");
     direction(reader, "reference", face.reference, "In-plane reference direction, body frame.");
     face.id = static_cast<int>(id);
-    face.gender = gender == 0 ? Gender::active : Gender::passive;
     type_.faces.push_back(face);
     places_.faces.push_back(node);
     reader.finish();

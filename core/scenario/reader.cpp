@@ -89,84 +89,84 @@ bool Reader::read_one(const Node& node, const std::string& what, const Spec& spe
   return true;
 }
 
-void Reader::number(const char* key, double& value, Spec spec) {
-  if (const Node* node = take(key)) read_one(*node, key, spec, value);
+void Reader::on(const char* key, const field::Number& field) {
+  if (const Node* node = take(key)) read_one(*node, key, field.spec, field.value);
 }
 
-void Reader::number_or(const char* key, double& value, const char* word, Spec spec) {
+void Reader::on(const char* key, const field::NumberOr& field) {
   const Node* node = take(key);
   if (node == nullptr) return;
-  if (node->kind == Node::Kind::scalar && node->text == word) {
-    value = 0;
+  if (node->kind == Node::Kind::scalar && node->text == field.word) {
+    field.value = 0;
     return;
   }
-  const Reading<double> reading = read_number(*node, spec.unit);
+  const Reading<double> reading = read_number(*node, field.spec.unit);
   if (!reading.ok()) {
-    problems_.add(node->place, fmt::format("{} {}, or {}", key, reading.wrong, word));
+    problems_.add(node->place, fmt::format("{} {}, or {}", key, reading.wrong, field.word));
   } else {
-    read_one(*node, key, spec, value);
+    read_one(*node, key, field.spec, field.value);
   }
 }
 
-void Reader::integer(const char* key, std::int64_t& value, Spec spec) {
+void Reader::on(const char* key, const field::Integer& field) {
   const Node* node = take(key);
   if (node == nullptr) return;
   const Reading<std::int64_t> reading = read_integer(*node);
   const auto number = static_cast<double>(reading.value);
   if (!reading.ok()) {
     problems_.add(node->place, std::string(key) + " " + reading.wrong);
-  } else if (number < spec.min || number > spec.max) {
-    problems_.add(node->place, fmt::format("{} is {}; allowed are {}", key, reading.value, range_text(spec)));
+  } else if (number < field.spec.min || number > field.spec.max) {
+    problems_.add(node->place, fmt::format("{} is {}; allowed are {}", key, reading.value, range_text(field.spec)));
   } else {
-    value = reading.value;
+    field.value = reading.value;
   }
 }
 
-void Reader::flag(const char* key, bool& value, const char*) {
+void Reader::on(const char* key, const field::Flag& field) {
   const Node* node = take(key);
   if (node == nullptr) return;
   const Reading<bool> reading = read_flag(*node);
   if (reading.ok()) {
-    value = reading.value;
+    field.value = reading.value;
   } else {
     problems_.add(node->place, std::string(key) + " " + reading.wrong);
   }
 }
 
-void Reader::text(const char* key, std::string& value, const char*) {
+void Reader::on(const char* key, const field::Text& field) {
   const Node* node = take(key);
   if (node == nullptr) return;
   Reading<std::string> reading = read_scalar(*node);
   if (reading.ok()) {
-    value = std::move(reading.value);
+    field.value = std::move(reading.value);
   } else {
     problems_.add(node->place, std::string(key) + " " + reading.wrong);
   }
 }
 
-void Reader::file(const char* key, std::string& value, const char*) {
+void Reader::on(const char* key, const field::File& field) {
   const Node* node = take(key);
   if (node == nullptr) return;
   if (node->kind != Node::Kind::scalar) {
     problems_.add(node->place, fmt::format("{} is {}; expected a file, or its text", key, found(*node)));
   } else if (node->text.find('\n') != std::string::npos) {
-    value = node->text;
+    field.value = node->text;
   } else {
     try {
-      value = read_text((std::filesystem::path(folder_) / node->text).string(), node->place);
+      field.value = read_text((std::filesystem::path(folder_) / node->text).string(), node->place);
     } catch (const InputError& error) {
       for (const Problem& problem : error.problems()) problems_.add(problem.place, problem.text);
     }
   }
 }
 
-void Reader::choice(const char* key, int& value, std::span<const char* const> names, const char*) {
+void Reader::on(const char* key, const field::OneOf& field) {
   const Node* node = take(key);
   if (node == nullptr) return;
-  const std::vector<std::string> known = to_strings(names);
+  const std::vector<std::string> known = to_strings(field.names);
   const auto it = std::find(known.begin(), known.end(), node->text);
   if (node->kind == Node::Kind::scalar && it != known.end()) {
-    value = static_cast<int>(it - known.begin());
+    field.value = *it;
     return;
   }
   // The other keys of a map depend on its type: without it, nothing can be said about them.
@@ -179,18 +179,18 @@ void Reader::choice(const char* key, int& value, std::span<const char* const> na
   }
 }
 
-void Reader::per_joint(const char* key, PerJoint& value, Spec spec) {
+void Reader::on(const char* key, const field::EachJoint& field) {
   const Node* node = take(key);
   if (node == nullptr) return;
   if (node->kind == Node::Kind::list) {
-    read_joint_list(*node, key, spec, value);
+    read_joint_list(*node, key, field.spec, field.value);
   } else if (node->kind == Node::Kind::map) {
-    read_joint_map(*node, key, spec, value);
+    read_joint_map(*node, key, field.spec, field.value);
   } else if (node->kind == Node::Kind::scalar) {
-    if (read_one(*node, key, spec, value.common)) value.each.clear();
+    if (read_one(*node, key, field.spec, field.value.common)) field.value.each.clear();
   } else {
-    problems_.add(node->place,
-                  fmt::format("{} is {}; expected a number{}, a list, or a map of joints", key, found(*node), in_unit(spec)));
+    problems_.add(node->place, fmt::format("{} is {}; expected a number{}, a list, or a map of joints", key, found(*node),
+                                           in_unit(field.spec)));
   }
 }
 
@@ -231,11 +231,11 @@ std::int64_t Reader::joint_number(const std::string& name, const Place& place) {
   return -1;
 }
 
-void Reader::joint(const char* key, std::int64_t& value, const char*) {
+void Reader::on(const char* key, const field::Joint& field) {
   const Node* node = take(key);
   if (node == nullptr) {
     // A plugin's default joint may be one that this robot has not; -1 means none.
-    const bool beyond = joints_ != nullptr && value >= 0 && static_cast<std::size_t>(value) >= joints_->size();
+    const bool beyond = joints_ != nullptr && field.value >= 0 && static_cast<std::size_t>(field.value) >= joints_->size();
     if (beyond && !tolerant_) problems_.add(map_->place, "missing key " + in_quotes(key));
     return;
   }
@@ -246,9 +246,9 @@ void Reader::joint(const char* key, std::int64_t& value, const char*) {
   const Reading<std::int64_t> number = read_integer(*node);
   if (!number.ok()) {
     const std::int64_t named = joint_number(node->text, node->place);
-    if (named >= 0) value = named;
+    if (named >= 0) field.value = named;
   } else if (joints_ == nullptr || (number.value >= 0 && static_cast<std::size_t>(number.value) < joints_->size())) {
-    value = number.value;
+    field.value = number.value;
   } else {
     problems_.add(node->place, fmt::format("{} is {}; the robot has {}, numbered from 0", key, number.value,
                                            count(joints_->size(), "joint")));
@@ -266,26 +266,26 @@ void Reader::read_each(const Node& node, const std::string& key, const Spec& spe
   for (std::size_t i = 0; i < value.size(); ++i) read_one(node.items[i], element(key, i), spec, value[i]);
 }
 
-void Reader::vector(const char* key, std::span<double> value, Spec spec) {
-  const std::string expected = "a list of " + count(value.size(), "number") + in_unit(spec);
+void Reader::on(const char* key, const field::Vector& field) {
+  const std::string expected = "a list of " + count(field.value.size(), "number") + in_unit(field.spec);
   const Node* node = take_list(key, expected.c_str());
   if (node == nullptr) return;
-  if (node->items.size() == value.size()) {
-    read_each(*node, key, spec, value);
+  if (node->items.size() == field.value.size()) {
+    read_each(*node, key, field.spec, field.value);
   } else {
     problems_.add(node->place, fmt::format("{} has {}; expected {}", key, count(node->items.size(), "number"), expected));
   }
 }
 
-void Reader::numbers(const char* key, std::vector<double>& value, Spec spec) {
-  const Node* node = take_list(key, ("a list of numbers" + in_unit(spec)).c_str());
+void Reader::on(const char* key, const field::Numbers& field) {
+  const Node* node = take_list(key, ("a list of numbers" + in_unit(field.spec)).c_str());
   if (node == nullptr) return;
   std::vector<double> read(node->items.size());
-  read_each(*node, key, spec, read);
-  value = std::move(read);
+  read_each(*node, key, field.spec, read);
+  field.value = std::move(read);
 }
 
-void Reader::texts(const char* key, std::vector<std::string>& value, const char*) {
+void Reader::on(const char* key, const field::Texts& field) {
   const Node* node = take_list(key, "a list of texts");
   if (node == nullptr) return;
   std::vector<std::string> read;
@@ -294,24 +294,24 @@ void Reader::texts(const char* key, std::vector<std::string>& value, const char*
     if (!reading.ok()) problems_.add(node->items[i].place, element(key, i) + " " + reading.wrong);
     read.push_back(std::move(reading.value));
   }
-  value = std::move(read);
+  field.value = std::move(read);
 }
 
-void Reader::named(const char* key, std::vector<Named>& values, NamedValues kind, const char*) {
+void Reader::on(const char* key, const field::Map& field) {
   const Node* node = take(key);
   if (node == nullptr) return;
   if (node->kind != Node::Kind::map) {
     problems_.add(node->place, fmt::format("{} is {}; expected a map of names", key, found(*node)));
     return;
   }
-  values.clear();
+  field.value.clear();
   for (std::size_t i = 0; i < node->keys.size(); ++i) {
     const auto& [name, place] = node->keys[i];
     if (!is_name(name, "_") || name[0] == '_' || (name[0] >= '0' && name[0] <= '9')) {
       problems_.add(place, in_quotes(name) + " is no name; expected a letter, then letters, digits and _");
       continue;
     }
-    read_named(node->items[i], fmt::format("{}.{}", key, clipped(name)), kind, values.emplace_back(Named{name}));
+    read_named(node->items[i], fmt::format("{}.{}", key, clipped(name)), field.kind, field.value.emplace_back(Named{name}));
   }
 }
 
@@ -343,16 +343,19 @@ void Reader::read_named_numbers(const Node& node, const std::string& what, PerJo
   read_joint_map(node, what, kAny, value);
 }
 
-void Reader::problem(const char* key, std::string_view what) {
-  tolerant_ = tolerant_ || std::string_view(key) == "type";  // as for a type that is unknown
-  const Node* node = map_->find(key);
-  problems_.add(node != nullptr ? node->place : map_->place, std::string(what));
+void Reader::visit(const Field& field) {
+  std::visit([&](const auto& value) { on(field.key, value); }, field.value);
 }
 
 void Reader::problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) {
+  tolerant_ = tolerant_ || std::string_view(key) == "type";  // as for a type that is unknown
   const Node* node = map_->find(key);
   if (node == nullptr) {
     problems_.add(map_->place, std::string(what));
+    return;
+  }
+  if (name.empty() && offset == std::string_view::npos) {
+    problems_.add(node->place, std::string(what));
     return;
   }
   if (name.empty()) {
@@ -369,12 +372,12 @@ void Reader::problem_at(const char* key, std::string_view name, std::size_t offs
   }
 }
 
-void Reader::list(const char* key, const char*, List list) {
+void Reader::on(const char* key, const field::List& field) {
   const Node* node = take_list(key, "a list of maps");
-  if (node != nullptr) read_elements(key, *node, list);
+  if (node != nullptr) read_elements(key, *node, field);
 }
 
-void Reader::read_elements(const char* key, const Node& node, const List& list) {
+void Reader::read_elements(const char* key, const Node& node, const field::List& list) {
   list.resize(list.self, 0);  // so that no element keeps what a default or an earlier file said
   list.resize(list.self, node.items.size());
   for (std::size_t i = 0; i < node.items.size(); ++i) {
@@ -384,17 +387,17 @@ void Reader::read_elements(const char* key, const Node& node, const List& list) 
   }
 }
 
-void Reader::rule_or_list(const char* key, int& rule, std::span<const char* const> names, const char*, List list) {
+void Reader::on(const char* key, const field::RuleOrList& field) {
   const Node* node = take(key);
   if (node == nullptr) return;
-  const std::vector<std::string> known = to_strings(names);
+  const std::vector<std::string> known = to_strings(field.names);
   const auto it = std::find(known.begin(), known.end(), node->text);
   if (node->kind == Node::Kind::list) {
-    rule = -1;
-    read_elements(key, *node, list);
+    field.rule.clear();
+    read_elements(key, *node, field.list);
   } else if (node->kind == Node::Kind::scalar && it != known.end()) {
-    rule = static_cast<int>(it - known.begin());
-    list.resize(list.self, 0);
+    field.rule = *it;
+    field.list.resize(field.list.self, 0);
   } else if (node->kind == Node::Kind::scalar) {
     problems_.add(node->place,
                   fmt::format("{} {} is unknown{}", key, in_quotes(node->text), offer(node->text, known, "names")));
@@ -403,11 +406,11 @@ void Reader::rule_or_list(const char* key, int& rule, std::span<const char* cons
   }
 }
 
-void Reader::group(const char* key, const char*, Group group) {
+void Reader::on(const char* key, const field::Group& field) {
   const Node* node = take(key);
   Reader reader =
       node != nullptr ? Reader(*node, key, problems_, joints_, folder_) : Reader(map_->place, problems_, joints_, folder_);
-  group.visit(group.self, reader);
+  field.visit(field.self, reader);
   reader.finish();
 }
 

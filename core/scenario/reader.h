@@ -22,25 +22,8 @@ class Reader final : public Fields {
   /// A map that is absent: every field keeps its default. `place`: its parent's.
   Reader(const Place& place, Problems& problems, JointNames joints, std::string folder = {});
 
-  void number(const char* key, double& value, Spec spec) override;
-  void number_or(const char* key, double& value, const char* word, Spec spec) override;
-  void integer(const char* key, std::int64_t& value, Spec spec) override;
-  void flag(const char* key, bool& value, const char* about) override;
-  void text(const char* key, std::string& value, const char* about) override;
-  void file(const char* key, std::string& value, const char* about) override;
-  void choice(const char* key, int& value, std::span<const char* const> names, const char* about) override;
-  void per_joint(const char* key, PerJoint& value, Spec spec) override;
-  void joint(const char* key, std::int64_t& value, const char* about) override;
-  void vector(const char* key, std::span<double> value, Spec spec) override;
-  void numbers(const char* key, std::vector<double>& value, Spec spec) override;
-  void rows(const char* key, std::vector<std::vector<double>>& value, Spec spec) override;
-  void texts(const char* key, std::vector<std::string>& value, const char* about) override;
-  void named(const char* key, std::vector<Named>& values, NamedValues kind, const char* about) override;
-  void problem(const char* key, std::string_view what) override;
+  void visit(const Field& field) override;
   void problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) override;
-  using Fields::group;
-  using Fields::list;
-  using Fields::rule_or_list;
 
   /// The value of a key, or nullptr; the key counts as known from now on.
   const Node* take(const char* key);
@@ -53,12 +36,26 @@ class Reader final : public Fields {
   void finish();
 
  private:
-  void list(const char* key, const char* about, List list) override;
-  void rule_or_list(const char* key, int& rule, std::span<const char* const> names, const char* about, List list) override;
-  void group(const char* key, const char* about, Group group) override;
+  void on(const char* key, const field::Number& field);
+  void on(const char* key, const field::NumberOr& field);
+  void on(const char* key, const field::Integer& field);
+  void on(const char* key, const field::Flag& field);
+  void on(const char* key, const field::Text& field);
+  void on(const char* key, const field::File& field);
+  void on(const char* key, const field::OneOf& field);
+  void on(const char* key, const field::EachJoint& field);
+  void on(const char* key, const field::Joint& field);
+  void on(const char* key, const field::Vector& field);
+  void on(const char* key, const field::Numbers& field);
+  void on(const char* key, const field::Rows& field);
+  void on(const char* key, const field::Texts& field);
+  void on(const char* key, const field::Map& field);
+  void on(const char* key, const field::List& field);
+  void on(const char* key, const field::RuleOrList& field);
+  void on(const char* key, const field::Group& field);
 
   const Node* take_list(const char* key, const char* expected);
-  void read_elements(const char* key, const Node& node, const List& list);
+  void read_elements(const char* key, const Node& node, const field::List& list);
   bool read_one(const Node& node, const std::string& what, const Spec& spec, double& value);
   void read_each(const Node& node, const std::string& key, const Spec& spec, std::span<double> value);
   void read_joint_list(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);

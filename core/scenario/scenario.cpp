@@ -226,9 +226,9 @@ class ScenarioReader {
                     fmt::format("engine '{}' has no contact law 'bullet'; expected penalty{}", engine->name,
                                 able.empty() ? "" : fmt::format(", or engine: {}", fmt::join(able, " or "))));
     }
-    if (scenario_.physics.integrator != 0) {
+    if (scenario_.physics.integrator != &engine->integrators.front()) {
       problems_.add(place_of(root_, "physics", "integrator"),
-                    fmt::format("contact law 'bullet' takes steps of its own; expected {}", engine->integrators.front()));
+                    fmt::format("contact law 'bullet' takes steps of its own; expected {}", engine->integrators.front().name));
     }
     if (scenario_.ground.kind == Ground::Kind::heightfield) {
       problems_.add(place_of(root_, "ground", "type"),
@@ -343,13 +343,12 @@ class ScenarioReader {
     std::vector<std::string> able;
     for (const std::string& name : catalog_.engines()) {
       const Engine& engine = *catalog_.engine(name);
-      if (engine.adaptive >= 0) {
-        able.push_back(
-            fmt::format("engine: {}, integrator: {}", name, engine.integrators[static_cast<std::size_t>(engine.adaptive)]));
+      if (engine.adaptive() != nullptr) {
+        able.push_back(fmt::format("engine: {}, integrator: {}", name, engine.adaptive()->name));
       }
     }
     const std::string chosen =
-        fmt::format("integrator '{}' of engine '{}'", scenario_.physics.integrator_name(), scenario_.physics.engine->name);
+        fmt::format("integrator '{}' of engine '{}'", scenario_.physics.integrator->name, scenario_.physics.engine->name);
     if (step != nullptr && step->text == "auto") {
       problems_.add(step->place,
                     fmt::format("{} chooses no steps; expected a number of seconds, or {}", chosen, fmt::join(able, " or ")));

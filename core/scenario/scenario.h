@@ -29,24 +29,25 @@ struct Initial {
 
 struct Physics {
   const Engine* engine = nullptr;
-  double step = 0;             ///< s; with `adaptive_step` the longest that the control period allows
-  bool adaptive_step = false;  ///< `step: auto`: the integrator divides each step as `accuracy` asks
-  double accuracy = 0.01;      ///< of the torques, relative; of integrators that choose their steps
-  int integrator = 0;          ///< index into engine->integrators
-  Vec3 gravity{0, 0, -9.81};   ///< m/s^2, world
-  [[nodiscard]] const std::string& integrator_name() const { return engine->integrators[static_cast<std::size_t>(integrator)]; }
+  double step = 0;                         ///< s; with `adaptive_step` the longest that the control period allows
+  bool adaptive_step = false;              ///< `step: auto`: the integrator divides each step as `accuracy` asks
+  double accuracy = 0.01;                  ///< of the torques, relative; of integrators that choose their steps
+  const Integrator* integrator = nullptr;  ///< of the engine's
+  Vec3 gravity{0, 0, -9.81};               ///< m/s^2, world
   /// Whether the integrator chooses its steps by `accuracy`.
-  [[nodiscard]] bool adapts() const { return integrator == engine->adaptive; }
+  [[nodiscard]] bool adapts() const { return integrator != nullptr && integrator->adapts; }
   /// Makes every step more accurate: the accuracy, or where it does not choose the step, is divided.
   void refine(double by) { (adapts() ? accuracy : step) /= by; }
 };
 
+enum class ContactLaw { penalty, bullet };
+
 struct ContactSettings {
-  int law = 0;  ///< penalty, bullet
-  int on = 1;   ///< ContactSet
+  ContactLaw law = ContactLaw::penalty;
+  ContactSet on = ContactSet::feet;
   PenaltyContact penalty;
-  [[nodiscard]] bool solver() const { return law == 1; }       ///< bullet: constraints, not forces
-  [[nodiscard]] bool moves_boxes() const { return solver(); }  ///< whether the law knows boxes that have a mass
+  [[nodiscard]] bool solver() const { return law == ContactLaw::bullet; }  ///< constraints, not forces
+  [[nodiscard]] bool moves_boxes() const { return solver(); }              ///< whether the law knows boxes that have a mass
   void fields(Fields& f);
 };
 

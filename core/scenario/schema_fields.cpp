@@ -1,5 +1,6 @@
 #include "core/scenario/schema_fields.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -46,79 +47,88 @@ Json object_schema(Json properties) {
   return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
 }
 
-void SchemaFields::number(const char* key, double& value, Spec spec) {
-  properties_[key] = preset(described(bounded("number", spec), spec.about, spec.unit), value);
+void SchemaFields::visit(const Field& field) {
+  std::visit([&](const auto& value) { on(field.key, field.about, value); }, field.value);
 }
 
-void SchemaFields::number_or(const char* key, double& value, const char* word, Spec spec) {
-  const Json either{{"anyOf", {bounded("number", spec), {{"const", word}}}}};
-  properties_[key] = preset(described(either, spec.about, spec.unit), value > 0 ? Json(value) : Json(word));
+void SchemaFields::on(const char* key, const char* about, const field::Number& field) {
+  properties_[key] = preset(described(bounded("number", field.spec), about, field.spec.unit), field.value);
 }
 
-void SchemaFields::integer(const char* key, std::int64_t& value, Spec spec) {
-  properties_[key] = preset(described(bounded("integer", spec), spec.about, spec.unit), value);
+void SchemaFields::on(const char* key, const char* about, const field::NumberOr& field) {
+  const Json either{{"anyOf", {bounded("number", field.spec), {{"const", field.word}}}}};
+  properties_[key] = preset(described(either, about, field.spec.unit), field.value > 0 ? Json(field.value) : Json(field.word));
 }
 
-void SchemaFields::flag(const char* key, bool& value, const char* about) {
-  properties_[key] = preset(described({{"type", "boolean"}}, about), value);
+void SchemaFields::on(const char* key, const char* about, const field::Integer& field) {
+  properties_[key] = preset(described(bounded("integer", field.spec), about, field.spec.unit), field.value);
 }
 
-void SchemaFields::text(const char* key, std::string& value, const char* about) {
-  properties_[key] = described(value.empty() ? scalar() : preset(scalar(), value), about);
+void SchemaFields::on(const char* key, const char* about, const field::Flag& field) {
+  properties_[key] = preset(described({{"type", "boolean"}}, about), field.value);
 }
 
-void SchemaFields::file(const char* key, std::string&, const char* about) {
+void SchemaFields::on(const char* key, const char* about, const field::Text& field) {
+  properties_[key] = described(field.value.empty() ? scalar() : preset(scalar(), field.value), about);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::File&) {
   properties_[key] = described(scalar(), (std::string(about) + " A file, or its text.").c_str());
 }
 
-void SchemaFields::choice(const char* key, int& value, std::span<const char* const> names, const char* about) {
-  Json json = described({{"enum", names_of(names)}}, about);
-  if (value >= 0 && static_cast<std::size_t>(value) < names.size()) json["default"] = names[static_cast<std::size_t>(value)];
+void SchemaFields::on(const char* key, const char* about, const field::OneOf& field) {
+  Json json = described({{"enum", names_of(field.names)}}, about);
+  if (std::find(field.names.begin(), field.names.end(), field.value) != field.names.end()) json["default"] = field.value;
   properties_[key] = std::move(json);
 }
 
-void SchemaFields::per_joint(const char* key, PerJoint& value, Spec spec) {
-  const Json one = bounded("number", spec);
+void SchemaFields::on(const char* key, const char* about, const field::EachJoint& field) {
+  const Json one = bounded("number", field.spec);
   Json json = one;  // each rule below holds for values of its own type only
   json["type"] = {"number", "array", "object"};
   json["items"] = one;
   json["additionalProperties"] = one;
-  const std::string about = std::string(spec.about) + " One number, a list, or {default: x, JOINT: y}.";
-  properties_[key] =
-      preset(described(std::move(json), about.c_str(), spec.unit), value.each.empty() ? Json(value.common) : Json(value.each));
+  const std::string text = std::string(about) + " One number, a list, or {default: x, JOINT: y}.";
+  properties_[key] = preset(described(std::move(json), text.c_str(), field.spec.unit),
+                            field.value.each.empty() ? Json(field.value.common) : Json(field.value.each));
 }
 
-void SchemaFields::joint(const char* key, std::int64_t&, const char* about) {
+void SchemaFields::on(const char* key, const char* about, const field::Joint&) {
   properties_[key] = described({{"type", {"string", "integer"}}}, (std::string(about) + " A joint's name or number.").c_str());
 }
 
-void SchemaFields::vector(const char* key, std::span<double> value, Spec spec) {
-  Json json{{"type", "array"}, {"items", bounded("number", spec)}, {"minItems", value.size()}, {"maxItems", value.size()}};
-  properties_[key] = preset(described(std::move(json), spec.about, spec.unit), std::vector<double>(value.begin(), value.end()));
+void SchemaFields::on(const char* key, const char* about, const field::Vector& field) {
+  Json json{{"type", "array"},
+            {"items", bounded("number", field.spec)},
+            {"minItems", field.value.size()},
+            {"maxItems", field.value.size()}};
+  properties_[key] =
+      preset(described(std::move(json), about, field.spec.unit), std::vector<double>(field.value.begin(), field.value.end()));
 }
 
-void SchemaFields::numbers(const char* key, std::vector<double>& value, Spec spec) {
-  properties_[key] = preset(described({{"type", "array"}, {"items", bounded("number", spec)}}, spec.about, spec.unit), value);
+void SchemaFields::on(const char* key, const char* about, const field::Numbers& field) {
+  properties_[key] =
+      preset(described({{"type", "array"}, {"items", bounded("number", field.spec)}}, about, field.spec.unit), field.value);
 }
 
-void SchemaFields::rows(const char* key, std::vector<std::vector<double>>&, Spec spec) {
-  const Json row{{"type", "array"}, {"items", bounded("number", spec)}};
-  properties_[key] = described({{"type", "array"}, {"items", row}}, spec.about, spec.unit);
+void SchemaFields::on(const char* key, const char* about, const field::Rows& field) {
+  const Json row{{"type", "array"}, {"items", bounded("number", field.spec)}};
+  properties_[key] = described({{"type", "array"}, {"items", row}}, about, field.spec.unit);
 }
 
-void SchemaFields::texts(const char* key, std::vector<std::string>& value, const char* about) {
-  properties_[key] = preset(described({{"type", "array"}, {"items", scalar()}}, about), value);
+void SchemaFields::on(const char* key, const char* about, const field::Texts& field) {
+  properties_[key] = preset(described({{"type", "array"}, {"items", scalar()}}, about), field.value);
 }
 
-void SchemaFields::named(const char* key, std::vector<Named>& values, NamedValues kind, const char* about) {
+void SchemaFields::on(const char* key, const char* about, const field::Map& field) {
   Json one = scalar();
-  if (kind == NamedValues::texts_or_numbers) {  // a number may be one a joint
+  if (field.kind == NamedValues::texts_or_numbers) {  // a number may be one a joint
     one["type"] = {"string", "number", "boolean", "array", "object"};
     one["items"] = {{"type", "number"}};
     one["additionalProperties"] = {{"type", "number"}};
   }
   Json map = Json::object();
-  for (const Named& value : values) map[value.name] = value.text.empty() ? Json(value.number.common) : Json(value.text);
+  for (const Named& value : field.value) map[value.name] = value.text.empty() ? Json(value.number.common) : Json(value.text);
   properties_[key] = preset(described({{"type", "object"},
                                        {"propertyNames", {{"pattern", "^[A-Za-z][A-Za-z0-9_]*$"}}},
                                        {"additionalProperties", std::move(one)}},
@@ -126,26 +136,25 @@ void SchemaFields::named(const char* key, std::vector<Named>& values, NamedValue
                             std::move(map));
 }
 
-void SchemaFields::list(const char* key, const char* about, List list) {
-  const std::size_t size = list.size(list.self);
-  if (size == 0) list.resize(list.self, 1);  // an element with its defaults, to look at
+void SchemaFields::on(const char* key, const char* about, const field::List& field) {
+  const std::size_t size = field.size(field.self);
+  if (size == 0) field.resize(field.self, 1);  // an element with its defaults, to look at
   SchemaFields element;
-  list.visit(list.self, 0, element);
-  if (size == 0) list.resize(list.self, 0);
+  field.visit(field.self, 0, element);
+  if (size == 0) field.resize(field.self, 0);
   properties_[key] = described({{"type", "array"}, {"items", object_schema(std::move(element.properties_))}}, about);
 }
 
-void SchemaFields::rule_or_list(const char* key, int& rule, std::span<const char* const> names, const char* about,
-                                List elements) {
-  list(key, "", elements);
-  Json json{{"anyOf", {{{"enum", names_of(names)}}, properties_[key]}}};
-  if (rule >= 0) json["default"] = names[static_cast<std::size_t>(rule)];
+void SchemaFields::on(const char* key, const char* about, const field::RuleOrList& field) {
+  on(key, "", field.list);
+  Json json{{"anyOf", {{{"enum", names_of(field.names)}}, properties_[key]}}};
+  if (!field.rule.empty()) json["default"] = field.rule;
   properties_[key] = described(std::move(json), about);
 }
 
-void SchemaFields::group(const char* key, const char* about, Group group) {
+void SchemaFields::on(const char* key, const char* about, const field::Group& field) {
   SchemaFields inner;
-  group.visit(group.self, inner);
+  field.visit(field.self, inner);
   properties_[key] = described(object_schema(std::move(inner.properties_)), about);
 }
 

@@ -15,32 +15,29 @@ Json object_schema(Json properties);
 /// Visit fields, then take properties().
 class SchemaFields final : public Fields {
  public:
-  void number(const char* key, double& value, Spec spec) override;
-  void number_or(const char* key, double& value, const char* word, Spec spec) override;
-  void integer(const char* key, std::int64_t& value, Spec spec) override;
-  void flag(const char* key, bool& value, const char* about) override;
-  void text(const char* key, std::string& value, const char* about) override;
-  void file(const char* key, std::string& value, const char* about) override;
-  void choice(const char* key, int& value, std::span<const char* const> names, const char* about) override;
-  void per_joint(const char* key, PerJoint& value, Spec spec) override;
-  void joint(const char* key, std::int64_t& value, const char* about) override;
-  void vector(const char* key, std::span<double> value, Spec spec) override;
-  void numbers(const char* key, std::vector<double>& value, Spec spec) override;
-  void rows(const char* key, std::vector<std::vector<double>>& value, Spec spec) override;
-  void texts(const char* key, std::vector<std::string>& value, const char* about) override;
-  void named(const char* key, std::vector<Named>& values, NamedValues kind, const char* about) override;
-  void problem(const char*, std::string_view) override {}
+  void visit(const Field& field) override;
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
-  using Fields::group;
-  using Fields::list;
-  using Fields::rule_or_list;
 
   Json& properties() { return properties_; }
 
  private:
-  void list(const char* key, const char* about, List list) override;
-  void rule_or_list(const char* key, int& rule, std::span<const char* const> names, const char* about, List list) override;
-  void group(const char* key, const char* about, Group group) override;
+  void on(const char* key, const char* about, const field::Number& field);
+  void on(const char* key, const char* about, const field::NumberOr& field);
+  void on(const char* key, const char* about, const field::Integer& field);
+  void on(const char* key, const char* about, const field::Flag& field);
+  void on(const char* key, const char* about, const field::Text& field);
+  void on(const char* key, const char* about, const field::File& field);
+  void on(const char* key, const char* about, const field::OneOf& field);
+  void on(const char* key, const char* about, const field::EachJoint& field);
+  void on(const char* key, const char* about, const field::Joint& field);
+  void on(const char* key, const char* about, const field::Vector& field);
+  void on(const char* key, const char* about, const field::Numbers& field);
+  void on(const char* key, const char* about, const field::Rows& field);
+  void on(const char* key, const char* about, const field::Texts& field);
+  void on(const char* key, const char* about, const field::Map& field);
+  void on(const char* key, const char* about, const field::List& field);
+  void on(const char* key, const char* about, const field::RuleOrList& field);
+  void on(const char* key, const char* about, const field::Group& field);
 
   Json properties_ = Json::object();
 };

@@ -28,10 +28,9 @@ struct Names {
   explicit Names(std::vector<std::string> names) : texts(std::move(names)) {
     for (const std::string& text : texts) pointers.push_back(text.c_str());
   }
-  [[nodiscard]] int find(const std::string& name) const {
-    const auto it = std::find(texts.begin(), texts.end(), name);
-    return it == texts.end() ? -1 : static_cast<int>(it - texts.begin());
-  }
+  [[nodiscard]] bool has(const std::string& name) const { return std::find(texts.begin(), texts.end(), name) != texts.end(); }
+  /// `preset`, or where that is not among them the first.
+  [[nodiscard]] std::string first(const std::string& preset) const { return has(preset) || texts.empty() ? preset : texts[0]; }
 };
 
 std::size_t count(const Problems* problems) { return problems == nullptr ? 0 : problems->size(); }
@@ -51,9 +50,7 @@ const char* about_type(Kind kind) {
 }  // namespace
 
 void BaseFields::fields(Fields& f) {
-  int base = static_cast<int>(scenario.base);
-  f.choice("base", base, kBases, "floating; fixed; planar: world x, world z and rotation about world y.");
-  scenario.base = static_cast<Base>(base);
+  f.choice("base", scenario.base, kBases, "floating; fixed; planar: world x, world z and rotation about world y.");
   f.flag("on_ground", scenario.on_ground,
          "Whether the robot is lowered onto the ground until its first contact element touches; false where `position` has a "
          "height.");
@@ -85,24 +82,26 @@ void Initial::fields(Fields& f) {
 
 void PhysicsFields::fields(Fields& f) {
   const Names names(catalog != nullptr ? catalog->engines() : std::vector<std::string>{physics.engine->name});
-  int index = std::max(0, names.find(physics.engine != nullptr ? physics.engine->name : "bullet"));
+  std::string name = physics.engine != nullptr ? physics.engine->name : names.first("bullet");
   const std::size_t before = count(problems);
-  f.choice("engine", index, names.pointers, "Physics engine.");
+  f.one_of("engine", name, names.pointers, "Physics engine.");
   const bool known = count(problems) == before && !names.texts.empty();
   if (names.texts.empty()) f.problem("engine", "no physics engine is built in");
-  if (known && catalog != nullptr) physics.engine = catalog->engine(names.texts[static_cast<std::size_t>(index)]);
+  if (known && catalog != nullptr) physics.engine = catalog->engine(name);
   const bool filled = physics.step > 0;
   double step = physics.adaptive_step ? 0 : physics.step;
-  if (known && !filled && physics.engine->adaptive < 0) {
+  if (known && !filled && physics.engine->adaptive() == nullptr) {
     step = solver && physics.engine->solver_step > 0 ? physics.engine->solver_step : physics.engine->step;
   }
   f.number_or("step", step, "auto",
               {"s", 1e-9, 1, "Time step; default: the engine's for integrator and contact law. auto: as accuracy asks."});
   if (known) {
     const Engine& engine = *physics.engine;
-    if (!filled && step > 0) physics.integrator = engine.fixed;
-    const Names integrators(engine.integrators);
-    f.choice("integrator", physics.integrator, integrators.pointers, "Integrator of the engine.");
+    const Integrator& preset = filled ? *physics.integrator : step > 0 ? engine.fixed() : engine.integrators.front();
+    const Names integrators(engine.integrator_names());
+    std::string integrator = preset.name;
+    f.one_of("integrator", integrator, integrators.pointers, "Integrator of the engine.");
+    physics.integrator = engine.integrator(integrator);
     physics.adaptive_step = step <= 0 && physics.adapts();
     if (step > 0 || !physics.adapts()) physics.step = step > 0 ? step : engine.step;
     if (physics.adapts() || catalog != nullptr) {  // written out only where it means something
@@ -141,14 +140,13 @@ void PluginFields::choose(Fields& f) {
   }
   if (kind == Kind::actuator) known.emplace_back("none");
   const Names names(std::move(known));
-  int index = names.find(choice.entry != nullptr ? std::string(choice.entry->name) : type);
-  f.choice("type", index, names.pointers, about_type(kind));
-  if (index < 0) {
+  std::string name = choice.entry != nullptr ? std::string(choice.entry->name) : type;
+  f.one_of("type", name, names.pointers, about_type(kind));
+  if (!names.has(name)) {
     f.problem("type",
               "type is missing, and the default " + in_quotes(type) + " is not registered" + offer(type, names.texts, "names"));
     return;
   }
-  const std::string& name = names.texts[static_cast<std::size_t>(index)];
   none = kind == Kind::actuator && name == "none";
   if (none || catalog == nullptr) return;
   choice.entry = catalog->find(kind, name);

@@ -28,58 +28,60 @@ void Writer::add(const std::string& key, Node value) {
   map_.items.push_back(std::move(value));
 }
 
-void Writer::number(const char* key, double& value, Spec) { add(key, scalar_node(number_text(value))); }
-
-void Writer::number_or(const char* key, double& value, const char* word, Spec) {
-  add(key, scalar_node(value > 0 ? number_text(value) : word));
+void Writer::visit(const Field& field) {
+  std::visit([&](const auto& value) { on(field.key, value); }, field.value);
 }
 
-void Writer::integer(const char* key, std::int64_t& value, Spec) { add(key, scalar_node(std::to_string(value))); }
+void Writer::on(const char* key, const field::Number& field) { add(key, scalar_node(number_text(field.value))); }
 
-void Writer::flag(const char* key, bool& value, const char*) { add(key, scalar_node(value ? "true" : "false")); }
+void Writer::on(const char* key, const field::NumberOr& field) {
+  add(key, scalar_node(field.value > 0 ? number_text(field.value) : field.word));
+}
 
-void Writer::text(const char* key, std::string& value, const char*) { add(key, text_node(value)); }
+void Writer::on(const char* key, const field::Integer& field) { add(key, scalar_node(std::to_string(field.value))); }
 
-void Writer::file(const char* key, std::string& value, const char*) {
+void Writer::on(const char* key, const field::Flag& field) { add(key, scalar_node(field.value ? "true" : "false")); }
+
+void Writer::on(const char* key, const field::Text& field) { add(key, text_node(field.value)); }
+
+void Writer::on(const char* key, const field::File& field) {
   // A text in one line would be read as a path.
-  add(key, scalar_node(value.find('\n') == std::string::npos ? value + "\n" : value, true));
+  add(key, scalar_node(field.value.find('\n') == std::string::npos ? field.value + "\n" : field.value, true));
 }
 
-void Writer::choice(const char* key, int& value, std::span<const char* const> names, const char*) {
-  add(key, scalar_node(names[static_cast<std::size_t>(value)]));
+void Writer::on(const char* key, const field::OneOf& field) { add(key, scalar_node(field.value)); }
+
+void Writer::on(const char* key, const field::EachJoint& field) {
+  add(key, field.value.each.empty() ? scalar_node(number_text(field.value.common)) : numbers_node(field.value.each));
 }
 
-void Writer::per_joint(const char* key, PerJoint& value, Spec) {
-  add(key, value.each.empty() ? scalar_node(number_text(value.common)) : numbers_node(value.each));
-}
-
-void Writer::joint(const char* key, std::int64_t& value, const char*) {
+void Writer::on(const char* key, const field::Joint& field) {
   // A number that is no joint means "none" to its plugin; it is the default, so that leaving it out says the same.
-  if (value < 0 || static_cast<std::size_t>(value) >= joints_.size()) return;
-  add(key, text_node(joints_[static_cast<std::size_t>(value)]));
+  if (field.value < 0 || static_cast<std::size_t>(field.value) >= joints_.size()) return;
+  add(key, text_node(joints_[static_cast<std::size_t>(field.value)]));
 }
 
-void Writer::vector(const char* key, std::span<double> value, Spec) { add(key, numbers_node(value)); }
+void Writer::on(const char* key, const field::Vector& field) { add(key, numbers_node(field.value)); }
 
-void Writer::numbers(const char* key, std::vector<double>& value, Spec) { add(key, numbers_node(value)); }
+void Writer::on(const char* key, const field::Numbers& field) { add(key, numbers_node(field.value)); }
 
-void Writer::rows(const char* key, std::vector<std::vector<double>>& value, Spec) {
+void Writer::on(const char* key, const field::Rows& field) {
   Node node{Node::Kind::list};
-  node.flow = value.empty();
-  for (const std::vector<double>& row : value) node.items.push_back(numbers_node(row));
+  node.flow = field.value.empty();
+  for (const std::vector<double>& row : field.value) node.items.push_back(numbers_node(row));
   add(key, std::move(node));
 }
 
-void Writer::texts(const char* key, std::vector<std::string>& value, const char*) {
+void Writer::on(const char* key, const field::Texts& field) {
   Node node{Node::Kind::list};
   node.flow = true;
-  for (const std::string& text : value) node.items.push_back(text_node(text));
+  for (const std::string& text : field.value) node.items.push_back(text_node(text));
   add(key, std::move(node));
 }
 
-void Writer::named(const char* key, std::vector<Named>& values, NamedValues, const char*) {
+void Writer::on(const char* key, const field::Map& field) {
   Writer writer(joints_);
-  for (Named& value : values) {
+  for (Named& value : field.value) {
     if (value.text.empty()) {
       writer.per_joint(value.name.c_str(), value.number, {});
     } else {
@@ -91,11 +93,11 @@ void Writer::named(const char* key, std::vector<Named>& values, NamedValues, con
   add(key, std::move(node));
 }
 
-void Writer::list(const char* key, const char*, List list) {
+void Writer::on(const char* key, const field::List& field) {
   Node node{Node::Kind::list};
-  for (std::size_t i = 0; i < list.size(list.self); ++i) {
+  for (std::size_t i = 0; i < field.size(field.self); ++i) {
     Writer writer(joints_);
-    list.visit(list.self, i, writer);
+    field.visit(field.self, i, writer);
     node.items.push_back(writer.take());
     node.items.back().flow = true;
   }
@@ -103,17 +105,17 @@ void Writer::list(const char* key, const char*, List list) {
   add(key, std::move(node));
 }
 
-void Writer::rule_or_list(const char* key, int& rule, std::span<const char* const> names, const char* about, List list) {
-  if (rule < 0) {
-    this->list(key, about, list);
+void Writer::on(const char* key, const field::RuleOrList& field) {
+  if (field.rule.empty()) {
+    on(key, field.list);
   } else {
-    add(key, scalar_node(names[static_cast<std::size_t>(rule)]));
+    add(key, scalar_node(field.rule));
   }
 }
 
-void Writer::group(const char* key, const char*, Group group) {
+void Writer::on(const char* key, const field::Group& field) {
   Writer writer(joints_);
-  group.visit(group.self, writer);
+  field.visit(field.self, writer);
   Node node = writer.take();
   node.flow = node.items.empty();
   add(key, std::move(node));

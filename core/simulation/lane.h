@@ -13,7 +13,7 @@ namespace gaitlab {
 /// Its CPG, controller, sensors, trace row.
 struct Simulation::Lane {
   Lane(const Scenario& s, std::size_t lane_index)
-      : Lane(s, lane_index, info(*s.robot), contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on))) {}
+      : Lane(s, lane_index, info(*s.robot), contact_elements(*s.robot, s.contact.on)) {}
   Lane(const Scenario& s, std::size_t lane_index, const RobotInfo& info, std::vector<ContactElement> elements)
       : scenario(s),
         robot(*s.robot),

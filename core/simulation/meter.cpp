@@ -1,18 +1,25 @@
 #include "core/simulation/meter.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace gaitlab {
 
 namespace {
 
-/// Where a figure is in Meter::figures_.
+using F = JointFigures;
+/// All members, in the order of Meter::figures_.
+constexpr std::array<double F::*, kFigures> kMembers{
+    &F::torque_peak,       &F::torque_rms,  &F::speed_peak,  &F::current_peak,
+    &F::current_rms,       &F::error_rms,   &F::error_peak,  &F::saturated_voltage,
+    &F::saturated_current, &F::range_share, &F::range_worst, &F::setpoint_outside,
+    &F::electrical,        &F::copper,      &F::gear,        &F::shaft,
+    &F::shaft_positive,    &F::created};
+
 template <class Figures>
-double* at(Figures& figures, double JointFigures::*member) {
-  constexpr JointFigures kAny{};
-  return figures[static_cast<std::size_t>(&(kAny.*member) - &kAny.torque_peak)].data();
+double* at(Figures& figures, double F::*member) {
+  const auto place = std::find(kMembers.begin(), kMembers.end(), member);
+  return figures[static_cast<std::size_t>(place - kMembers.begin())].data();
 }
 
 }  // namespace
@@ -64,7 +71,6 @@ void Meter::add(const Applied::Part& part, In setpoint, const Actuator::Report& 
   const auto error = [&](std::size_t i) { return setpoint[i] - angle[i]; };
   const auto excess = [&](std::size_t i) { return std::max(std::max(angle[i] - hi_[i], lo_[i] - angle[i]), 0.0); };
   const auto shaft = [&](std::size_t i) { return torque[i] * speed[i]; };
-  using F = JointFigures;
   peak(&F::torque_peak, [&](std::size_t i) { return std::abs(torque[i]); });
   share(&F::torque_rms, [&](std::size_t i) { return torque[i] * torque[i]; });
   peak(&F::speed_peak, [&](std::size_t i) { return std::abs(speed[i]); });
@@ -86,9 +92,8 @@ void Meter::add(const Applied::Part& part, In setpoint, const Actuator::Report& 
 }
 
 JointFigures Meter::figures(std::size_t joint, std::size_t lane) const {
-  std::array<double, kFigures> of_joint{};
-  for (std::size_t k = 0; k < kFigures; ++k) of_joint[k] = figures_[k][joint * lanes_ + lane];
-  auto f = std::bit_cast<JointFigures>(of_joint);
+  JointFigures f;
+  for (std::size_t k = 0; k < kFigures; ++k) f.*kMembers[k] = figures_[k][joint * lanes_ + lane];
   const double time = time_[lane];
   if (!(time > 0)) return f;
   for (double* mean_square : {&f.torque_rms, &f.current_rms, &f.error_rms})

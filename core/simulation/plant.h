@@ -60,7 +60,7 @@ struct PlantSettings : LaneSettings {
   std::vector<LaneSettings> others;  ///< of lanes 1 ..
   Base base = Base::floating;
   const Actuator* actuator = nullptr;  ///< joint * lanes + lane; nullptr: no motors
-  int integrator = 0;                  ///< index into the engine's list
+  std::string integrator;              ///< one of the engine's by name; "": its default
   bool solver = false;                 ///< contact.law: bullet; `law` is not used
 };
 

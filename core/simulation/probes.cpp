@@ -19,7 +19,7 @@ Sample::Sample(const Robot& robot, std::size_t contacts_count, std::size_t cpg_s
       cpg(cpg_states),
       reactions(robot) {
   for (auto* values : {&state.q, &state.qd, &setpoint, &command, &voltage, &current, &saturation, &torque, &stop_torque,
-                       &power_in, &copper, &gear, &acceleration_.joints, &applied_, &tally.torque_error, &tally.torque_peak}) {
+                       &acceleration_.joints, &applied_, &tally.torque_error, &tally.torque_peak}) {
     values->assign(robot.joints.size(), 0.0);
   }
   ground_.reserve(contacts_count);

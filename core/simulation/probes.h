@@ -28,7 +28,7 @@ struct Sample {
   std::vector<Quat> orientation;  ///< of every link frame; sign continuous in time
   Sums sums;
   Vec3 gravity = Vec3::Zero();
-  std::vector<double> setpoint, command, voltage, current, saturation, torque, stop_torque, power_in, copper, gear;
+  std::vector<double> setpoint, command, voltage, current, saturation, torque, stop_torque;
   std::vector<ContactSample> contacts;
   std::vector<BoxMotion> boxes;  ///< of Ground::boxes
   std::vector<double> cpg;

@@ -13,7 +13,7 @@ namespace gaitlab {
 bool can_share(const Scenario& a, const Scenario& b) {
   const auto same_link = [](const Link& x, const Link& y) { return x.parent == y.parent && x.joint == y.joint; };
   const auto same_place = [](const ContactElement& x, const ContactElement& y) { return x.link == y.link; };
-  const auto elements = [](const Scenario& s) { return contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on)); };
+  const auto elements = [](const Scenario& s) { return contact_elements(*s.robot, s.contact.on); };
   return a.physics.engine == b.physics.engine && a.physics.integrator == b.physics.integrator &&
          a.physics.step == b.physics.step && a.physics.adaptive_step == b.physics.adaptive_step &&
          a.control_period == b.control_period && a.actuator.entry == b.actuator.entry && a.base == b.base &&
@@ -64,7 +64,7 @@ PlantSettings Simulation::plant_settings() const {
   for (std::size_t l = 1; l < lanes_.size(); ++l) settings.others.push_back(own(*lanes_[l]));
   settings.base = scenarios_[0].base;
   settings.actuator = actuator_.get();
-  settings.integrator = scenarios_[0].physics.integrator;
+  settings.integrator = scenarios_[0].physics.integrator->name;
   settings.solver = scenarios_[0].contact.solver();
   return settings;
 }
@@ -132,8 +132,8 @@ void Simulation::set_start() {
 /// A second plant for the estimate of the torque error, where there are motors and a state that can be copied.
 void Simulation::watch_error() {
   const Physics& physics = scenarios_[0].physics;
-  const std::vector<int>& orders = physics.engine->orders;
-  if (actuator_ == nullptr || orders.empty() || !plant_->memoryless() || layout_.joints == 0) return;
+  const bool known = physics.adapts() || physics.integrator->order > 0;
+  if (actuator_ == nullptr || !known || !plant_->memoryless() || layout_.joints == 0) return;
   const std::int64_t control_every = std::llround(scenarios_[0].control_period / h_);
   PlantSettings settings = plant_settings();
   StepTwin twin;
@@ -142,7 +142,7 @@ void Simulation::watch_error() {
     for (LaneSettings& other : settings.others) other.accuracy *= StepError::kCoarser;
     twin = {1, StepError::kSafety / (StepError::kCoarserError - 1), 0.18, 6};
   } else {
-    const double ratio = 1 << orders[static_cast<std::size_t>(physics.integrator)];
+    const double ratio = 1 << physics.integrator->order;
     // An explicit step of twice the length may be too long for the robot.
     const bool longer = control_every % 2 == 0 && !(standing_.rate > 0);
     const double factor = StepError::kSafety / (ratio - 1);

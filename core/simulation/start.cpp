@@ -45,7 +45,7 @@ RobotState start_state(const Scenario& s) {
   if (s.on_ground && s.ground.kind != Ground::Kind::none) {
     Kinematics kinematics(robot);
     kinematics.update(robot, start);
-    start.position.z() -= height_above(s, kinematics, contact_elements(robot, static_cast<ContactSet>(s.contact.on)));
+    start.position.z() -= height_above(s, kinematics, contact_elements(robot, s.contact.on));
   }
   return start;
 }

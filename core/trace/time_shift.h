@@ -12,8 +12,8 @@ struct TimeShift {
 /// The shift s that minimises the mean square of second(t + s) - first(t): the cross-correlation less the energy of the window,
 /// which a drift would otherwise mistake for a shift; at whole samples first, then by a parabola through three of them, between
 /// samples by cubic interpolation. Searched within the smaller of 5 % of the duration and 0.5 s; means over the rows that have
-/// a partner at every such shift. Of equally good shifts (a periodic signal) the smallest. A shift counts only if it takes away
-/// more than a tenth of the RMS; else `time` is 0 and `rms` that of the unshifted signals over all rows.
+/// a partner at every such shift. Of equally good shifts (a periodic signal) the smallest. A shift counts only if at
+/// most half of the RMS remains; else `time` is 0 and `rms` that of the unshifted signals over all rows.
 /// Both have the same length and only finite values; `spacing` in s. Cost: at most about 1e6 products and 10 passes.
 TimeShift best_shift(std::span<const double> first, std::span<const double> second, double spacing);
 

@@ -12,12 +12,9 @@
 namespace gaitlab::test {
 namespace {
 
-std::string method_name(const testing::TestParamInfo<int>& method) {
-  constexpr std::array kNames{"adaptive", "implicit", "extrapolated", "rk4"};
-  return kNames[static_cast<std::size_t>(method.param)];
-}
+std::string method_name(const testing::TestParamInfo<std::string>& method) { return method.param; }
 
-class Lanes : public testing::TestWithParam<int> {
+class Lanes : public testing::TestWithParam<std::string> {
  protected:
   Lanes() { register_articulated(catalog_); }
   [[nodiscard]] const Engine& engine() const { return *catalog_.engine("articulated"); }
@@ -25,7 +22,7 @@ class Lanes : public testing::TestWithParam<int> {
  private:
   Catalog catalog_;
 };
-INSTANTIATE_TEST_SUITE_P(Of, Lanes, testing::Values(0, 1, 2, 3), method_name);
+INSTANTIATE_TEST_SUITE_P(Of, Lanes, testing::Values("adaptive", "implicit", "extrapolated", "rk4"), method_name);
 
 /// One lane: what it is made from, its numbers and commands.
 struct Lane {
@@ -86,7 +83,7 @@ Lane lane(RandomRobots& random, const Robot& first, Base base, std::size_t index
   return one;
 }
 
-constexpr int kExplicit = 3;  // rk4
+const std::string kExplicit = "rk4";
 
 /// lambda at the start, 1/s.
 double rate(const Engine& engine, const Lane& lane, Base base) {

@@ -147,7 +147,7 @@ class BlockOnPlane : public testing::Test {
     ContactElement point;
     settings.contacts = {point};
     settings.law.cd = 0;
-    settings.integrator = 1;  // implicit
+    settings.integrator = "implicit";
   }
   /// Velocity after one step of h from `speed` along x, at the depth that carries the weight.
   [[nodiscard]] double after(double speed, double h) const {
@@ -190,9 +190,9 @@ TEST(ArticulatedEngine, RegistersWithItsDefaults) {
   register_articulated(catalog);
   const Engine* engine = catalog.engine("articulated");
   ASSERT_NE(engine, nullptr);
-  EXPECT_EQ(engine->integrators, (std::vector<std::string>{"adaptive", "implicit", "extrapolated", "rk4"}));
-  EXPECT_EQ(engine->adaptive, 0);
-  EXPECT_EQ(engine->fixed, 1);
+  EXPECT_EQ(engine->integrator_names(), (std::vector<std::string>{"adaptive", "implicit", "extrapolated", "rk4"}));
+  EXPECT_EQ(engine->adaptive()->name, "adaptive");
+  EXPECT_EQ(engine->fixed().name, "implicit");
   EXPECT_EQ(engine->step, 5e-4);
   EXPECT_TRUE(engine->rotor_inertia);
 }

@@ -113,7 +113,7 @@ TEST(EquationValues, WhatIsGivenOfJointAndTree) {
   Equations::Settings s = only("0");
   s.frequency.each = {0.1, 0.2, 0.3, 0.4};
   s.offset.each = {0, 0.1, 0.2, 0.3};
-  s.rule = static_cast<int>(CouplingRule::parent);
+  s.rule = CouplingRule::parent;
   const auto of = [&](const std::string& text) {
     s.model.output = text;
     return values(s);
@@ -216,7 +216,7 @@ TEST(EquationValues, ThousandsOfRandomTexts) {
     RandomText random(seed);
     const RandomText::Grown grown = random.grow(6);
     Equations::Settings s;
-    s.rule = -1;
+    s.rule = std::nullopt;
     s.couplings = random.couplings;
     s.model.states = {{"s", "0"}};
     s.model.initial.clear();
@@ -293,11 +293,12 @@ TEST(Equations, AreTheNativePhaseOscillator) {
   keys.amplitude.each = {0.6, 0.1, 0.3, 0};
   keys.offset.each = {0.1, -0.2, 0, 0.4};
   keys.phase_lag.each = {0, 1.2, -0.7, 2};
-  for (int rule = 0; rule < 5; ++rule) {
+  for (const auto rule :
+       {CouplingRule::chain, CouplingRule::parent, CouplingRule::siblings, CouplingRule::mirror, CouplingRule::all}) {
     keys.rule = rule;
     expect_native(keys);
   }
-  keys.rule = -1;
+  keys.rule = std::nullopt;
   keys.couplings = {{3, 1, 0.5, 1}, {0, 1, 2, 0.3}, {1, 0, 1, -0.3}, {0, 1, 0.25, 0.3}, {2, 0, -1, 0.1}, {1, 2, 1, 1}};
   expect_native(keys);
   expect_native(keys, true);

@@ -65,7 +65,8 @@ struct Link {
 
 struct CommonKeys {
   PerJoint frequency{0.25}, amplitude{0.6};
-  int rule = 0;
+  enum class Rule { chain };
+  std::optional<Rule> rule = Rule::chain;
   std::vector<Link> couplings;
   void fields(Fields& f) {
     static constexpr const char* kRules[] = {"chain"};
@@ -133,7 +134,7 @@ inline void fill(Catalog& catalog) {
   add_cpg<Picky>(catalog, "picky", "Refuses.");
   Engine bullet;
   bullet.name = "bullet";
-  bullet.integrators = {"semi_implicit", "rk4"};
+  bullet.integrators = {{"semi_implicit", 1}, {"rk4", 4}};
   bullet.step = 2.5e-5;
   catalog.add(bullet);
 }

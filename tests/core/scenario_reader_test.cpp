@@ -16,7 +16,7 @@ struct Gains {
   std::array<double, 2> window{0, 1};
   std::int64_t order = 3, leader = -1;
   bool on = false;
-  int mode = 0;
+  enum class Mode { slow, fast } mode = Mode::slow;
   void fields(Fields& f) {
     static constexpr const char* kModes[] = {"slow", "fast"};
     f.number("stiffness", stiffness, {"N/m", 0, 1e4, "Of the spring."});
@@ -117,11 +117,11 @@ TEST(Reader, PerJointErrors) {
 TEST(Reader, RuleOrList) {
   fakes::CommonKeys s;
   EXPECT_EQ(read("couplings: [{from: m0/active, to: 1, weight: 2}, {to: 2}]\n", s), "no error");
-  EXPECT_EQ(s.rule, -1);
+  EXPECT_FALSE(s.rule.has_value());
   EXPECT_EQ(s.couplings.at(0).to, 1);
   EXPECT_EQ(s.couplings.at(1).weight, 1);
   EXPECT_EQ(read("couplings: chain\n", s), "no error");
-  EXPECT_EQ(s.rule, 0);
+  EXPECT_EQ(s.rule, fakes::CommonKeys::Rule::chain);
   EXPECT_TRUE(s.couplings.empty());
   EXPECT_EQ(read("couplings: chian\n", s), "f:1:12: error: couplings 'chian' is unknown; did you mean 'chain'?");
   EXPECT_EQ(read("couplings: {from: 0}\n", s), "f:1:12: error: couplings is a map; expected chain or a list");
@@ -149,7 +149,7 @@ TEST(Reader, GroupsAndChecksAcrossFields) {
 TEST(Writer, EveryDefaultIsWrittenAndReadsBack) {
   fakes::Hopf::Settings s;
   s.couplings = {{0, 1, 2}, {1, 2, 0.5}};
-  s.rule = -1;
+  s.rule = std::nullopt;
   s.amplitude.each = {0.1, 0.2, 0.3};
   const std::string text = write(s);
   EXPECT_EQ(text,

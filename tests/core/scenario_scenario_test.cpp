@@ -21,10 +21,10 @@ TEST_F(ScenarioTest, EveryKeyButRobotAndDurationHasADefault) {
   EXPECT_TRUE(s.on_ground);
   EXPECT_EQ(s.physics.engine->name, "bullet");
   EXPECT_EQ(s.physics.step, 2.5e-5);
-  EXPECT_EQ(s.physics.integrator, 0);
+  EXPECT_EQ(s.physics.integrator->name, "semi_implicit");
   EXPECT_EQ(s.physics.gravity.z(), -9.81);
   EXPECT_EQ(s.ground.kind, Ground::Kind::plane);
-  EXPECT_EQ(s.contact.on, 1);
+  EXPECT_EQ(s.contact.on, ContactSet::feet);
   EXPECT_EQ(s.actuator.entry->name, "dc_motor");
   EXPECT_EQ(s.controller.entry->name, "pid");
   EXPECT_EQ(s.cpg.entry, nullptr);

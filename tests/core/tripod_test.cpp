@@ -34,7 +34,7 @@ std::vector<double> setpoints(const Tripod& gait, std::size_t joints, double t) 
 TEST(Tripod, SetPointsNeverJump) {
   for (const auto& rows : {kHexapod, kQuadruped}) {
     const RobotInfo robot = robot_of(rows);
-    for (const int order : {0, 1}) {
+    for (const auto order : {Tripod::Order::alternate, Tripod::Order::wave}) {
       for (const double duty : {0.5, 0.75, 0.95}) {
         Tripod::Settings settings;
         settings.model.order = order;
@@ -51,7 +51,8 @@ TEST(Tripod, SetPointsNeverJump) {
           const std::vector<double> now = setpoints(gait, robot.joints.size(), kTick * k);
           for (std::size_t j = 0; j < now.size(); ++j) {
             ASSERT_LT(std::abs(now[j] - before[j]), fastest * kTick)
-                << rows.size() << " docks, order " << order << ", duty " << duty << ", joint " << j << ", t = " << kTick * k;
+                << rows.size() << " docks, order " << static_cast<int>(order) << ", duty " << duty << ", joint " << j
+                << ", t = " << kTick * k;
           }
           before = now;
         }

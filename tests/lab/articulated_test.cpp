@@ -115,10 +115,10 @@ TEST(Engines, TraceRandomRobotsUnderTheSameMethod) {
   for (std::size_t i = 0; i < 40; ++i) {
     const Base base = std::array{Base::floating, Base::floating, Base::planar, Base::fixed}[i % 4];
     Scenario s = random_run(random, base, 40, random.uniform(0.05, 0.2));
-    s.physics.integrator = 1;  // rk4
+    s.physics.integrator = s.physics.engine->integrator("rk4");
     const RunRecord b = run(s);
     s.physics.engine = catalog().engine("articulated");
-    s.physics.integrator = 3;  // rk4
+    s.physics.integrator = s.physics.engine->integrator("rk4");
     const RunRecord a = run(s);
     worst = std::max(worst, difference(a.trace, b.trace));
     rubbed += a.ledger.friction;

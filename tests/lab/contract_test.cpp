@@ -37,42 +37,29 @@ class Numbers final : public Fields {
   std::map<std::string, Found> found;
   std::vector<std::string> empty_abouts;
 
-  void number(const char* key, double& value, Spec spec) override { note(key, value, spec, false); }
-  void integer(const char* key, std::int64_t& value, Spec spec) override { note(key, static_cast<double>(value), spec, true); }
-  void per_joint(const char* key, PerJoint& value, Spec spec) override { note(key, value.common, spec, false); }
-  void flag(const char* key, bool&, const char* about) override { check(key, about); }
-  void text(const char* key, std::string&, const char* about) override { check(key, about); }
-  void file(const char* key, std::string&, const char* about) override { check(key, about); }
-  void choice(const char* key, int&, std::span<const char* const>, const char* about) override { check(key, about); }
-  void joint(const char* key, std::int64_t&, const char* about) override { check(key, about); }
-  void vector(const char* key, std::span<double>, Spec spec) override { check(key, spec.about); }
-  void numbers(const char* key, std::vector<double>&, Spec spec) override { check(key, spec.about); }
-  void rows(const char* key, std::vector<std::vector<double>>&, Spec spec) override { check(key, spec.about); }
-  void texts(const char* key, std::vector<std::string>&, const char* about) override { check(key, about); }
-  void named(const char* key, std::vector<Named>&, NamedValues, const char* about) override { check(key, about); }
-  void problem(const char* key, std::string_view what) override { ADD_FAILURE() << key << ": " << what; }
-  void problem_at(const char* key, std::string_view, std::size_t, std::string_view what) override { problem(key, what); }
+  void visit(const Field& field) override {
+    if (std::string_view(field.about).size() < 4 || !std::string_view(field.about).ends_with('.')) {
+      empty_abouts.push_back(prefix_ + field.key);
+    }
+    const auto note = [&](double value, const Spec& spec, bool whole) {
+      found.emplace(prefix_ + field.key, Found{value, spec, whole});
+    };
+    if (const auto* one = std::get_if<field::Number>(&field.value)) note(one->value, one->spec, false);
+    if (const auto* one = std::get_if<field::NumberOr>(&field.value)) note(one->value, one->spec, false);
+    if (const auto* one = std::get_if<field::Integer>(&field.value)) note(static_cast<double>(one->value), one->spec, true);
+    if (const auto* one = std::get_if<field::EachJoint>(&field.value)) note(one->value.common, one->spec, false);
+    if (const auto* one = std::get_if<field::Group>(&field.value)) {
+      const std::string before = prefix_;
+      prefix_ += std::string(field.key) + ".";
+      one->visit(one->self, *this);
+      prefix_ = before;
+    }
+  }
+  void problem_at(const char* key, std::string_view, std::size_t, std::string_view what) override {
+    ADD_FAILURE() << key << ": " << what;
+  }
 
  private:
-  void note(const std::string& key, double value, const Spec& spec, bool whole) {
-    check(key, spec.about);
-    found.emplace(prefix_ + key, Found{value, spec, whole});
-  }
-  void check(const std::string& key, std::string_view about) {
-    if (about.size() < 4 || !about.ends_with('.')) empty_abouts.push_back(prefix_ + key);
-  }
-  void list(const char* key, const char* about, List) override { check(key, about); }
-  void rule_or_list(const char* key, int&, std::span<const char* const>, const char* about, List) override {
-    check(key, about);
-  }
-  void group(const char* key, const char* about, Group group) override {
-    check(key, about);
-    const std::string before = prefix_;
-    prefix_ += std::string(key) + ".";
-    group.visit(group.self, *this);
-    prefix_ = before;
-  }
-
   std::string prefix_;
 };
 

@@ -8,10 +8,7 @@ class EveryEngine : public testing::TestWithParam<std::string> {
  protected:
   [[nodiscard]] static std::string set() { return "physics.engine=" + GetParam(); }
   /// The integrator of first order.
-  [[nodiscard]] static std::string first_order() {
-    const Engine& engine = *catalog().engine(GetParam());
-    return engine.integrators[static_cast<std::size_t>(engine.fixed)];
-  }
+  [[nodiscard]] static std::string first_order() { return catalog().engine(GetParam())->fixed().name; }
 };
 
 inline auto engines() { return testing::ValuesIn(catalog().engines()); }

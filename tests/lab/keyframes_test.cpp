@@ -43,7 +43,7 @@ std::vector<Keyframes::Frame> uneven(bool closed) {
 
 TEST(Keyframes, BothCurvesPassThroughTheFrames) {
   for (const bool repeat : {true, false}) {
-    for (const int interpolation : {0, 1}) {
+    for (const auto interpolation : {Keyframes::Interpolation::spline, Keyframes::Interpolation::linear}) {
       Keyframes::Settings s = settings(uneven(repeat), repeat);
       s.model.interpolation = interpolation;
       const Keyframes gait(joints(2), s);
@@ -132,7 +132,7 @@ TEST(Keyframes, TwoAndThreeFramesRepeat) {
 
 TEST(Keyframes, LinearAndRamp) {
   Keyframes::Settings s = settings(uneven(true), true);
-  s.model.interpolation = 1;
+  s.model.interpolation = Keyframes::Interpolation::linear;
   s.model.ramp = 4;
   const Keyframes gait(joints(2), s);
   EXPECT_NEAR(at(gait, 0.15, 0, 2), 0.3 * 0.15 / 4, 1e-15);

@@ -167,7 +167,7 @@ TEST(Mujoco, MovesTheSameWithoutMotorsAndContacts) {
   for (std::size_t i = 0; i < 18; ++i) {
     const Base base = kBases[i % 3];
     Scenario s = random_scenario(random, base);
-    s.physics.integrator = 1;  // rk4
+    s.physics.integrator = s.physics.engine->integrator("rk4");
     s.physics.step = std::array{2.5e-4, 2e-4, 1.25e-4, 1e-4}[random.below(4)];
     s.duration = 0.2;
     s.trace.period = s.control_period = s.cpg_step = 0.2;

@@ -21,7 +21,7 @@ inline Scenario random_scenario(RandomRobots& random, Base base, double still = 
   s.base = base;
   s.robot = std::make_shared<const Robot>(std::move(robot));
   s.ground.kind = Ground::Kind::none;
-  s.contact.on = static_cast<int>(ContactSet::none);
+  s.contact.on = ContactSet::none;
   s.on_ground = false;
   s.position = state.position;
   s.orientation = to_rpy(state.orientation.toRotationMatrix());
@@ -61,7 +61,7 @@ inline Scenario random_run(RandomRobots& random, Base base, int ticks, double sh
   }
   s.robot = std::make_shared<const Robot>(std::move(robot));
   s.physics.gravity = random.vector(5) + Vec3(0, 0, -10);
-  s.contact.on = static_cast<int>(ContactSet::all);
+  s.contact.on = ContactSet::all;
   s.contact.penalty = random.contact();
   if (base != Base::fixed) s.initial.base_velocity.z() = -random.uniform(0.1, 0.5);
   s.ground.kind = random.below(2) == 0 ? Ground::Kind::plane : Ground::Kind::boxes;

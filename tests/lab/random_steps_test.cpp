@@ -35,13 +35,11 @@ Rollout start(const Scenario& s, const char* integrator) {
   Rollout r;
   r.actuator = make_actuator(s.actuator, info(*s.robot));
   PlantSettings settings;
-  static_cast<LaneSettings&>(settings) = {s.robot,           s.physics.gravity,
-                                          s.ground,          contact_elements(*s.robot, static_cast<ContactSet>(s.contact.on)),
-                                          s.contact.penalty, 0.01};
+  static_cast<LaneSettings&>(settings) = {
+      s.robot, s.physics.gravity, s.ground, contact_elements(*s.robot, s.contact.on), s.contact.penalty, 0.01};
   settings.base = s.base;
   settings.actuator = r.actuator.get();
-  const auto& names = s.physics.engine->integrators;
-  settings.integrator = static_cast<int>(std::find(names.begin(), names.end(), integrator) - names.begin());
+  settings.integrator = integrator;
   r.plant = s.physics.engine->make(settings);
   const StateLayout layout{s.robot->joints.size(), 1};
   r.state.resize(layout.size());

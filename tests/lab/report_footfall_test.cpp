@@ -171,7 +171,7 @@ TEST(Footfall, LongPeriodsAreCutAndEarlyEndsDrawn) {
 
 TEST(Footfall, WithoutContactsTheFigureIsTheCommonOne) {
   Scenario scenario = hexapod().scenario;
-  scenario.contact.on = static_cast<int>(ContactSet::none);
+  scenario.contact.on = ContactSet::none;
   const Summary summary = summarise(hexapod().scenario, hexapod().record, 0);
   const std::string svg = run_figure(scenario, hexapod().record, summary);
   EXPECT_EQ(svg.find("footfall"), std::string::npos);

@@ -57,7 +57,7 @@ TEST_F(Doubts, NameTheJointWhoseTorqueIsOff) {
 TEST_F(Doubts, OfferAStepThatFits) {
   r.tally.torque_error[0] = 0.04;
   s = hexapod({"physics.engine=articulated", "physics.step=1e-3"});
-  EXPECT_EQ(s.physics.integrator_name(), "implicit");
+  EXPECT_EQ(s.physics.integrator->name, "implicit");
   // Order 1: an eighth of 1 ms for half of 1 %, and all periods are whole multiples of 0.125 ms.
   EXPECT_EQ(only(),
             "the torque of joint m0/active is off by about 4 % of its peak, estimated from other steps; take physics.step: "
