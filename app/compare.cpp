@@ -11,6 +11,7 @@
 #include "app/app.h"
 #include "core/errors.h"
 #include "core/trace/run_files.h"
+#include "report/numbers.h"
 
 namespace gaitlab::app {
 
@@ -81,13 +82,6 @@ void print_columns(const TraceDifference& difference) {
   print_worst(difference.columns);
 }
 
-/// A row of the summary table.
-struct Figure {
-  std::string name;     ///< with unit
-  std::string pointer;  ///< JSON pointer
-  bool always = true;   ///< else only where A and B differ
-};
-
 // Null where a summary has not got it.
 Json at(const Json& summary, const std::string& pointer) {
   const Json::json_pointer where(pointer);
@@ -105,39 +99,6 @@ std::string most_loaded_joint(const Json& summary) {
     found = name;
   }
   return found;
-}
-
-std::vector<Figure> figures(const Json& a) {
-  std::vector<Figure> all = {{"name", "/name", false},
-                             {"engine", "/engine", false},
-                             {"integrator", "/integrator", false},
-                             {"step, s", "/step", false},
-                             {"duration, s", "/duration", false},
-                             {"simulated, s", "/simulated", false},
-                             {"outcome", "/outcome", false},
-                             {"seed", "/seed", false},
-                             {"build", "/build", false},
-                             {"modules", "/modules", false},
-                             {"mass, kg", "/mass", false},
-                             {"distance, m", "/distance"},
-                             {"displacement x, m", "/displacement/0"},
-                             {"displacement y, m", "/displacement/1"},
-                             {"speed, m/s", "/speed"},
-                             {"path length, m", "/path_length"},
-                             {"heading change, rad", "/heading_change"},
-                             {"transport, electrical", "/cost_of_transport/electrical"},
-                             {"transport, mechanical", "/cost_of_transport/mechanical"},
-                             {"limit cycle found", "/limit_cycle/found", false},
-                             {"limit cycle period, s", "/limit_cycle/period"}};
-  const std::string most_loaded = most_loaded_joint(a);  // one row is one joint, so that of A
-  if (!most_loaded.empty()) {
-    const std::string key = (Json::json_pointer("/per_joint") / most_loaded).to_string();  // escapes the / of a name
-    all.push_back({most_loaded + " torque peak, N m", key + "/torque/peak"});
-    all.push_back({most_loaded + " torque RMS, N m", key + "/torque/rms"});
-  }
-  all.push_back({"stability max", "/stability/max"});
-  all.push_back({"trace hash", "/trace_hash"});
-  return all;
 }
 
 std::string shown(const Json& value) {
@@ -158,15 +119,17 @@ std::string change(const Json& a, const Json& b) {
 }
 
 void print_summaries(const Json& a, const Json& b) {
-  const std::vector<Figure> rows = figures(a);
+  const std::string joint = most_loaded_joint(a);  // one row is one joint, so that of A
+  std::vector<const SummaryNumber*> rows = placed(&SummaryNumber::compare);
+  if (joint.empty()) std::erase_if(rows, [](const SummaryNumber* number) { return number->of_joint != nullptr; });
   std::size_t width = 0;
-  for (const Figure& figure : rows) width = std::max(width, figure.name.size());
+  for (const SummaryNumber* number : rows) width = std::max(width, number->row(joint).size());
   fmt::print("\n{:<{}} {:>18} {:>18}  {}\n", "summary", width, "A", "B", "B - A");
-  for (const Figure& figure : rows) {
-    const Json one = at(a, figure.pointer);
-    const Json other = at(b, figure.pointer);
-    if ((one.is_null() && other.is_null()) || (!figure.always && one == other)) continue;
-    fmt::print("{:<{}} {:>18} {:>18}  {}\n", figure.name, width, shown(one), shown(other), change(one, other));
+  for (const SummaryNumber* number : rows) {
+    const Json one = at(a, number->pointer(joint));
+    const Json other = at(b, number->pointer(joint));
+    if ((one.is_null() && other.is_null()) || (number->compare.if_different && one == other)) continue;
+    fmt::print("{:<{}} {:>18} {:>18}  {}\n", number->row(joint), width, shown(one), shown(other), change(one, other));
   }
 }
 

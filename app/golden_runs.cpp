@@ -5,27 +5,25 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <nlohmann/json.hpp>
 
 #include "app/progress.h"
 #include "core/parallel.h"
 #include "core/simulation/simulation.h"
 #include "report/build_id.h"
-#include "report/summary.h"
+#include "report/numbers.h"
 
 namespace gaitlab::app {
 
 namespace {
 
-constexpr double kRowEvery = 0.02;  // s; a gait has 0.5 Hz, and the contacts' spikes are not what drifts
-constexpr double kNowhere = 0.01;   // m: the work of a robot that stays is divided by noise
-constexpr const char* kCosts[] = {"cost_of_transport.electrical", "cost_of_transport.mechanical"};
+constexpr double kRowEvery = 0.02;      // s; a gait has 0.5 Hz, and the contacts' spikes are not what drifts
+constexpr double kNowhere = 0.01;       // m: the work of a robot that stays is divided by noise
 constexpr double kPerturbation = 1e-7;  // rad: above the rounding of another compiler, far below what a torque shows
-
-bool driven(const Scenario& scenario) { return scenario.actuator.entry != nullptr && !scenario.robot->joints.empty(); }
 
 std::vector<std::string> columns(const Scenario& scenario) {
   std::vector<std::string> names;
-  if (driven(scenario)) names = {"joint.*.torque", "joint.*.current"};
+  if (has_motors(scenario)) names = {"joint.*.torque", "joint.*.current"};
   if (!scenario.robot->joints.empty()) names.emplace_back("joint.*.angle");
   for (const char* part : {"x", "y", "z", "qw", "qx", "qy", "qz"}) names.push_back(std::string("base.") + part);
   return names;
@@ -43,19 +41,18 @@ Trace thinned(const Trace& trace, double period) {
 }
 
 std::vector<Number> numbers(const Scenario& scenario, const RunRecord& record) {
-  const Summary s = summarise(scenario, record, 0);
-  std::vector<Number> all{{"distance", "m", s.distance},
-                          {"displacement.x", "m", s.displacement_x},
-                          {"speed", "m/s", s.speed},
-                          {"path_length", "m", s.path_length}};
-  if (!driven(scenario)) return all;
-  all.push_back({kCosts[0], "J/(N m)", s.cost_electrical});
-  all.push_back({kCosts[1], "J/(N m)", s.cost_mechanical});
+  const Summary summary = summarise(scenario, record, 0);
+  std::vector<const SummaryNumber*> kept = placed(&SummaryNumber::golden);
+  if (!has_motors(scenario)) std::erase_if(kept, [](const SummaryNumber* number) { return number->golden.needs_motor; });
+  std::vector<Number> all;
+  for (const SummaryNumber* number : kept) {
+    if (number->of_joint == nullptr) all.push_back({number->name(), number->unit, number->value({scenario, record, summary})});
+  }
   for (std::size_t j = 0; j < record.joints.size(); ++j) {
-    const std::string& name = scenario.robot->joints[j].name;
-    all.push_back({name + ".torque.peak", "N m", record.joints[j].torque_peak});
-    all.push_back({name + ".torque.rms", "N m", record.joints[j].torque_rms});
-    all.push_back({name + ".current.rms", "A", record.joints[j].current_rms});
+    for (const SummaryNumber* number : kept) {
+      if (number->of_joint == nullptr) continue;
+      all.push_back({number->name(scenario.robot->joints[j].name), number->unit, record.joints[j].*number->of_joint});
+    }
   }
   return all;
 }
@@ -122,10 +119,10 @@ std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int job
 std::vector<Number> golden_numbers(const GoldenRun& run) {
   const auto distance =
       std::find_if(run.numbers.begin(), run.numbers.end(), [](const Number& n) { return n.name == "distance"; });
-  std::vector<Number> kept;
-  for (const Number& number : run.numbers) {
-    const bool cost = std::find(std::begin(kCosts), std::end(kCosts), number.name) != std::end(kCosts);
-    if (!cost || distance->value > kNowhere) kept.push_back(number);
+  std::vector<Number> kept = run.numbers;
+  if (distance->value > kNowhere) return kept;
+  for (const SummaryNumber& entry : summary_numbers()) {
+    if (entry.golden.needs_travel) std::erase_if(kept, [&](const Number& number) { return number.name == entry.name(); });
   }
   return kept;
 }

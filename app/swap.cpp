@@ -12,7 +12,7 @@
 #include "core/trace/atomic_file.h"
 #include "core/trace/run_folder.h"
 #include "report/curves.h"
-#include "report/summary.h"
+#include "report/numbers.h"
 
 namespace gaitlab::app {
 
@@ -110,38 +110,33 @@ void run_all(std::vector<Swapped>& all, int jobs) {
 
 // ---- the table
 
-double saturated(const RunRecord& record) {
-  double worst = 0;
-  for (const JointFigures& f : record.joints) worst = std::max(worst, f.saturated_voltage + f.saturated_current);
-  return worst;
+void print_row(std::string row) {
+  row.erase(row.find_last_not_of(' ') + 1);
+  fmt::print("{}\n", row);
 }
 
-std::string cycle(const LimitCycle& cycle) {
-  return cycle.found ? fmt::format("{:.4g} s from {:.3g} s, to {}", cycle.period, cycle.from, percent(cycle.error))
-                     : "none found";
+template <class Text>
+std::string cells(std::string row, Text text) {
+  for (const SummaryNumber* number : placed(&SummaryNumber::swap)) {
+    const int width = number->swap.width;
+    row += width < 0 ? fmt::format(" {:<{}}", text(*number), -width) : fmt::format(" {:>{}}", text(*number), width);
+  }
+  return row;
 }
 
 void print_table(const std::vector<Swapped>& all) {
   const Scenario& first = *all.front().scenario;
   std::size_t width = 3;
   for (const Swapped& swapped : all) width = std::max(width, swapped.cpg.size());
+  const auto name = [&](const std::string& text) { return fmt::format("{:<{}}", text, width); };
   fmt::print("{}: {:g} s under each\n", first.name, first.duration);
-  fmt::print("{:<{}} {:>10} {:>19} {:>22} {:>12} {:>16}  {}\n", "", width, "speed", "travel x, y", "cost of transport",
-             "peak torque", "", "");
-  fmt::print("{:<{}} {:>10} {:>19} {:>11} {:>10} {:>12} {:<16} {:>9}  {}\n", "cpg", width, "m/s", "m", "electr.", "mech.",
-             "N m", "of joint", "saturated", "limit cycle");
+  print_row(cells(name(""), [](const SummaryNumber& number) { return number.swap.head; }));
+  print_row(cells(name("cpg"), [](const SummaryNumber& number) { return number.swap.under; }));
   for (const Swapped& swapped : all) {
-    const Summary& s = swapped.summary;
-    if (s.outcome != "done") {
-      fmt::print("{:<{}} {}\n", swapped.cpg, width, s.outcome);
-      continue;
-    }
-    const bool driven = first.actuator.entry != nullptr && !swapped.record.joints.empty();
-    const std::string joint = driven ? first.robot->joints[s.most_loaded].name : "-";
-    const double peak = driven ? swapped.record.joints[s.most_loaded].torque_peak : 0;
-    fmt::print("{:<{}} {:>10.4f} {:>19} {:>11.3g} {:>10.3g} {:>12.3f} {:<16} {:>9}  {}\n", swapped.cpg, width, s.speed,
-               fmt::format("{:+.4f}, {:+.4f}", s.displacement_x, s.displacement_y), s.cost_electrical, s.cost_mechanical, peak,
-               joint, percent(saturated(swapped.record)), cycle(s.limit_cycle));
+    const RunData run{*swapped.scenario, swapped.record, swapped.summary};
+    const std::string& outcome = run.summary.outcome;
+    print_row(outcome != "done" ? name(swapped.cpg) + " " + outcome
+                                : cells(name(swapped.cpg), [&](const SummaryNumber& number) { return number.swap.cell(run); }));
   }
 }
 

@@ -53,7 +53,7 @@ Scenario bare(const PlantSettings& s) {
   scenario.on_ground = false;
   const ContactSet all =
       s.contacts.size() == contact_elements(*robot, ContactSet::feet).size() ? ContactSet::feet : ContactSet::all;
-  scenario.contact.on = static_cast<int>(s.contacts.empty() ? ContactSet::none : all);
+  scenario.contact.on = s.contacts.empty() ? ContactSet::none : all;
   return scenario;
 }
 

@@ -1,0 +1,153 @@
+#include "report/number_texts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/trust.h"
+
+namespace gaitlab::texts {
+
+namespace {
+
+constexpr double kVisible = 1e-3;  // share of what is drawn
+constexpr double kNowhere = 1e-3;  // m: the work of a robot that stays is divided by noise
+
+}  // namespace
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+double created(const RunRecord& record) {
+  double sum = 0;
+  for (const JointFigures& joint : record.joints) sum += joint.created;
+  return sum;
+}
+
+// ---- the terminal
+
+Lines simulated(const RunData& run) {
+  const Summary& s = run.summary;
+  return {fmt::format("{}: {:.6g} s simulated in {:.2f} s ({:.2g} times real time)", run.scenario.name, s.simulated,
+                      s.wall_time, s.wall_time > 0 ? s.simulated / s.wall_time : 0)};
+}
+
+Lines engine(const RunData& run) {
+  return {fmt::format("{} ({})", run.scenario.physics.engine->name, run.scenario.physics.integrator_name())};
+}
+
+Lines steps(const RunData& run) { return {steps_text(run.scenario, run.record)}; }
+
+Lines robot(const RunData& run) {
+  const Robot& robot = *run.scenario.robot;
+  return {fmt::format("{} modules, {} bodies, {} joints, {} degrees of freedom, {:.3f} kg", robot.modules.size(),
+                      robot.bodies.size(), robot.joints.size(), robot.dof(run.scenario.base), robot.mass)};
+}
+
+Lines distance(const RunData& run) {
+  const Summary& s = run.summary;
+  return {fmt::format("{:.4f} m (x {:+.4f}, y {:+.4f}), heading change {:+.3f} rad", s.distance, s.displacement_x,
+                      s.displacement_y, s.heading_change)};
+}
+
+Lines speed(const RunData& run) {
+  return {fmt::format("{:.4f} m/s over a path of {:.4f} m", run.summary.speed, run.summary.path_length)};
+}
+
+Lines limit_cycle(const RunData& run) {
+  const LimitCycle& cycle = run.summary.limit_cycle;
+  if (!cycle.found) return {"none found"};
+  return {fmt::format("from t = {:.2f} s, period {:.4f} s, repeats to {}", cycle.from, cycle.period, percent(cycle.error))};
+}
+
+Lines transport(const RunData& run) {
+  const Summary& s = run.summary;
+  if (!has_motors(run.scenario)) return {};
+  if (s.distance < kNowhere) return {"no cost: it went nowhere"};
+  return {
+      fmt::format("cost {:.3g} electrical, {:.3g} mechanical (J per N of weight and m)", s.cost_electrical, s.cost_mechanical)};
+}
+
+Lines most_loaded(const RunData& run) {
+  if (!has_motors(run.scenario)) return {};
+  const std::size_t j = run.summary.most_loaded;
+  const JointFigures& f = run.record.joints[j];
+  return {fmt::format("joint {} ({}): torque peak {:.3f} N m, RMS {:.3f} N m; saturated {} voltage, {} current", j,
+                      run.scenario.robot->joints[j].name, f.torque_peak, f.torque_rms, percent(f.saturated_voltage),
+                      percent(f.saturated_current))};
+}
+
+Lines energy(const RunData& run) {
+  if (!has_motors(run.scenario)) return {};
+  const Ledger& l = run.record.ledger;
+  std::string text = fmt::format("{:.4g} J drawn = {:.4g} copper", l.electrical, l.copper);
+  const auto add = [&](double value, const char* what) {
+    if (value != 0) text += fmt::format(" {} {:.3g} {}", value < 0 ? '-' : '+', std::abs(value), what);
+  };
+  add(l.gear, "gear");
+  add(l.stored, "stored");
+  add(l.contact, "contact");
+  add(l.friction, "friction");
+  add(l.stops, "stops");
+  add(l.residual(), "residual");
+  if (l.electrical > 0) text += fmt::format(" ({:.2g} %)", 100 * l.residual() / l.electrical);
+  return {text};
+}
+
+Lines created_energy(const RunData& run) {
+  const double energy = created(run.record);
+  if (!has_motors(run.scenario) || !(energy > kVisible * run.record.ledger.electrical)) return {};
+  return {fmt::format(
+      "the gears created {:.3g} J (eq. 2 on back-driven joints; actuator.efficiency_model: directional does not)", energy)};
+}
+
+Lines range(const RunData& run) {
+  Lines lines;
+  for (std::size_t j = 0; j < run.record.joints.size(); ++j) {
+    const JointFigures& f = run.record.joints[j];
+    if (!(f.setpoint_outside > 0 || f.range_share > 0)) continue;
+    lines.push_back(fmt::format("joint {} ({}): outside its range {} of the time, worst by {:.3g} rad; its set point {}", j,
+                                run.scenario.robot->joints[j].name, percent(f.range_share), f.range_worst,
+                                percent(f.setpoint_outside)));
+  }
+  return lines;
+}
+
+Lines stability(const RunData& run) {
+  const Summary& s = run.summary;
+  if (s.stability_source.empty()) return {};
+  return {fmt::format("h lambda at most {:.2f} at t = {:.2f} s ({}); above 1 in {} of the ticks", s.stability_max,
+                      run.record.worst_time, s.stability_source, percent(s.stability_share))};
+}
+
+// ---- the table of `swap`
+
+std::string speed_cell(const RunData& run) { return fmt::format("{:.4f}", run.summary.speed); }
+
+std::string travel_cell(const RunData& run) {
+  return fmt::format("{:+.4f}, {:+.4f}", run.summary.displacement_x, run.summary.displacement_y);
+}
+
+std::string cost_cell(const RunData& run) {
+  return fmt::format("{:>11.3g} {:>10.3g}", run.summary.cost_electrical, run.summary.cost_mechanical);
+}
+
+std::string torque_cell(const RunData& run) {
+  const std::size_t j = run.summary.most_loaded;
+  if (!has_motors(run.scenario)) return fmt::format("{:>12.3f} {}", 0.0, "-");
+  return fmt::format("{:>12.3f} {}", run.record.joints[j].torque_peak, run.scenario.robot->joints[j].name);
+}
+
+std::string saturated_cell(const RunData& run) {
+  double worst = 0;
+  for (const JointFigures& f : run.record.joints) worst = std::max(worst, f.saturated_voltage + f.saturated_current);
+  return percent(worst);
+}
+
+std::string limit_cycle_cell(const RunData& run) {
+  const LimitCycle& cycle = run.summary.limit_cycle;
+  if (!cycle.found) return " none found";
+  return fmt::format(" {:.4g} s from {:.3g} s, to {}", cycle.period, cycle.from, percent(cycle.error));
+}
+
+}  // namespace gaitlab::texts

@@ -1,0 +1,38 @@
+// How the terminal and `swap` print summary numbers.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "report/numbers.h"
+
+namespace gaitlab::texts {
+
+using Lines = std::vector<std::string>;
+
+std::string percent(double share);
+
+/// J: what the gears gave instead of losing it.
+double created(const RunRecord& record);
+
+Lines simulated(const RunData& run);
+Lines engine(const RunData& run);
+Lines steps(const RunData& run);
+Lines robot(const RunData& run);
+Lines distance(const RunData& run);
+Lines speed(const RunData& run);
+Lines limit_cycle(const RunData& run);
+Lines transport(const RunData& run);
+Lines most_loaded(const RunData& run);
+Lines energy(const RunData& run);
+Lines created_energy(const RunData& run);
+Lines range(const RunData& run);
+Lines stability(const RunData& run);
+
+std::string speed_cell(const RunData& run);
+std::string travel_cell(const RunData& run);
+std::string cost_cell(const RunData& run);
+std::string torque_cell(const RunData& run);
+std::string saturated_cell(const RunData& run);
+std::string limit_cycle_cell(const RunData& run);
+
+}  // namespace gaitlab::texts
