@@ -24,6 +24,12 @@ double created(const RunRecord& record) {
   return sum;
 }
 
+std::size_t farthest(const RunData& run) {
+  const std::vector<JointFigures>& all = run.record.joints;
+  const auto nearer = [](const JointFigures& a, const JointFigures& b) { return a.error_peak < b.error_peak; };
+  return static_cast<std::size_t>(std::max_element(all.begin(), all.end(), nearer) - all.begin());
+}
+
 // ---- the terminal
 
 Lines simulated(const RunData& run) {
@@ -33,7 +39,7 @@ Lines simulated(const RunData& run) {
 }
 
 Lines engine(const RunData& run) {
-  return {fmt::format("{} ({})", run.scenario.physics.engine->name, run.scenario.physics.integrator_name())};
+  return {fmt::format("{} ({})", run.scenario.physics.engine->name, run.scenario.physics.integrator->name)};
 }
 
 Lines steps(const RunData& run) { return {steps_text(run.scenario, run.record)}; }
@@ -75,6 +81,14 @@ Lines most_loaded(const RunData& run) {
   return {fmt::format("joint {} ({}): torque peak {:.3f} N m, RMS {:.3f} N m; saturated {} voltage, {} current", j,
                       run.scenario.robot->joints[j].name, f.torque_peak, f.torque_rms, percent(f.saturated_voltage),
                       percent(f.saturated_current))};
+}
+
+Lines tracking(const RunData& run) {
+  if (!has_motors(run.scenario)) return {};
+  const std::size_t j = farthest(run);
+  const JointFigures& f = run.record.joints[j];
+  return {fmt::format("error at most {:.3f} rad at t = {:.2f} s (joint {})", f.error_peak, f.error_peak_time,
+                      run.scenario.robot->joints[j].name)};
 }
 
 Lines energy(const RunData& run) {
@@ -142,6 +156,10 @@ std::string saturated_cell(const RunData& run) {
   double worst = 0;
   for (const JointFigures& f : run.record.joints) worst = std::max(worst, f.saturated_voltage + f.saturated_current);
   return percent(worst);
+}
+
+std::string tracking_cell(const RunData& run) {
+  return has_motors(run.scenario) ? fmt::format("{:.3f}", run.record.joints[farthest(run)].error_peak) : "-";
 }
 
 std::string limit_cycle_cell(const RunData& run) {

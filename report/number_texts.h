@@ -14,6 +14,9 @@ std::string percent(double share);
 /// J: what the gears gave instead of losing it.
 double created(const RunRecord& record);
 
+/// The joint with the largest tracking error.
+std::size_t farthest(const RunData& run);
+
 Lines simulated(const RunData& run);
 Lines engine(const RunData& run);
 Lines steps(const RunData& run);
@@ -23,6 +26,7 @@ Lines speed(const RunData& run);
 Lines limit_cycle(const RunData& run);
 Lines transport(const RunData& run);
 Lines most_loaded(const RunData& run);
+Lines tracking(const RunData& run);
 Lines energy(const RunData& run);
 Lines created_energy(const RunData& run);
 Lines range(const RunData& run);
@@ -33,6 +37,7 @@ std::string travel_cell(const RunData& run);
 std::string cost_cell(const RunData& run);
 std::string torque_cell(const RunData& run);
 std::string saturated_cell(const RunData& run);
+std::string tracking_cell(const RunData& run);
 std::string limit_cycle_cell(const RunData& run);
 
 }  // namespace gaitlab::texts

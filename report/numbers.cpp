@@ -31,6 +31,11 @@ Json torque_errors(R run) {
   return each;
 }
 
+/// Of the joint that was farthest from its set point; null: nothing drives the joints.
+Json tracked(R run, double F::*figure) {
+  return has_motors(run.scenario) ? Json(run.record.joints[texts::farthest(run)].*figure) : Json();
+}
+
 template <class Named>
 Json names(const Named& all) {
   Json list = Json::array();
@@ -62,7 +67,7 @@ std::vector<SummaryNumber> list() {
        .value = [](R r) { return r.scenario.physics.adaptive_step ? Json("auto") : Json(r.scenario.physics.step); }},
       {.key = "integrator",
        .definition = "Integrator of the engine.",
-       .value = [](R r) { return r.scenario.physics.integrator_name(); },
+       .value = [](R r) { return r.scenario.physics.integrator->name; },
        .compare = {.place = 30, .if_different = true}},
       {.key = "accuracy",
        .definition = "`physics.accuracy`; null where the integrator does not choose its steps.",
@@ -137,7 +142,7 @@ std::vector<SummaryNumber> list() {
        .value = [](R r) { return names(r.scenario.robot->joints); }},
       {.key = "contacts",
        .definition = "Names of the contact elements, in the order of their numbers in the trace's columns.",
-       .value = [](R r) { return names(contact_elements(*r.scenario.robot, static_cast<ContactSet>(r.scenario.contact.on))); }},
+       .value = [](R r) { return names(contact_elements(*r.scenario.robot, r.scenario.contact.on)); }},
       {.key = "displacement.x",
        .unit = "m",
        .definition = "x of the centre of mass at the end minus at the start: the first element of an array.",
@@ -255,6 +260,23 @@ std::vector<SummaryNumber> list() {
            "2 gives to back-driven joints; `gear` is what is left of the losses after it.",
        .of_joint = &F::created},
       {.key = "per_joint.J.energy.shaft", .unit = "J", .definition = "sum(T w h).", .of_joint = &F::shaft},
+      {.key = "tracking_error.worst",
+       .unit = "rad",
+       .definition =
+           "Largest `per_joint.J.tracking_error.peak`: over all steps, as other peaks; `tracking_error` is null where "
+           "nothing drives the joints.",
+       .value = [](R r) { return tracked(r, &F::error_peak); },
+       .line = {95, "tracking", texts::tracking},
+       .compare = {235},
+       .golden = {.place = 65, .needs_motor = true},
+       .swap = {60, "tracking", "error, rad", 10, texts::tracking_cell}},
+      {.key = "tracking_error.joint",
+       .definition = "The joint that has it.",
+       .value = [](R r) { return has_motors(r.scenario) ? Json(r.scenario.robot->joints[texts::farthest(r)].name) : Json(); }},
+      {.key = "tracking_error.time",
+       .unit = "s",
+       .definition = "Start of the step in which it was reached.",
+       .value = [](R r) { return tracked(r, &F::error_peak_time); }},
       {.key = "energy.electrical",
        .unit = "J",
        .definition =

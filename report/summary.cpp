@@ -164,7 +164,7 @@ std::string fall_warning(const Scenario& scenario, const RunRecord& r) {
 
 std::string stability_warning(const Summary& s, const Scenario& scenario, const RunRecord& r) {
   if (!(s.stability_share > 0.01)) return "";
-  const auto contacts = contact_elements(*scenario.robot, static_cast<ContactSet>(scenario.contact.on));
+  const auto contacts = contact_elements(*scenario.robot, scenario.contact.on);
   return fmt::format("in {} of the control ticks {}", texts::percent(s.stability_share),
                      step_advice(scenario, contacts, r.worst, fmt::format("at t = {:.2f} s", r.worst_time)));
 }

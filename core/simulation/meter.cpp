@@ -9,12 +9,26 @@ namespace {
 
 using F = JointFigures;
 /// All members, in the order of Meter::figures_.
-constexpr std::array<double F::*, kFigures> kMembers{
-    &F::torque_peak,       &F::torque_rms,  &F::speed_peak,  &F::current_peak,
-    &F::current_rms,       &F::error_rms,   &F::error_peak,  &F::saturated_voltage,
-    &F::saturated_current, &F::range_share, &F::range_worst, &F::setpoint_outside,
-    &F::electrical,        &F::copper,      &F::gear,        &F::shaft,
-    &F::shaft_positive,    &F::created};
+constexpr std::array kMembers{&F::torque_peak,
+                              &F::torque_rms,
+                              &F::speed_peak,
+                              &F::current_peak,
+                              &F::current_rms,
+                              &F::error_rms,
+                              &F::error_peak,
+                              &F::error_peak_time,
+                              &F::saturated_voltage,
+                              &F::saturated_current,
+                              &F::range_share,
+                              &F::range_worst,
+                              &F::setpoint_outside,
+                              &F::electrical,
+                              &F::copper,
+                              &F::gear,
+                              &F::shaft,
+                              &F::shaft_positive,
+                              &F::created};
+static_assert(kMembers.size() == kFigures, "every member of JointFigures is measured");
 
 template <class Figures>
 double* at(Figures& figures, double F::*member) {
@@ -35,7 +49,7 @@ Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()), time_(lane
   for (auto* weights : {&sum_, &share_, &seen_}) weights->assign(lo_.size(), 0.0);
 }
 
-void Meter::add(const Applied::Part& part, In setpoint, const Actuator::Report& report, In measured) {
+void Meter::add(double time, const Applied::Part& part, In setpoint, const Actuator::Report& report, In measured) {
   const std::size_t n = lo_.size();
   const In angle = part.angle;
   const In speed = part.speed;
@@ -77,6 +91,10 @@ void Meter::add(const Applied::Part& part, In setpoint, const Actuator::Report& 
   peak(&F::current_peak, [&](std::size_t i) { return std::abs(report.current[i]); });
   share(&F::current_rms, [&](std::size_t i) { return report.current[i] * report.current[i]; });
   sum(&F::error_rms, [&](std::size_t i) { return error(i) * error(i); });
+  // Before error_peak itself, which decides whether this is the largest so far.
+  const double* const largest = at(figures_, &F::error_peak);
+  double* const when = at(figures_, &F::error_peak_time);
+  for (std::size_t i = 0; some && i < n; ++i) when[i] = seen_[i] * std::abs(error(i)) > largest[i] ? time : when[i];
   peak(&F::error_peak, [&](std::size_t i) { return std::abs(error(i)); });
   share(&F::saturated_voltage, [&](std::size_t i) { return report.saturation[i] == 1 ? 1.0 : 0.0; });
   share(&F::saturated_current, [&](std::size_t i) { return report.saturation[i] == 2 ? 1.0 : 0.0; });

@@ -14,6 +14,7 @@ struct JointFigures {
   double speed_peak = 0;                                   ///< rad/s
   double current_peak = 0, current_rms = 0;                ///< A
   double error_rms = 0, error_peak = 0;                    ///< rad, set point - angle
+  double error_peak_time = 0;                              ///< s: start of the step in which error_peak was reached
   double saturated_voltage = 0, saturated_current = 0;     ///< share of time
   double range_share = 0, range_worst = 0;                 ///< share of time outside [lo, hi]; worst excess, rad
   double setpoint_outside = 0;                             ///< share of time the set point is outside [lo, hi]
@@ -30,8 +31,9 @@ class Meter {
  public:
   explicit Meter(std::span<const Scenario> lanes);
 
-  /// One part of a step: motion, torque and the actuator law there. measured: a lane, 1 or, where it does not count, 0.
-  void add(const Applied::Part& part, In setpoint, const Actuator::Report& report, In measured);
+  /// One part of the step that starts at `time` (s): motion, torque and the actuator law there. measured: one number per lane,
+  /// 1 where the part counts, else 0.
+  void add(double time, const Applied::Part& part, In setpoint, const Actuator::Report& report, In measured);
   [[nodiscard]] JointFigures figures(std::size_t joint, std::size_t lane) const;
 
  private:

@@ -296,7 +296,7 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
   for (std::size_t l = 0; l < lanes; ++l) measured_[l] = measured(*lanes_[l]) ? 1 : 0;
   for (const Applied::Part& part : applied.parts) {
     report(part.speed);
-    meter_.add(part, setpoint_, {voltage_, current_, saturation_, power_in_, copper_, gear_}, measured_);
+    meter_.add(time(), part, setpoint_, {voltage_, current_, saturation_, power_in_, copper_, gear_}, measured_);
     if (part.instant) continue;
     for (std::size_t l = 0; l < lanes; ++l) {
       const Out sums = lanes_[l]->ledger;

@@ -53,7 +53,7 @@ TEST(Reader, ReadsWhatIsThereAndKeepsDefaults) {
   EXPECT_EQ(s.window[1], 2);
   EXPECT_EQ(s.leader, 2);
   EXPECT_TRUE(s.on);
-  EXPECT_EQ(s.mode, 1);
+  EXPECT_EQ(s.mode, Gains::Mode::fast);
   EXPECT_EQ(read("leader: 1\n", s), "no error");
   EXPECT_EQ(s.leader, 1);
 }

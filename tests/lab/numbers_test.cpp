@@ -76,6 +76,31 @@ TEST(Numbers, TheSummaryHoldsNothingElse) {
   EXPECT_TRUE(rest.empty()) << rest.dump(2);
 }
 
+/// Rows of every step. A row is the left limit: it holds the set point of the step before, whose start is the row before.
+TEST(Numbers, TheWorstTrackingErrorIsWhereTheTraceHasIt) {
+  const Scenario s = shipped("caterpillar.yaml", {"duration=0.3", "trace.period=2.5e-5"});
+  const RunRecord r = run(s);
+  const Json worst = Json::parse(to_json(summarise(s, r, 1), s, r)).at("tracking_error");
+  const double largest = worst.at("worst");
+  const double h = s.physics.step;
+  const Table table(r.trace);
+  for (std::size_t j = 0; j < r.joints.size(); ++j) {
+    const auto error = [&](std::size_t row) {
+      return std::abs(table.at(row, fmt::format("joint.{}.setpoint", j)) - table.at(row, fmt::format("joint.{}.angle", j)));
+    };
+    const double moved = h * r.joints[j].speed_peak;  // from the start of a step to its end
+    for (std::size_t row = 1; row < r.trace.rows(); row += 40) EXPECT_LE(error(row), largest + moved) << j;
+    if (worst.at("joint") != s.robot->joints[j].name) continue;
+    EXPECT_NEAR(error(static_cast<std::size_t>(std::llround(worst.at("time").get<double>() / h)) + 1), largest, moved);
+  }
+  EXPECT_GT(worst.at("time"), 0);  // the set points start at the angles
+  EXPECT_GT(largest, 0.01);
+
+  const Scenario still = shipped("pendulum.yaml", {"duration=0.1"});
+  const RunRecord swings = run(still);
+  EXPECT_TRUE(Json::parse(to_json(summarise(still, swings, 1), still, swings)).at("tracking_error").is_null());
+}
+
 TEST(Numbers, NamesAreMadeFromKeyAndUnit) {
   for (const SummaryNumber& number : summary_numbers()) {
     const std::string key = number.key;

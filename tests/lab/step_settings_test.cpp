@@ -30,7 +30,7 @@ TEST(StepSettings, LeaveTheStepToTheAdaptiveIntegrator) {
     const Physics p = physics(keys);
     EXPECT_TRUE(p.adaptive_step) << keys;
     EXPECT_TRUE(p.adapts()) << keys;
-    EXPECT_EQ(p.integrator_name(), "adaptive") << keys;
+    EXPECT_EQ(p.integrator->name, "adaptive") << keys;
     EXPECT_EQ(p.step, 0.005) << keys;  // a third of the control period
     EXPECT_EQ(p.accuracy, 0.01) << keys;
   }
@@ -38,11 +38,11 @@ TEST(StepSettings, LeaveTheStepToTheAdaptiveIntegrator) {
 
 TEST(StepSettings, ANumberAsksForTheIntegratorOfFirstOrder) {
   const Physics p = physics("engine: articulated, step: 1e-3");
-  EXPECT_EQ(p.integrator_name(), "implicit");
+  EXPECT_EQ(p.integrator->name, "implicit");
   EXPECT_FALSE(p.adaptive_step);
   EXPECT_EQ(p.step, 1e-3);
   EXPECT_EQ(physics("engine: articulated, integrator: implicit").step, 5e-4);
-  EXPECT_EQ(physics("engine: bullet").integrator_name(), "semi_implicit");
+  EXPECT_EQ(physics("engine: bullet").integrator->name, "semi_implicit");
 }
 
 TEST(StepSettings, TheAdaptiveIntegratorTakesANumberForItsLongestStep) {
