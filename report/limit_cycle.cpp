@@ -268,8 +268,8 @@ std::vector<Candidate> candidates(const Columns& columns) {
 
 }  // namespace
 
-LimitCycle find_limit_cycle(std::span<const double> values, std::size_t columns, double sample_period) {
-  LimitCycle best;
+MotionCycle find_limit_cycle(std::span<const double> values, std::size_t columns, double sample_period) {
+  MotionCycle best;
   if (columns == 0 || values.size() / columns < 2 * kShortest + 2) return best;
   const Columns split = columns_of(values, columns);
   if (split.empty()) return best;

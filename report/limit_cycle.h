@@ -9,7 +9,7 @@ namespace gaitlab {
 /// and 1e-3 rad:
 ///     e(t) = max over c of RMS over [t, t + T] of (x_c(u + T) - x_c(u)) / s_c
 /// `error` is e at the last t the data allow (two periods before the end); found means error < 0.02.
-struct LimitCycle {
+struct MotionCycle {
   bool found = false;
   double from =
       0;  ///< s after the first row: the earliest sample t with e < 0.02 there and at every later sample; 0 if not found
@@ -25,6 +25,6 @@ struct LimitCycle {
 /// the tick would otherwise shift the steps from cycle to cycle and count as an error.
 /// A lag is first tried on at most 256 points of its window, in steps of 1/256 of itself, then at every sample, and the period
 /// between samples is the vertex of a parabola. About 10 ms for 4001 rows x 32 columns.
-LimitCycle find_limit_cycle(std::span<const double> values, std::size_t columns, double sample_period);
+MotionCycle find_limit_cycle(std::span<const double> values, std::size_t columns, double sample_period);
 
 }  // namespace gaitlab

@@ -24,18 +24,18 @@ void Bounds::add(std::span<const double> values) {
 
 Ticks Bounds::ticks(int count) const { return empty() ? ticks_around(0, 1, count) : ticks_around(lo, hi, count); }
 
-Panel::Panel(Svg& svg, const Box& box, const Ticks& time, const Ticks& values)
+Panel::Panel(Svg& svg, const PlotArea& area, const Ticks& time, const Ticks& values)
     : svg_(svg),
-      box_(box),
+      area_(area),
       time_(time),
-      x_{time.lo, time.hi, box.left, box.right},
-      y_{values.lo, values.hi, box.bottom, box.top} {
-  for (const double t : time.values()) svg_.line({x_(t), box.top}, {x_(t), box.bottom}, kGrid);
+      x_{time.lo, time.hi, area.left, area.right},
+      y_{values.lo, values.hi, area.bottom, area.top} {
+  for (const double t : time.values()) svg_.line({x_(t), area.top}, {x_(t), area.bottom}, kGrid);
   for (const double value : values.values()) {
-    svg_.line({box.left, y_(value)}, {box.right, y_(value)}, kGrid);
-    svg_.text({box.left - 8, y_(value) + 4.5}, values.label(value), {.size = 11, .anchor = Anchor::end});
+    svg_.line({area.left, y_(value)}, {area.right, y_(value)}, kGrid);
+    svg_.text({area.left - 8, y_(value) + 4.5}, values.label(value), {.size = 11, .anchor = Anchor::end});
   }
-  svg_.rectangle({box.left, box.top}, box.right - box.left, box.bottom - box.top, kFrame);
+  svg_.rectangle({area.left, area.top}, area.right - area.left, area.bottom - area.top, kFrame);
 }
 
 void Panel::curve(std::span<const double> time, std::span<const double> values, const Style& style) {
@@ -46,13 +46,13 @@ void Panel::curve(std::span<const double> time, std::span<const double> values, 
   svg_.polyline(thinned(points), style);
 }
 
-void Panel::level(double value, const Style& style) { svg_.line({box_.left, y_(value)}, {box_.right, y_(value)}, style); }
+void Panel::level(double value, const Style& style) { svg_.line({area_.left, y_(value)}, {area_.right, y_(value)}, style); }
 
-void Panel::moment(double time, const Style& style) { svg_.line({x_(time), box_.top}, {x_(time), box_.bottom}, style); }
+void Panel::moment(double time, const Style& style) { svg_.line({x_(time), area_.top}, {x_(time), area_.bottom}, style); }
 
 void Panel::time_axis() {
-  for (const double t : time_.values()) svg_.text({x_(t), box_.bottom + 18}, time_.label(t), {.anchor = Anchor::middle});
-  svg_.text({(box_.left + box_.right) / 2, box_.bottom + 36}, "time (s)", {.anchor = Anchor::middle});
+  for (const double t : time_.values()) svg_.text({x_(t), area_.bottom + 18}, time_.label(t), {.anchor = Anchor::middle});
+  svg_.text({(area_.left + area_.right) / 2, area_.bottom + 36}, "time (s)", {.anchor = Anchor::middle});
 }
 
 }  // namespace gaitlab

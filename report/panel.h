@@ -17,14 +17,14 @@ struct Bounds {
   [[nodiscard]] Ticks ticks(int count) const;
 };
 
-struct Box {
+struct PlotArea {
   double left = 0, right = 0, top = 0, bottom = 0;  ///< px
 };
 
 /// Grid, tick labels at the left and frame are drawn when it is made; curves over them.
 class Panel {
  public:
-  Panel(Svg& svg, const Box& box, const Ticks& time, const Ticks& values);
+  Panel(Svg& svg, const PlotArea& area, const Ticks& time, const Ticks& values);
   /// `values` as long as `time`; not finite: a gap. What lies outside the time axis is left out.
   void curve(std::span<const double> time, std::span<const double> values, const Style& style);
   void level(double value, const Style& style);
@@ -34,7 +34,7 @@ class Panel {
 
  private:
   Svg& svg_;
-  Box box_;
+  PlotArea area_;
   Ticks time_;
   Scale x_, y_;
 };

@@ -123,7 +123,7 @@ std::vector<Footfall> footfalls(const Scenario& scenario, const RunRecord& r, co
 
 // Five views from the start of the last period on; the sixth would show what the first shows.
 void add_period(FigureInput& input, const Scenario& scenario, const RunRecord& r, const Summary& s, std::size_t joint) {
-  const LimitCycle& cycle = s.limit_cycle;
+  const MotionCycle& cycle = s.limit_cycle;
   const double span = std::min({cycle.found ? cycle.period : kPeriodless, kLongest, s.simulated});
   for (std::size_t i = 0; i < kViews; ++i) {
     const double t = s.simulated - span * (1 - static_cast<double>(i) / kViews);

@@ -53,7 +53,7 @@ void transport(const Scenario& scenario, const RunRecord& r, Summary& s) {
   s.cost_mechanical = mechanical / work;
 }
 
-LimitCycle cycle(const Scenario& scenario, const RunRecord& r, const Summary& s) {
+MotionCycle cycle(const Scenario& scenario, const RunRecord& r, const Summary& s) {
   const std::size_t n = scenario.robot->joints.size();
   if (n == 0) return {};
   // The last row may lie off the grid of trace periods.

@@ -18,7 +18,7 @@ struct Summary {
   double distance = 0, speed = 0, path_length = 0;  ///< m, m/s, m
   double heading_change = 0;                        ///< rad, of the base's x axis about world z
   double cost_electrical = 0, cost_mechanical = 0;  ///< J / (N m); 0 where the robot has not moved or weighs nothing
-  LimitCycle limit_cycle;
+  MotionCycle limit_cycle;
   double stability_max = 0, stability_share = 0;  ///< h lambda; share of control ticks above 1
   std::string stability_source;
   std::size_t most_loaded = 0;  ///< joint of the largest torque peak

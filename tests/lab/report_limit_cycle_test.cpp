@@ -29,7 +29,7 @@ std::vector<double> sample(const std::vector<Motion>& columns, double duration =
   return values;
 }
 
-LimitCycle find(const std::vector<Motion>& columns, double duration = 20, double dt = kDt) {
+MotionCycle find(const std::vector<Motion>& columns, double duration = 20, double dt = kDt) {
   return find_limit_cycle(sample(columns, duration, dt), columns.size(), dt);
 }
 
@@ -52,7 +52,7 @@ std::vector<Motion> chain(double period, double rate) {
 TEST(LimitCycle, SineHasItsPeriodFromTheStart) {
   for (const double period : {0.05, 0.11, 0.5, 1.0, 3.9, 4.0, 4.0017, 2 * kPi, 9.5}) {
     SCOPED_TRACE(period);
-    const LimitCycle cycle = find({[=](double t) { return 0.6 * wave(t, period, 0.3); }});
+    const MotionCycle cycle = find({[=](double t) { return 0.6 * wave(t, period, 0.3); }});
     EXPECT_TRUE(cycle.found);
     EXPECT_NEAR(cycle.period, period, 1e-3 * period);
     EXPECT_LT(cycle.error, 0.003);
@@ -61,7 +61,7 @@ TEST(LimitCycle, SineHasItsPeriodFromTheStart) {
 }
 
 TEST(LimitCycle, PeriodBetweenSamplesIsRefined) {
-  const LimitCycle cycle = find({[](double t) { return 0.6 * wave(t, 1.2337); }});
+  const MotionCycle cycle = find({[](double t) { return 0.6 * wave(t, 1.2337); }});
   EXPECT_NEAR(cycle.period, 1.2337, 1e-5);
   EXPECT_LT(cycle.error, 1e-4);
 }
@@ -70,7 +70,7 @@ TEST(LimitCycle, ChainSettlesAndIsFast) {
   const std::vector<double> values = sample(chain(4, 2));
   ASSERT_EQ(values.size(), 4001U * 32U);
   const auto start = std::chrono::steady_clock::now();
-  const LimitCycle cycle = find_limit_cycle(values, 32, kDt);
+  const MotionCycle cycle = find_limit_cycle(values, 32, kDt);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RecordProperty("microseconds", static_cast<int>(seconds * 1e6));
   EXPECT_LT(seconds, 1.0);  // promised: 0.1; a debug build with sanitizers is ten times slower
@@ -84,7 +84,7 @@ TEST(LimitCycle, FromIsTheEarliestWindowThatHoldsOn) {
   // A transient on one of two joints, and its definition written out with a period of whole samples.
   const std::vector<Motion> columns = {[](double t) { return 0.6 * wave(t, 2); },
                                        [](double t) { return 0.3 * wave(t, 2, 1) + 0.5 * math::exp(-t) * wave(t, 0.7); }};
-  const LimitCycle cycle = find(columns);
+  const MotionCycle cycle = find(columns);
   ASSERT_TRUE(cycle.found);
   ASSERT_NEAR(cycle.period, 2, 1e-4);
   const auto error_at = [&](double from) {
@@ -105,7 +105,7 @@ TEST(LimitCycle, FromIsTheEarliestWindowThatHoldsOn) {
 }
 
 TEST(LimitCycle, ALateDisturbanceMovesFrom) {
-  const LimitCycle cycle = find({[](double t) { return 0.6 * wave(t, 2) + (t > 9 && t < 9.3 ? 0.3 : 0.0); }});
+  const MotionCycle cycle = find({[](double t) { return 0.6 * wave(t, 2) + (t > 9 && t < 9.3 ? 0.3 : 0.0); }});
   ASSERT_TRUE(cycle.found);
   EXPECT_NEAR(cycle.from, 9.3, 0.02);
 }
@@ -113,21 +113,21 @@ TEST(LimitCycle, ALateDisturbanceMovesFrom) {
 TEST(LimitCycle, HeldSetPointsDoNotHideThePeriod) {
   for (const double period : {0.5, 1.0, 4.0}) {  // none a multiple of 15 ms: the steps repeat after three periods only
     const Motion angle = [=](double t) { return 0.6 * wave(t, period); };
-    const LimitCycle cycle = find({held(angle, 0.015)});
+    const MotionCycle cycle = find({held(angle, 0.015)});
     EXPECT_TRUE(cycle.found);
     EXPECT_NEAR(cycle.period, period, 2e-3 * period);
   }
 }
 
 TEST(LimitCycle, SquareWavesArePeriodicToo) {
-  const LimitCycle cycle = find({[](double t) { return std::fmod(t, 2) < 0.7 ? 0.4 : -0.4; }});
+  const MotionCycle cycle = find({[](double t) { return std::fmod(t, 2) < 0.7 ? 0.4 : -0.4; }});
   EXPECT_TRUE(cycle.found);
   EXPECT_NEAR(cycle.period, 2, 1e-2);
 }
 
 TEST(LimitCycle, HarmonicsAndSubharmonics) {
   const auto period = [](const std::vector<Motion>& columns) {
-    const LimitCycle cycle = find(columns);
+    const MotionCycle cycle = find(columns);
     return cycle.found ? cycle.period : 0.0;
   };
   EXPECT_NEAR(period({[](double t) { return wave(t, 4) + 0.7 * wave(t, 2, 1) + 0.3 * wave(t, 0.8); }}), 4, 1e-3);
@@ -143,7 +143,7 @@ TEST(LimitCycle, HarmonicsAndSubharmonics) {
 TEST(LimitCycle, JointsThatHoldDoNotCount) {
   std::mt19937 random(1);
   std::normal_distribution<double> tremble(0, 5e-6);
-  const LimitCycle cycle = find(
+  const MotionCycle cycle = find(
       {[](double) { return 0.2; }, [](double t) { return 0.6 * wave(t, 2); }, [&](double) { return -0.1 + tremble(random); }});
   EXPECT_TRUE(cycle.found);
   EXPECT_NEAR(cycle.period, 2, 1e-3);
@@ -153,7 +153,7 @@ TEST(LimitCycle, LittleNoiseIsBorneMuchIsNot) {
   for (const double sigma : {0.002, 0.03}) {  // of the amplitude; the error is sqrt(2) times it
     std::mt19937 random(1);
     std::normal_distribution<double> noise(0, 0.6 * sigma);
-    const LimitCycle cycle = find({[&](double t) { return 0.6 * wave(t, 4) + noise(random); }});
+    const MotionCycle cycle = find({[&](double t) { return 0.6 * wave(t, 4) + noise(random); }});
     EXPECT_EQ(cycle.found, sigma < 0.01);
     EXPECT_NEAR(cycle.error, std::sqrt(2.0) * sigma, 0.3 * sigma);
     EXPECT_NEAR(cycle.period, 4, 0.01);
@@ -172,7 +172,7 @@ TEST(LimitCycle, NoiseAloneChirpsAndDecaysAreNone) {
 }
 
 TEST(LimitCycle, StandingStillIsNone) {
-  const LimitCycle cycle = find({[](double) { return 0.3; }, [](double t) { return 1e-4 * wave(t, 1); }});
+  const MotionCycle cycle = find({[](double) { return 0.3; }, [](double t) { return 1e-4 * wave(t, 1); }});
   EXPECT_FALSE(cycle.found);
   EXPECT_EQ(cycle.period, 0);
   EXPECT_EQ(cycle.error, 1);
@@ -180,7 +180,7 @@ TEST(LimitCycle, StandingStillIsNone) {
 
 TEST(LimitCycle, NeedsTwoPeriods) {
   for (const double period : {9.0, 9.99, 10.0}) {
-    const LimitCycle cycle = find({[=](double t) { return wave(t, period, 0.4); }});
+    const MotionCycle cycle = find({[=](double t) { return wave(t, period, 0.4); }});
     EXPECT_TRUE(cycle.found) << period;
     EXPECT_NEAR(cycle.period, period, 1e-3);
   }
@@ -189,10 +189,10 @@ TEST(LimitCycle, NeedsTwoPeriods) {
 }
 
 TEST(LimitCycle, CoarseAndLongSeries) {
-  const LimitCycle coarse = find({[](double t) { return wave(t, 1.03); }}, 20, 0.1);
+  const MotionCycle coarse = find({[](double t) { return wave(t, 1.03); }}, 20, 0.1);
   EXPECT_TRUE(coarse.found);
   EXPECT_NEAR(coarse.period, 1.03, 1e-3);
-  const LimitCycle slow = find({[](double t) { return wave(t, 400); }}, 1000, 0.005);
+  const MotionCycle slow = find({[](double t) { return wave(t, 400); }}, 1000, 0.005);
   EXPECT_TRUE(slow.found);
   EXPECT_NEAR(slow.period, 400, 0.01);
 }
@@ -207,8 +207,8 @@ TEST(LimitCycle, BadInputIsNone) {
 }
 
 TEST(LimitCycle, SameInputSameBits) {
-  const LimitCycle a = find(chain(1.37, 2));
-  const LimitCycle b = find(chain(1.37, 2));
+  const MotionCycle a = find(chain(1.37, 2));
+  const MotionCycle b = find(chain(1.37, 2));
   EXPECT_EQ(a.period, b.period);
   EXPECT_EQ(a.error, b.error);
   EXPECT_EQ(a.from, b.from);
