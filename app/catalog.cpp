@@ -5,13 +5,17 @@
 #include "core/scenario/plugin_files.h"
 #include "cpg/register.h"
 #include "physics_articulated/engine.h"
+#ifdef GAITLAB_BULLET
 #include "physics_bullet/engine.h"
+#endif
 
 namespace gaitlab::app {
 
 Catalog standard_catalog(const std::vector<std::string>& plugins) {
   Catalog catalog;
+#ifdef GAITLAB_BULLET
   register_bullet(catalog);
+#endif
   register_articulated(catalog);
   register_actuators(catalog);
   register_controllers(catalog);

@@ -1,11 +1,19 @@
 #include <fmt/format.h>
 
 #include "app/app.h"
-#include "physics_bullet/engine.h"
 #include "report/build_id.h"
+#ifdef GAITLAB_BULLET
+#include "physics_bullet/engine.h"
+#endif
 
 namespace gaitlab::app {
 
-std::string version() { return fmt::format("gaitlab {}, Bullet {}", build_id(), bullet_version()); }
+std::string version() {
+#ifdef GAITLAB_BULLET
+  return fmt::format("gaitlab {}, Bullet {}", build_id(), bullet_version());
+#else
+  return fmt::format("gaitlab {}, without Bullet", build_id());
+#endif
+}
 
 }  // namespace gaitlab::app

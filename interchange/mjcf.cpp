@@ -146,8 +146,8 @@ class Mjcf {
   [[nodiscard]] double step() const { return s_.physics.adapts() ? s_.physics.engine->step : s_.physics.step; }
   /// Methods of two programs differ by their errors: RK4, whose error is small, stands for any of ours.
   std::string method() const {
+    if (s_.physics.integrator == nullptr || s_.physics.integrator->name == "rk4") return "";
     const Integrator& own = *s_.physics.integrator;
-    if (own.name == "rk4") return "";
     const std::string order =
         own.adapts ? fmt::format("accuracy {}", number_text(s_.physics.accuracy)) : fmt::format("of order {}", own.order);
     return fmt::format(" Integrator: {}, {}; RK4 at {} stands here, of order 4.", own.name, order,

@@ -61,7 +61,7 @@ Lines speed(const RunData& run) {
 }
 
 Lines limit_cycle(const RunData& run) {
-  const LimitCycle& cycle = run.summary.limit_cycle;
+  const MotionCycle& cycle = run.summary.limit_cycle;
   if (!cycle.found) return {"none found"};
   return {fmt::format("from t = {:.2f} s, period {:.4f} s, repeats to {}", cycle.from, cycle.period, percent(cycle.error))};
 }
@@ -163,7 +163,7 @@ std::string tracking_cell(const RunData& run) {
 }
 
 std::string limit_cycle_cell(const RunData& run) {
-  const LimitCycle& cycle = run.summary.limit_cycle;
+  const MotionCycle& cycle = run.summary.limit_cycle;
   if (!cycle.found) return " none found";
   return fmt::format(" {:.4g} s from {:.3g} s, to {}", cycle.period, cycle.from, percent(cycle.error));
 }

@@ -14,6 +14,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kPositive = std::numeric_limits<double>::denorm_min();
+constexpr const char* kDefaultEngine = "bullet";
 constexpr std::array<const char*, 3> kBases{"floating", "fixed", "planar"};
 constexpr std::array<const char*, 2> kLaws{"penalty", "bullet"};
 constexpr std::array<const char*, 3> kContactSets{"none", "feet", "all"};
@@ -29,8 +30,6 @@ struct Names {
     for (const std::string& text : texts) pointers.push_back(text.c_str());
   }
   [[nodiscard]] bool has(const std::string& name) const { return std::find(texts.begin(), texts.end(), name) != texts.end(); }
-  /// `preset`, or where that is not among them the first.
-  [[nodiscard]] std::string first(const std::string& preset) const { return has(preset) || texts.empty() ? preset : texts[0]; }
 };
 
 std::size_t count(const Problems* problems) { return problems == nullptr ? 0 : problems->size(); }
@@ -82,11 +81,18 @@ void Initial::fields(Fields& f) {
 
 void PhysicsFields::fields(Fields& f) {
   const Names names(catalog != nullptr ? catalog->engines() : std::vector<std::string>{physics.engine->name});
-  std::string name = physics.engine != nullptr ? physics.engine->name : names.first("bullet");
+  std::string name = physics.engine != nullptr ? physics.engine->name : kDefaultEngine;
   const std::size_t before = count(problems);
   f.one_of("engine", name, names.pointers, "Physics engine.");
-  const bool known = count(problems) == before && !names.texts.empty();
-  if (names.texts.empty()) f.problem("engine", "no physics engine is built in");
+  const bool known = count(problems) == before && names.has(name);
+  if (names.texts.empty()) {
+    f.problem("engine", "no physics engine is built in");
+  } else if (!names.has(name) && count(problems) == before) {  // another engine in its place would give other numbers
+    f.problem("engine",
+              fmt::format("this program was built without the default engine '{0}'; write physics: {{engine: {1}}}, or "
+                          "add --set physics.engine={1}",
+                          kDefaultEngine, names.texts.front()));
+  }
   if (known && catalog != nullptr) physics.engine = catalog->engine(name);
   const bool filled = physics.step > 0;
   double step = physics.adaptive_step ? 0 : physics.step;

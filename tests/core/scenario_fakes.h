@@ -124,7 +124,7 @@ struct Picky final : Cpg {
   void output(double, In, Out) const override {}
 };
 
-inline void fill(Catalog& catalog) {
+inline void fill(Catalog& catalog, const char* engine_name = "bullet") {
   add_actuator<Motor>(catalog, "dc_motor", "A motor.");
   add_actuator<Torque>(catalog, "torque", "A torque.");
   add_controller<Pid>(catalog, "pid", "A controller.\n");
@@ -132,11 +132,11 @@ inline void fill(Catalog& catalog) {
   add_cpg<Phase>(catalog, "phase_oscillator", "Phases.");
   add_cpg<Hopf>(catalog, "hopf", "Hopf.");
   add_cpg<Picky>(catalog, "picky", "Refuses.");
-  Engine bullet;
-  bullet.name = "bullet";
-  bullet.integrators = {{"semi_implicit", 1}, {"rk4", 4}};
-  bullet.step = 2.5e-5;
-  catalog.add(bullet);
+  Engine engine;
+  engine.name = engine_name;
+  engine.integrators = {{"semi_implicit", 1}, {"rk4", 4}};
+  engine.step = 2.5e-5;
+  catalog.add(engine);
 }
 
 /// A module of two bodies and a hinge; face 1 (active) at -x, face 4 (passive) at +x.

@@ -274,6 +274,22 @@ TEST_F(ScenarioTest, Engines) {
             "DIR/s.yaml:3:23: error: integrator 'rk5' is unknown; did you mean 'rk4'?");
 }
 
+TEST_F(ScenarioTest, NoOtherEngineReplacesTheDefaultWhereThatIsNotBuiltIn) {
+  Catalog catalog;
+  fakes::fill(catalog, "articulated");
+  const auto refusal = [&](const std::string& text) {
+    return folder_.shown(fakes::error_of([&] { read_scenario(folder_.write("s.yaml", text), {}, catalog); }));
+  };
+  const std::string remedy =
+      "this program was built without the default engine 'bullet'; write physics: {engine: articulated}, or add --set "
+      "physics.engine=articulated";
+  EXPECT_EQ(refusal(kShort), "DIR/s.yaml:1:1: error: " + remedy);
+  EXPECT_EQ(refusal(kShort + "physics: {engine: bullet, integrator: rk4}\n"),
+            "DIR/s.yaml:3:19: error: engine 'bullet' is unknown; known names: articulated");
+  const Scenario s = read_scenario(folder_.write("s.yaml", kShort), {"physics.engine=articulated"}, catalog);
+  EXPECT_EQ(s.physics.engine->name, "articulated");
+}
+
 TEST_F(ScenarioTest, SetIsValidatedLikeTheFile) {
   const Scenario s = read(kShort + "cpg: {model: {rate: 3}}\n", {"cpg.type=hopf", "seed=7", "actuator.i_max=0.8"});
   EXPECT_EQ(s.cpg.entry->name, "hopf");

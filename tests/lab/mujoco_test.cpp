@@ -196,6 +196,26 @@ TEST(Mujoco, MovesTheSameWithoutMotorsAndContacts) {
                  worst, 1e-6, "required by the issue; both of order 4: (2.5e-4 s, the longest, * 100 rad/s)^4 is 4e-7");
 }
 
+/// RK4 stands in the place of any method of ours, and the file says of which.
+TEST(Mujoco, NamesTheIntegratorOfEitherEngine) {
+  const auto exported = [](const std::vector<std::string>& more) {
+    std::vector<std::string> sets{"physics.engine=articulated"};
+    sets.insert(sets.end(), more.begin(), more.end());
+    return to_mjcf(shipped("hexapod.yaml", sets));
+  };
+  const auto expect = [](const std::string& text, const std::string& step, const std::string& sentence) {
+    EXPECT_TRUE(text.find("timestep=\"" + step + "\"") != std::string::npos) << step;
+    EXPECT_TRUE(text.find(sentence) != std::string::npos) << sentence;
+  };
+  expect(exported({}), "0.0005", " Integrator: adaptive, accuracy 0.01; RK4 at 0.0005 s stands here, of order 4.");
+  expect(exported({"physics.step=1e-3"}), "0.001",
+         " Integrator: implicit, of order 1; RK4 at the same step stands here, of order 4.");
+  expect(exported({"physics.step=1e-3", "physics.integrator=extrapolated"}), "0.001",
+         " Integrator: extrapolated, of order 2; RK4 at the same step stands here, of order 4.");
+  const std::string rk4 = exported({"physics.step=2e-5", "physics.integrator=rk4"});
+  EXPECT_EQ(rk4.find("Integrator:"), std::string::npos);
+}
+
 /// The shipped robot as a whole: names, contact elements, motors, start.
 TEST(Mujoco, HoldsTheHexapodWithItsNames) {
   const Scenario s = shipped("hexapod.yaml");
@@ -206,7 +226,7 @@ TEST(Mujoco, HoldsTheHexapodWithItsNames) {
   EXPECT_EQ(m.nu, 22);
   EXPECT_EQ(m.nsite, 24);  // four points on each of six feet
   EXPECT_DOUBLE_EQ(m.opt.timestep, s.physics.step);
-  EXPECT_NE(to_mjcf(s).find("Integrator: semi_implicit"), std::string::npos);  // RK4 stands in its place
+  EXPECT_NE(to_mjcf(s).find("Integrator: semi_implicit, of order 1; RK4 at the same step"), std::string::npos);
   EXPECT_EQ(m.opt.integrator, mjINT_RK4);
   for (int g = 0; g < m.ngeom; ++g) EXPECT_EQ(m.geom_contype[g] + m.geom_conaffinity[g], 0);
   mj_forward(&m, &mujoco.data());
