@@ -10,7 +10,7 @@
 #include <span>
 #include <system_error>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "app/golden_cases.h"
 #include "app/golden_report.h"
 #include "app/golden_runs.h"
@@ -22,6 +22,14 @@
 namespace gaitlab::app {
 
 namespace {
+
+struct ApproveArguments {
+  std::string file;
+  std::optional<std::string> reason;
+  bool calibrate = false;  ///< make new bands; without a golden, and for a run that has left its bands, they are made anyway
+  bool replace = false;    ///< begin a new history, whatever golden is there
+  int jobs = 1;            ///< threads
+};
 
 namespace fs = std::filesystem;
 
@@ -50,7 +58,7 @@ void check_target(const fs::path& folder) {
     if (::access(target.c_str(), W_OK | X_OK) == 0) return;
     throw InputError(Place{target.string()}, "cannot be written: " + std::generic_category().message(errno));
   }
-  throw InputError(Place{folder.string()}, "is no folder, and a golden is one; move it away");
+  throw InputError(Place{folder.string()}, "is not a folder, and a golden is one; move it away");
 }
 
 /// The golden that is there, unless it is to be replaced. (What a first approval left that was killed is none.)
@@ -129,7 +137,7 @@ void check_widest(const Golden& golden, const Scenario& scenario) {
                                    : ""));
 }
 
-/// What a pair of eyes should see before it is blessed.
+/// What a person should see before it becomes the reference.
 void show_change(const Golden& before, const GoldenOrigin& now, const GoldenDifference& change) {
   const std::string text = origin_changes(before, now) + differences(change, Shown::worst);
   fmt::print("{}", since_approval(before));
@@ -162,8 +170,6 @@ void tell(const Golden& golden, const fs::path& folder, bool calibrated) {
   const std::size_t number = widest(golden.number_bands);
   line(golden.numbers[number].name, golden.number_bands[number]);
 }
-
-}  // namespace
 
 int approve(const ApproveArguments& arguments) {
   const std::string why = reason(arguments);
@@ -209,6 +215,22 @@ int approve(const ApproveArguments& arguments) {
   write_golden(golden, folder);
   tell(golden, folder, calibrates);
   return 0;
+}
+
+}  // namespace
+
+void add_approve(Commands& commands) {
+  add_command<ApproveArguments>(
+      commands, "approve", "Record the scenario's present torques as its reference (golden), with tolerance bands.", approve,
+      [](CLI::App& command, ApproveArguments& arguments) {
+        command.add_option("SCENARIO", arguments.file, "scenario file (YAML)")->required();
+        command.add_option("--reason", arguments.reason, "why these numbers are right; kept in the golden");
+        command.add_flag("--calibrate", arguments.calibrate,
+                         "make new bands, from five more runs, even where the run is within the old ones");
+        command.add_flag("--replace", arguments.replace,
+                         "begin anew where the golden cannot be read or is another scenario's: its history is lost");
+        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+      });
 }
 
 }  // namespace gaitlab::app

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
 #include "report/trust.h"
@@ -11,15 +11,13 @@ namespace {
 
 std::string_view name_of(const Choice& choice) { return choice.entry == nullptr ? "none" : choice.entry->name; }
 
-}  // namespace
-
 int check(const ScenarioArguments& arguments) {
   Catalog catalog = standard_catalog();
   const Scenario s = read(arguments, catalog);
   const Simulation simulation({&s, 1});  // checks the columns and the step, too
   const Robot& robot = *s.robot;
   const auto contacts = contact_elements(robot, s.contact.on);
-  fmt::print("{}: fine\n", s.name);
+  fmt::print("{}: valid\n", s.name);
   fmt::print("  {} modules, {} bodies (moving as {}), {} degrees of freedom, {:.3f} kg\n", robot.modules.size(),
              robot.bodies.size(), robot.links.size(), robot.dof(s.base), robot.mass);
   const double rate = simulation.standing().rate;
@@ -39,6 +37,14 @@ int check(const ScenarioArguments& arguments) {
   }
   warn_of_start(s);
   return 0;
+}
+
+}  // namespace
+
+void add_check(Commands& commands) {
+  add_command<ScenarioArguments>(commands, "check", "Validate a scenario without running it, and print what it is made of.",
+                                 check,
+                                 [](CLI::App& command, ScenarioArguments& arguments) { add_scenario(command, arguments); });
 }
 
 }  // namespace gaitlab::app

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "core/errors.h"
 #include "core/trace/run_files.h"
 #include "report/numbers.h"
@@ -16,6 +16,11 @@
 namespace gaitlab::app {
 
 namespace {
+
+struct CompareArguments {
+  std::string a, b;                  ///< run folders or trace files
+  std::vector<std::string> columns;  ///< patterns; none: all
+};
 
 using Json = nlohmann::json;
 
@@ -113,7 +118,7 @@ std::string change(const Json& a, const Json& b) {
   if (!a.is_number() || !b.is_number()) return "differs";
   const double from = a.get<double>();
   const double by = b.get<double>() - from;
-  // A change of a number near zero is no percentage.
+  // A change of a number near zero is not a percentage.
   return std::abs(from) < 0.01 * std::abs(by) || from == 0 ? fmt::format("{:+.3g}", by)
                                                            : fmt::format("{:+.3g} %", 100 * by / std::abs(from));
 }
@@ -135,8 +140,6 @@ void print_summaries(const Json& a, const Json& b) {
 
 /// Null for a trace file, which has no summary beside it that is surely its own.
 Json summary_of(const std::string& run) { return std::filesystem::is_directory(run) ? read_summary(run) : Json(); }
-
-}  // namespace
 
 int compare(const CompareArguments& arguments) {
   const Trace a = read_trace(arguments.a);
@@ -160,6 +163,21 @@ int compare(const CompareArguments& arguments) {
     fmt::print("\nsummary numbers: not compared, a trace file has none\n");
   }
   return 0;
+}
+
+}  // namespace
+
+void add_compare(Commands& commands) {
+  add_command<CompareArguments>(
+      commands, "compare",
+      "Report what differs between two runs, column by column; the exit code is 0 whether or not they differ.", compare,
+      [](CLI::App& command, CompareArguments& arguments) {
+        command.add_option("RUN_A", arguments.a, "run folder or trace file: the reference")->required();
+        command.add_option("RUN_B", arguments.b, "run folder or trace file")->required();
+        command.add_option("--columns", arguments.columns, "only columns that match this pattern (with * and ?)")
+            ->expected(1)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      });
 }
 
 }  // namespace gaitlab::app

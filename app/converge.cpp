@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "core/parallel.h"
 #include "core/simulation/simulation.h"
 #include "core/trace/convergence.h"
@@ -11,6 +11,12 @@
 namespace gaitlab::app {
 
 namespace {
+
+struct ConvergeArguments : ScenarioArguments {
+  int halvings = 2;
+  std::vector<std::string> columns;  ///< patterns; none: the torques, or without motors the angles
+  int jobs = 1;                      ///< threads
+};
 
 constexpr double kGood = 0.01;       // what "good" means below: 1 %
 constexpr double kLeastOrder = 0.5;  // below, halving a step hardly helps: a power law would offer absurd ones
@@ -111,8 +117,6 @@ std::string verdict(const std::vector<ConvergenceRow>& rows, const Runs& runs) {
   return text + fmt::format("; by the order seen about {:.2g}{} would be", *reach, runs.unit);
 }
 
-}  // namespace
-
 int converge(const ConvergeArguments& arguments) {
   Catalog catalog = standard_catalog();
   ConvergeArguments with_columns = arguments;
@@ -144,6 +148,24 @@ int converge(const ConvergeArguments& arguments) {
   print(worst);
   fmt::print("{}\n", verdict(rows, runs));
   return 0;
+}
+
+}  // namespace
+
+void add_converge(Commands& commands) {
+  add_command<ConvergeArguments>(
+      commands, "converge", "Halve the step: errors against the finest one, their order, and the step that is good for 1 %.",
+      converge, [](CLI::App& command, ConvergeArguments& arguments) {
+        add_scenario(command, arguments);
+        command.add_option("--halvings", arguments.halvings, "number of halvings (default 2; an order needs 2)")
+            ->check(CLI::Range(1, 8));
+        command
+            .add_option("--columns", arguments.columns,
+                        "trace columns that match this pattern (default joint.*.torque; without motors joint.*.angle)")
+            ->expected(1)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+      });
 }
 
 }  // namespace gaitlab::app

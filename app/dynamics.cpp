@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "core/dynamics/mass_matrix.h"
 #include "core/scenario/state_file.h"
 #include "core/simulation/plant.h"
@@ -12,6 +12,25 @@
 namespace gaitlab::app {
 
 namespace {
+
+constexpr const char* kHelp =
+    "The state: {\"q\": [], \"qd\": [], \"tau\": [], \"qdd\": [], \"base\": {\"position\", \"quaternion\": [w, x, y, z],\n"
+    "\"velocity\", \"angular_velocity\", \"acceleration\", \"angular_acceleration\"}, \"wrenches\": [{\"body\", \"point\",\n"
+    "\"force\", \"torque\"}]}; SI, world axes, joints in the order of `gaitlab check`. What is missing: q, qd, pose and twist "
+    "are\n"
+    "those the scenario starts with, a wrench's point is the origin of its body's frame, all else is 0.\n"
+    "Gravity, tau and the wrenches act; motors, hinge stops and the ground do not. tau is the torque on the joint.\n\n"
+    "Out, forward (tau in, by the scenario's engine): qdd, base, mass_matrix, bias, with\n"
+    "    mass_matrix [base acceleration; qdd] + bias = [0; tau]\n"
+    "and of the base what it can move: all (floating), nothing (fixed), x, z, turn about y (planar).\n"
+    "Out, --inverse (qdd and the base's accelerations in): tau, base_wrench (from outside, about the origin of the base "
+    "frame),\n"
+    "reactions: of the parent on the child at every hinge and dock (m3/dock), about its origin.";
+
+struct DynamicsArguments : ScenarioArguments {
+  std::string state;     ///< JSON file
+  bool inverse = false;  ///< torques and reactions of given accelerations
+};
 
 /// Shortest text that reads back to the same double, as JSON: {fmt}'s default form.
 std::string list(In values) { return fmt::format("[{}]", fmt::join(values, ", ")); }
@@ -75,8 +94,6 @@ void print_inverse(const Scenario& s, const DynamicsInput& input, const Kinemati
              wrench(dynamics.base()), fmt::join(reactions, ",\n"));
 }
 
-}  // namespace
-
 int dynamics(const DynamicsArguments& arguments) {
   Catalog catalog = standard_catalog();
   const Scenario scenario = read(arguments, catalog);
@@ -85,6 +102,19 @@ int dynamics(const DynamicsArguments& arguments) {
   kinematics.update(*scenario.robot, input.state);
   (arguments.inverse ? print_inverse : print_forward)(scenario, input, kinematics);
   return 0;
+}
+
+}  // namespace
+
+void add_dynamics(Commands& commands) {
+  add_command<DynamicsArguments>(
+      commands, "dynamics", "Evaluate the equations of motion once, as JSON.", dynamics,
+      [](CLI::App& command, DynamicsArguments& arguments) {
+        command.footer(kHelp);
+        add_scenario(command, arguments);
+        command.add_option("--state", arguments.state, "JSON file: where and how fast, and what acts")->required();
+        command.add_flag("--inverse", arguments.inverse, "accelerations in; torques and reactions out");
+      });
 }
 
 }  // namespace gaitlab::app

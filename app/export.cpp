@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "core/errors.h"
 #include "core/trace/atomic_file.h"
 #include "core/trace/csv.h"
@@ -13,6 +13,12 @@
 namespace gaitlab::app {
 
 namespace {
+
+struct ExportArguments {
+  ScenarioArguments source;  ///< file: run folder or trace file (csv), scenario (mjcf, urdf)
+  std::string format;        ///< csv, mjcf, urdf
+  std::string file;          ///< to write; must not exist
+};
 
 void check_new(const std::string& name) {
   namespace fs = std::filesystem;
@@ -40,12 +46,28 @@ void export_robot(const ExportArguments& arguments) {
   fmt::print("{}: {} bodies, {} joints\n", arguments.file, scenario.robot->bodies.size(), scenario.robot->joints.size());
 }
 
-}  // namespace
-
 int export_to(const ExportArguments& arguments) {
   check_new(arguments.file);
   (arguments.format == "csv" ? export_run : export_robot)(arguments);
   return 0;
+}
+
+}  // namespace
+
+void add_export(Commands& commands) {
+  add_command<ExportArguments>(
+      commands, "export", "Write the trace of a run, or the robot of a scenario, in another format.", export_to,
+      [](CLI::App& command, ExportArguments& arguments) {
+        command.add_option("SOURCE", arguments.source.file, "csv: run folder or trace file; mjcf, urdf: scenario file")
+            ->required();
+        command.add_option("--to", arguments.format, "csv; mjcf (MuJoCo), urdf")
+            ->required()
+            ->check(CLI::IsMember({"csv", "mjcf", "urdf"}));
+        command.add_option("FILE", arguments.file, "file to write; must not exist")->required();
+        command.add_option("--set", arguments.source.sets, "key.path=value in the scenario")
+            ->expected(1)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      });
 }
 
 }  // namespace gaitlab::app

@@ -42,7 +42,7 @@ void find_in(const fs::path& folder, bool top, Found& found) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const fs::path& path = entry.path();
-    std::error_code unknown;  // a loop of links is no folder: its own case tells
+    std::error_code unknown;  // a loop of links is not a folder: its own case tells
     const bool is_folder = fs::is_directory(path, unknown);
     if (top && is_scenario(path) && !is_folder) found.scenarios.push_back(path);
     if (!is_folder) continue;

@@ -11,6 +11,15 @@
 
 namespace gaitlab::app {
 
+struct TestArguments {
+  std::vector<std::string> scenarios;     ///< files and folders; none: `scenarios`
+  std::optional<std::string> golden;      ///< folder: of another scenario than the one that is run
+  std::optional<std::string> engine;      ///< instead of the scenario's, with its own step and integrator
+  std::optional<std::string> junit, out;  ///< file; folder for figures
+  bool strict = false;                    ///< in a folder, too, every scenario must have a golden
+  int jobs = 1;                           ///< threads
+};
+
 /// From best to worst; the program's exit code follows from the worst.
 enum class Verdict { passed, skipped, bad_input, run_failed, regression };
 

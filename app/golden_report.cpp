@@ -11,7 +11,7 @@ namespace gaitlab::app {
 namespace {
 
 constexpr std::size_t kMostShown = 10;
-constexpr double kBandChange = 1.2;  // times: less is no news
+constexpr double kBandChange = 1.2;  // times: less is not news
 
 // Those to show, by falling ratio where they are the worst, else in the golden's order.
 template <class Check>

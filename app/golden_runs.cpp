@@ -18,7 +18,7 @@ namespace gaitlab::app {
 namespace {
 
 constexpr double kRowEvery = 0.02;      // s; a gait has 0.5 Hz, and the contacts' spikes are not what drifts
-constexpr double kNowhere = 0.01;       // m: the work of a robot that stays is divided by noise
+constexpr double kLeastTravel = 0.01;   // m: the work of a robot that stays is divided by noise
 constexpr double kPerturbation = 1e-7;  // rad: above the rounding of another compiler, far below what a torque shows
 
 std::vector<std::string> columns(const Scenario& scenario) {
@@ -29,7 +29,7 @@ std::vector<std::string> columns(const Scenario& scenario) {
   return names;
 }
 
-// Every stride-th row; the last one where it is no trace tick is left out.
+// Every stride-th row; the last one where it is not a trace tick is left out.
 Trace thinned(const Trace& trace, double period) {
   const auto stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(kRowEvery / period * (1 + 1e-9)));
   Trace thin{trace.columns, {}};
@@ -120,7 +120,7 @@ std::vector<Number> golden_numbers(const GoldenRun& run) {
   const auto distance =
       std::find_if(run.numbers.begin(), run.numbers.end(), [](const Number& n) { return n.name == "distance"; });
   std::vector<Number> kept = run.numbers;
-  if (distance->value > kNowhere) return kept;
+  if (distance->value > kLeastTravel) return kept;
   for (const SummaryNumber& entry : summary_numbers()) {
     if (entry.golden.needs_travel) std::erase_if(kept, [&](const Number& number) { return number.name == entry.name(); });
   }

@@ -4,7 +4,7 @@
 #include <array>
 #include <map>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "core/scenario/manual.h"
 #include "core/scenario/schema.h"
 #include "core/scenario/text_file.h"
@@ -12,6 +12,17 @@
 namespace gaitlab::app {
 
 namespace {
+
+struct ManualArguments {
+  std::string kind, name;            ///< empty: all kinds; the scenario file
+  std::vector<std::string> plugins;  ///< libraries to load first
+};
+
+void add_plugins(CLI::App& command, ManualArguments& arguments) {
+  command.add_option("--plugin", arguments.plugins, "library to load first; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
 
 constexpr std::array kPluginKinds{Kind::cpg, Kind::controller, Kind::actuator};
 
@@ -46,8 +57,6 @@ std::string about(const std::string& kind, const std::string& name, const Catalo
   if (kind == "engine") return first_line(catalog.engine(name)->manual);
   return shipped_files(kind).at(name);
 }
-
-}  // namespace
 
 int list(const ManualArguments& arguments) {
   const Catalog catalog = standard_catalog(arguments.plugins);
@@ -98,6 +107,32 @@ int reference(const ManualArguments& arguments) {
   const Catalog catalog = standard_catalog();
   fmt::print("{}", arguments.kind == "scenario" ? scenario_page(catalog) : plugins_page(catalog));
   return 0;
+}
+
+}  // namespace
+
+void add_manuals(Commands& commands) {
+  add_command<ManualArguments>(commands, "list", "List what is registered: cpg, controller, actuator, engine, module, robot.",
+                               list, [](CLI::App& command, ManualArguments& arguments) {
+                                 command.add_option("KIND", arguments.kind, "one of these kinds alone");
+                                 add_plugins(command, arguments);
+                               });
+  add_command<ManualArguments>(commands, "explain", "Print the manual of KIND NAME; without them, that of the scenario file.",
+                               explain, [](CLI::App& command, ManualArguments& arguments) {
+                                 CLI::Option* kind = command.add_option("KIND", arguments.kind,
+                                                                        "cpg, controller, actuator, engine, module, robot");
+                                 kind->needs(command.add_option("NAME", arguments.name, "name as `gaitlab list` prints it"));
+                                 add_plugins(command, arguments);
+                               });
+  add_command<ManualArguments>(commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,
+                               add_plugins);
+  add_command<ManualArguments>(commands, "reference", "Print a page of docs/reference.", reference,
+                               [](CLI::App& command, ManualArguments& arguments) {
+                                 command.group("");  // not in the help
+                                 command.add_option("PAGE", arguments.kind, "scenario or plugins")
+                                     ->required()
+                                     ->check(CLI::IsMember({"scenario", "plugins"}));
+                               });
 }
 
 }  // namespace gaitlab::app

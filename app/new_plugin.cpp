@@ -5,7 +5,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "app/skeletons.h"
 #include "core/scenario/value.h"
 #include "core/trace/atomic_file.h"
@@ -13,6 +13,11 @@
 namespace gaitlab::app {
 
 namespace {
+
+struct NewPluginArguments {
+  std::string kind, name;          ///< cpg, controller or actuator; what the scenario will call it
+  std::optional<std::string> out;  ///< folder to make (default: the name)
+};
 
 namespace fs = std::filesystem;
 
@@ -74,8 +79,6 @@ std::string prefix() {
   return fs::is_directory(prefix / "include" / "gaitlab", none) ? prefix.string() : "PREFIX";
 }
 
-}  // namespace
-
 int new_plugin(const NewPluginArguments& arguments) {
   const Skeleton& text = skeleton(arguments.kind);
   const std::string& name = arguments.name;
@@ -99,6 +102,21 @@ int new_plugin(const NewPluginArguments& arguments) {
              prefix() == "PREFIX" ? "      # where gaitlab is installed: cmake --install build/release --prefix PREFIX" : "");
   fmt::print("  cmake --build build\n  ctest --test-dir build\n  gaitlab run scenario.yaml\n");
   return 0;
+}
+
+}  // namespace
+
+void add_new(Commands& commands) {
+  CLI::App* command = commands.app.add_subcommand("new", "Start something of your own.");
+  command->require_subcommand(1);
+  add_command<NewPluginArguments>(
+      commands, "plugin", "Make a folder with a working plugin, its scenario and its test.", new_plugin,
+      [](CLI::App& plugin, NewPluginArguments& arguments) {
+        plugin.add_option("KIND", arguments.kind, "cpg, controller or actuator")->required();
+        plugin.add_option("NAME", arguments.name, "name that scenarios will give it")->required();
+        plugin.add_option("--out", arguments.out, "folder to make (default: NAME); must not exist");
+      },
+      command);
 }
 
 }  // namespace gaitlab::app

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "report/summary.h"
 
 namespace gaitlab::app {
@@ -23,5 +23,16 @@ void warn_of_start(const Scenario& scenario) {
   const Place place = scenario.on_ground ? Place{scenario.file} : scenario.place("robot.position");
   fmt::print(stderr, "{}: warning: {}\n", to_string(place), warning);
 }
+
+void add_scenario(CLI::App& command, ScenarioArguments& arguments) {
+  command.add_option("SCENARIO", arguments.file, "scenario file (YAML)")->required();
+  command.add_option("--set", arguments.sets, "override a key, as key.path=value; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--seed", arguments.seed, "seed of the random number generator, instead of the scenario's");
+  command.add_flag("--quiet", arguments.quiet, "print no notes, no progress and no summary");
+}
+
+std::string not_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
 
 }  // namespace gaitlab::app

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "app/progress.h"
 #include "app/stored_scenario.h"
 #include "core/errors.h"
@@ -20,6 +20,13 @@
 namespace gaitlab::app {
 
 namespace {
+
+struct RerunArguments {
+  std::string run;                 ///< run folder, or trace.h5
+  bool verify = false;             ///< compare with the recorded trace instead of writing
+  std::optional<std::string> out;  ///< as for run
+  bool quiet = false;
+};
 
 namespace fs = std::filesystem;
 
@@ -208,8 +215,6 @@ int verify(const std::string& run) {
 /// The format of the recorded trace, or the default where there is none.
 std::string format_of(const fs::path& run) { return is_there(run / "trace.csv") && !is_there(run / "trace.h5") ? "csv" : "h5"; }
 
-}  // namespace
-
 int rerun(const RerunArguments& arguments) {
   if (arguments.verify) return verify(arguments.run);
   RunArguments as;
@@ -218,6 +223,20 @@ int rerun(const RerunArguments& arguments) {
   as.format = format_of(arguments.run);
   Catalog catalog = standard_catalog();
   return run(read_stored(stored_scenario(arguments.run), catalog, OtherPlugins::refused), as);
+}
+
+}  // namespace
+
+void add_rerun(Commands& commands) {
+  add_command<RerunArguments>(
+      commands, "rerun", "Run again what a run folder holds, from the folder alone.", rerun,
+      [](CLI::App& command, RerunArguments& arguments) {
+        command.add_option("RUN", arguments.run, "run folder, or its trace.h5")->required();
+        CLI::Option* out_option = command.add_option("--out", arguments.out, "run folder, as for run");
+        command.add_flag("--verify", arguments.verify, "write nothing; compare with the recorded trace; 4: it differs")
+            ->excludes(out_option);
+        command.add_flag("--quiet", arguments.quiet, "no progress, no summary on the terminal");
+      });
 }
 
 }  // namespace gaitlab::app

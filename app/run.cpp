@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "app/progress.h"
 #include "core/simulation/simulation.h"
 #include "core/trace/atomic_file.h"
@@ -97,6 +97,17 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   }
   fmt::print(stderr, "{}: error: {}; what was simulated until then is in {}\n", scenario.file, failure, folder.path().string());
   return 1;
+}
+
+void add_run(Commands& commands) {
+  add_command<RunArguments>(commands, "run", "Simulate a scenario, write a run folder and print the summary.", run,
+                            [](CLI::App& command, RunArguments& arguments) {
+                              add_scenario(command, arguments);
+                              command.add_option("--out", arguments.out,
+                                                 "run folder (default runs/NAME, then NAME-2 ...); new or empty");
+                              command.add_option("--format", arguments.format, "format of the trace: h5 (default) or csv")
+                                  ->check(CLI::IsMember({"h5", "csv"}));
+                            });
 }
 
 }  // namespace gaitlab::app

@@ -27,11 +27,11 @@ class @CLASS@ final : public gaitlab::Cpg {
   // The keys that all oscillators share, frequency, amplitude, offset, phase_lag and couplings, and under `model` those above.
   using Settings = gaitlab::OscillatorSettings<Model>;
 
-  // Once a run. Where the settings do not fit the robot, throw std::invalid_argument: it is reported as an error of the scenario.
+  // Once per run. Where the settings do not fit the robot, throw std::invalid_argument: it is reported as an error of the scenario.
   @CLASS@(const gaitlab::RobotInfo& robot, const Settings& settings)
       : joints_(robot.joints.size()), s_(settings), network_(robot, settings, settings.model.coupling) {}
 
-  // The state belongs to the simulation: here one phase a joint, rad.
+  // The state belongs to the simulation: here one phase per joint, rad.
   std::size_t states() const override { return joints_; }
   std::string state_name(std::size_t joint) const override { return "phi." + std::to_string(joint); }
   void start(gaitlab::Out phi) const override {
@@ -48,7 +48,7 @@ class @CLASS@ final : public gaitlab::Cpg {
     }
   }
 
-  // Set points, rad, once a control tick.
+  // Set points, rad, once per control tick.
   void output(double, gaitlab::In phi, gaitlab::Out setpoint) const override {
     for (std::size_t i = 0; i < joints_; ++i) setpoint[i] = s_.offset[i] + s_.amplitude[i] * std::sin(phi[i]);
   }
@@ -113,13 +113,13 @@ class @CLASS@ final : public gaitlab::Controller {
     }
   };
 
-  // Once a run. Where the settings do not fit the robot, throw std::invalid_argument: it is reported as an error of the scenario.
+  // Once per run. Where the settings do not fit the robot, throw std::invalid_argument: it is reported as an error of the scenario.
   @CLASS@(const gaitlab::RobotInfo& robot, const Settings& settings) : joints_(robot.joints.size()), s_(settings) {}
 
   // "V" or "N m", the actuator's; another is an error of the scenario.
   std::string_view command_unit() const override { return "V"; }
 
-  // Once a control period; the command is held until the next. A state (an integral, a filter) would be `states()` numbers in x,
+  // Once per control period; the command is held until the next. A state (an integral, a filter) would be `states()` numbers in x,
   // which the simulation keeps: this object itself never changes.
   void update(const gaitlab::Measured& m, gaitlab::In setpoint, gaitlab::In, gaitlab::Out, gaitlab::Out command) const override {
     for (std::size_t j = 0; j < joints_; ++j) {
@@ -132,7 +132,7 @@ class @CLASS@ final : public gaitlab::Controller {
   Settings s_;
 };
 
-constexpr const char* kManual = R"text(A spring and a damper, once a control period.
+constexpr const char* kManual = R"text(A spring and a damper, once per control period.
 
     u = k (set point - angle) - d speed
 
@@ -195,7 +195,7 @@ class @CLASS@ final : public gaitlab::Actuator {
     }
   };
 
-  // Once a run; one pointer a rollout that is simulated side by side (a lane). All spans below are joint * lanes + lane.
+  // Once per run; one pointer per rollout that is simulated side by side (a lane). All spans below are joint * lanes + lane.
   @CLASS@(const gaitlab::RobotInfo& robot, const std::vector<const Settings*>& lanes) {
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
       for (const Settings* s : lanes) {

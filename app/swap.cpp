@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "app/golden_report.h"
 #include "core/errors.h"
 #include "core/simulation/batch.h"
@@ -17,6 +17,12 @@
 namespace gaitlab::app {
 
 namespace {
+
+struct SwapArguments : ScenarioArguments {
+  std::string cpgs;                ///< types, with commas between
+  std::optional<std::string> out;  ///< folder of the figure
+  int jobs = 1;                    ///< threads
+};
 
 constexpr double kShown = 8;  // s, of set point and torque: their last
 
@@ -181,8 +187,6 @@ std::string figure(const std::vector<Swapped>& all) {
   return curves_svg(input);
 }
 
-}  // namespace
-
 int swap_cpgs(const SwapArguments& arguments) {
   Catalog catalog = standard_catalog();
   std::vector<Swapped> all = read_all(arguments, catalog);
@@ -195,6 +199,22 @@ int swap_cpgs(const SwapArguments& arguments) {
   fmt::print("figure: {}\n", file.string());
   const bool broke_off = std::any_of(all.begin(), all.end(), [](const Swapped& s) { return s.summary.outcome != "done"; });
   return broke_off ? 1 : 0;
+}
+
+}  // namespace
+
+void add_swap(Commands& commands) {
+  add_command<SwapArguments>(
+      commands, "swap", "Run a scenario under several CPGs: one table, one figure.", swap_cpgs,
+      [](CLI::App& command, SwapArguments& arguments) {
+        add_scenario(command, arguments);
+        command
+            .add_option("--cpg", arguments.cpgs,
+                        "types of the CPGs, separated by commas; their common keys are kept, `model` gets its defaults")
+            ->required();
+        command.add_option("--out", arguments.out, "folder of the figure (default runs/swap-NAME)");
+        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+      });
 }
 
 }  // namespace gaitlab::app

@@ -8,7 +8,7 @@
 #include <functional>
 #include <system_error>
 
-#include "app/app.h"
+#include "app/commands.h"
 #include "app/golden_cases.h"
 #include "app/golden_report.h"
 #include "core/errors.h"
@@ -147,7 +147,7 @@ std::string failure(const GoldenCase& c) {
          differences(c.difference, Shown::failing) + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n");
 }
 
-/// That it was approved from another text explains a failure, and is no failure.
+/// That it was approved from another text explains a failure, and is not a failure.
 void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
     if (c.verdict != Verdict::passed || c.other_engine || hash(resolved(*c.scenario)) == c.golden->origin.scenario) continue;
@@ -192,7 +192,7 @@ void check_report(const std::string& path) {
   const fs::file_type kind = kind_of(path);
   if (kind == fs::file_type::directory) throw InputError(place, "is a folder");
   if (kind == fs::file_type::regular && fs::file_size(path) > 0 && !read_file(path).starts_with("<?xml"))
-    throw InputError(place, "is there and is no XML; it would be overwritten");
+    throw InputError(place, "is there and is not XML; it would be overwritten");
   const fs::path folder = fs::path(path).parent_path();
   if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
     throw InputError(place, "cannot be written: " + std::generic_category().message(errno));
@@ -203,8 +203,6 @@ int exit_code(const std::vector<GoldenCase>& cases) {
   if (count(cases, Verdict::run_failed) > 0) return 1;
   return count(cases, Verdict::bad_input) > 0 || count(cases, Verdict::passed) == 0 ? 2 : 0;
 }
-
-}  // namespace
 
 int test_goldens(const TestArguments& arguments) {
   Figures figures(arguments.out);
@@ -236,6 +234,26 @@ int test_goldens(const TestArguments& arguments) {
     fmt::print(stderr, "gaitlab: error: nothing was tested: no scenario has a golden; make one with gaitlab approve\n");
   const int code = exit_code(cases);
   return code == 0 && !written ? 1 : code;
+}
+
+}  // namespace
+
+void add_test(Commands& commands) {
+  add_command<TestArguments>(
+      commands, "test", "Run scenarios and compare them with their goldens; exit code 4: a torque drifted.", test_goldens,
+      [](CLI::App& command, TestArguments& arguments) {
+        command.add_option("SCENARIO", arguments.scenarios, "scenario files, or folders of them (default: scenarios)")
+            ->check(not_empty);
+        command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
+        command.add_option("--junit", arguments.junit, "also write the result as JUnit XML to this file")->check(not_empty);
+        command.add_option("--engine", arguments.engine,
+                           "run with this engine, at the golden's step (articulated: extrapolated); torque peaks, which depend "
+                           "on the method, are left out");
+        command.add_option("--golden", arguments.golden, "golden folder to compare one scenario with, not its own")
+            ->check(not_empty);
+        command.add_option("--out", arguments.out, "folder for figures of what failed (default runs/test)");
+        command.add_flag("--strict", arguments.strict, "in a folder, too, a scenario without a golden is an error");
+      });
 }
 
 }  // namespace gaitlab::app

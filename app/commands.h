@@ -1,0 +1,47 @@
+// How the subcommands of the program register themselves: each beside its code.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+
+#include "app/app.h"
+
+namespace gaitlab::app {
+
+/// The command line of the program, and what it chose to run.
+struct Commands {
+  CLI::App& app;
+  std::function<int()> chosen = {};
+};
+
+/// Adds a subcommand: `options` declares what it takes, `run` gets that where the command line names the subcommand.
+template <class Arguments, class Options>
+void add_command(Commands& commands, const char* name, const char* about, int (*run)(const Arguments&), Options options,
+                 CLI::App* parent = nullptr) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = (parent != nullptr ? *parent : commands.app).add_subcommand(name, about);
+  options(*command, *arguments);
+  command->callback([&commands, run, arguments] { commands.chosen = [run, arguments] { return run(*arguments); }; });
+}
+
+/// What every command that reads a scenario takes.
+void add_scenario(CLI::App& command, ScenarioArguments& arguments);
+
+/// For CLI::Option::check: a path that is an empty shell variable would name the working folder.
+std::string not_empty(const std::string& text);
+
+/// In the order of the help.
+void add_run(Commands& commands);
+void add_check(Commands& commands);
+void add_manuals(Commands& commands);
+void add_converge(Commands& commands);
+void add_swap(Commands& commands);
+void add_dynamics(Commands& commands);
+void add_compare(Commands& commands);
+void add_rerun(Commands& commands);
+void add_export(Commands& commands);
+void add_approve(Commands& commands);
+void add_test(Commands& commands);
+void add_new(Commands& commands);
+
+}  // namespace gaitlab::app
