@@ -5,7 +5,7 @@
 
 namespace gaitlab {
 
-const char* const Pid::kManual = R"(Sampled PID with a filtered derivative, once a control period Ts, zero-order hold.
+const char* const Pid::kManual = R"(Sampled PID with a filtered derivative, once per control period Ts, zero-order hold.
 
     P_k = Kp e_k
     I_k = I_{k-1} + Ki Ts e_{k-1}

@@ -61,7 +61,7 @@ std::string nearest(const std::string& found, const std::vector<std::string>& kn
     }
   }
   if (!best.empty() || found.size() < 3) return best;
-  // An abbreviation is no typing error: the one name that begins with it.
+  // An abbreviation is not a typing error: the one name that begins with it.
   for (const std::string& name : known) {
     if (!name.starts_with(found)) continue;
     if (!best.empty()) return {};

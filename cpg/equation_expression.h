@@ -1,4 +1,4 @@
-// The grammar of `equations`: a text to a tree. What the names in it mean is no business of the parser.
+// The grammar of `equations`: a text to a tree. What the names in it mean is not the business of the parser.
 #pragma once
 #include <cstddef>
 #include <string>

@@ -176,7 +176,7 @@ void EquationNames::check(const Term& term, const Place& place, std::vector<Equa
       for (const EquationFunction& f : std::span(kFunctions).subspan(kOperators)) known.emplace_back(f.name);
       known.emplace_back("sum");
       faults.push_back(
-          {term.offset, in_quotes(term.name) + " is no function" +
+          {term.offset, in_quotes(term.name) + " is not a function" +
                             (find(term.name) != nullptr ? "; multiply with *" : offer_name(term.name, known, "functions"))});
     } else if (function->arguments != found) {
       faults.push_back({term.offset, term.name + " has " + std::to_string(found) + (found == 1 ? " argument" : " arguments") +

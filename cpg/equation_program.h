@@ -7,7 +7,7 @@
 
 namespace gaitlab {
 
-/// What is known when a program is made; one value a joint unless said otherwise.
+/// What is known when a program is made; one value per joint unless said otherwise.
 struct EquationTables {
   std::size_t joints = 0;
   std::vector<std::vector<double>> given, parameters;  ///< by slot
@@ -19,7 +19,7 @@ struct EquationTables {
 struct EquationInputs {
   double t = 0;
   In state, angle, speed, torque;  ///< state: slot * joints + joint
-  In touching;                     ///< one a module
+  In touching;                     ///< one per module
 };
 
 /// Every instruction is a loop over all joints or, within a neighbour sum, over all couplings (then added up by their target).
@@ -35,7 +35,7 @@ class EquationProgram {
 
  private:
   enum class Base : std::uint8_t { fixed, scratch, state, angle, speed, torque, touching, result };
-  /// A block of numbers, one a joint or one a coupling.
+  /// A block of numbers, one per joint or one per coupling.
   struct Block {
     Base base = Base::fixed;
     std::size_t offset = 0;

@@ -26,7 +26,8 @@ angle rad, speed rad/s, torque N m, touching (1 while the joint's module touches
 
     sum(j in neighbours, TERM)      over the couplings by which joint i follows a joint j. In TERM: NAME[j], and of the
                                     coupling w[i,j] (its weight) and psi[i,j] (minus its phase_lag: phi_i = phi_j - psi_ij)
-    + - * / ^   < <= > >= == !=   and or not      comparisons give 1 or 0; anything but 0 is true, no number (log(-1)), too
+    + - * / ^   < <= > >= == !=   and or not      comparisons give 1 or 0; every value except 0 is true, NaN (such as
+                                                  log(-1)) included
     sin cos tan tanh exp log sqrt abs sign        of one number; log: natural; sign(0) = 0
     min(a, b)  max(a, b)  clamp(x, low, high)  if(condition, then, else)
 
@@ -86,7 +87,7 @@ struct Parsed {
         std::vector<std::string> known;
         for (const Named& one : model.states) known.push_back(one.name);
         faults.push_back({"initial", value.name, std::string::npos,
-                          "'" + value.name + "' is no state" + offer_name(value.name, known, "states")});
+                          "'" + value.name + "' is not a state" + offer_name(value.name, known, "states")});
       } else {
         initial[static_cast<std::size_t>(state - model.states.begin())] =
             tree("initial", value.name, value.text, Where::initial, 0);

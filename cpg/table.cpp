@@ -9,7 +9,7 @@
 namespace gaitlab {
 
 const char* const Table::kManual =
-    R"(Set points from a CSV text: one row a time, one column a joint. Joints without a column stay at 0.
+    R"(Set points from a CSV text: one row per time, one column per joint. Joints without a column stay at 0.
 
     theta(t) = a y_k + b y_k+1 + ((a^3 - a) M_k + (b^3 - b) M_k+1) h^2 / 6      t_k <= t <= t_k+1
     h = t_k+1 - t_k,  b = (t - t_k) / h,  a = 1 - b;  everything times min(1, t / ramp)
@@ -61,7 +61,7 @@ double number(const Cell& cell, std::size_t line) {
   const char* end = cell.text.data() + cell.text.size();
   const auto [stopped, error] = std::from_chars(cell.text.data(), end, value);
   if (error != std::errc() || stopped != end || !std::isfinite(value)) {
-    fail(line, cell.column, quoted(cell.text) + " is no finite number");
+    fail(line, cell.column, quoted(cell.text) + " is not a finite number");
   }
   return value;
 }

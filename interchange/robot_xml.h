@@ -24,7 +24,7 @@ struct MotorLimits {
   double speed = 0;     ///< rad/s; 0: gives its torque at every speed
   double armature = 0;  ///< kg m^2
 };
-/// One a joint; empty without actuator.
+/// One per joint; empty without actuator.
 std::vector<MotorLimits> motor_limits(const Scenario& scenario);
 
 /// What of the scenario no robot format holds, for a comment.

@@ -20,7 +20,7 @@ struct Touch {
   T friction;       ///< Coulomb coefficient
 };
 
-/// What stands around the robot, a lane each. A ground that is no plane is asked lane by lane: `query`, over Ground::query.
+/// What stands around the robot, one per lane. A ground that is not a plane is asked lane by lane: `query`, over Ground::query.
 template <class T>
 struct Site {
   Vec<T> gravity;

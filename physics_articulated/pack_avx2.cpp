@@ -1,4 +1,4 @@
-// Four rollouts a step, for processors with AVX2. Nothing that another file uses, too, may be compiled here: the linker would
+// Four rollouts per step, for processors with AVX2. Nothing that another file uses, too, may be compiled here: the linker would
 // take either.
 #include <immintrin.h>
 

@@ -1,4 +1,4 @@
-// Eight rollouts a step, for processors with AVX-512. Nothing that another file uses, too, may be compiled here: the linker
+// Eight rollouts per step, for processors with AVX-512. Nothing that another file uses, too, may be compiled here: the linker
 // would take either.
 #include <immintrin.h>
 

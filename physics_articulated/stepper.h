@@ -19,7 +19,7 @@ struct Part : Done<T> {
   T off = 0.0;            ///< motors and stops that it left off their law
 };
 
-/// Numbers that a rollout keeps between steps beside its state: an entry a joint, then single ones.
+/// Numbers that a rollout keeps between steps beside its state: an entry per joint, then single ones.
 struct History {
   std::size_t joints = 0;
   [[nodiscard]] std::size_t peak() const { return 0; }  ///< of a joint: largest motor torque at the end of a step so far, N m

@@ -8,13 +8,13 @@ namespace gaitlab {
 struct CurvesPanel {
   std::string title;                             ///< with the unit
   double from = 0;                               ///< s: the time axis begins here
-  std::vector<std::vector<double>> values = {};  ///< one a run, as long as its time; not finite: a gap
+  std::vector<std::vector<double>> values = {};  ///< one per run, as long as its time; not finite: a gap
 };
 
 struct CurvesInput {
   std::string title;
   std::vector<std::string> names;         ///< of the runs, in the legend
-  std::vector<std::vector<double>> time;  ///< s, rising; one a run
+  std::vector<std::vector<double>> time;  ///< s, rising; one per run
   std::vector<CurvesPanel> panels;
 };
 

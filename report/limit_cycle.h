@@ -21,10 +21,10 @@ struct MotionCycle {
 /// shortest period. Not found: less than two periods in the data; no repetition to 2 %; a motion that stands still, that is no
 /// column moving by more than 2e-3 rad over the last two periods (any period would fit, so none is named); a number that is not
 /// finite; fewer than 12 rows; periods below 5 samples.
-/// Columns that are held between control ticks (set points) are joined by straight lines first: a period that is no multiple of
-/// the tick would otherwise shift the steps from cycle to cycle and count as an error.
-/// A lag is first tried on at most 256 points of its window, in steps of 1/256 of itself, then at every sample, and the period
-/// between samples is the vertex of a parabola. About 10 ms for 4001 rows x 32 columns.
+/// Columns that are held between control ticks (set points) are joined by straight lines first: a period that is not a multiple
+/// of the tick would otherwise shift the steps from cycle to cycle and count as an error. A lag is first tried on at most 256
+/// points of its window, in steps of 1/256 of itself, then at every sample, and the period between samples is the vertex of a
+/// parabola. About 10 ms for 4001 rows x 32 columns.
 MotionCycle find_limit_cycle(std::span<const double> values, std::size_t columns, double sample_period);
 
 }  // namespace gaitlab

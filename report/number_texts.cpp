@@ -11,8 +11,8 @@ namespace gaitlab::texts {
 
 namespace {
 
-constexpr double kVisible = 1e-3;  // share of what is drawn
-constexpr double kNowhere = 1e-3;  // m: the work of a robot that stays is divided by noise
+constexpr double kVisible = 1e-3;      // share of what is drawn
+constexpr double kLeastTravel = 1e-3;  // m: the work of a robot that stays is divided by noise
 
 }  // namespace
 
@@ -69,7 +69,7 @@ Lines limit_cycle(const RunData& run) {
 Lines transport(const RunData& run) {
   const Summary& s = run.summary;
   if (!has_motors(run.scenario)) return {};
-  if (s.distance < kNowhere) return {"no cost: it went nowhere"};
+  if (s.distance < kLeastTravel) return {"cost of transport undefined: travelled less than 1 mm"};
   return {
       fmt::format("cost {:.3g} electrical, {:.3g} mechanical (J per N of weight and m)", s.cost_electrical, s.cost_mechanical)};
 }

@@ -85,7 +85,7 @@ class RandomRobots {
     return t;
   }
 
-  /// Motors of every kind, one a joint: from the shipped one's size to a hundredth of its torque, every third with a current
+  /// Motors of every kind, one per joint: from the shipped one's size to a hundredth of its torque, every third with a current
   /// limit that it lives at, every second with a rotor; gears as printed or directional. Their back-EMF damps up to about as
   /// much as the shipped one's (0.9 N m s). A directional gear damps more, so that an explicit method asks for the rate.
   DcMotorActuator::Settings motors(std::size_t joints) {

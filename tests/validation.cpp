@@ -38,7 +38,7 @@ struct Check {
 
 void report(const Row& row, const Check& check, const std::string& reason) {
   const double factor = scale();
-  // Not `>`: a residual that is no number is not inside.
+  // Not `>`: a residual that is not a number is not inside.
   const bool inside = check.residual <= check.tolerance * factor && factor > 0;
   const std::string unit = row.unit.empty() ? "" : " " + row.unit;
   const std::string by = check.residual > 0 ? fmt::format("{:.2g}", check.tolerance / check.residual) : "exact";

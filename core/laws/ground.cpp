@@ -11,7 +11,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kSame = 1e-9;    // m: closer than this is the same place
-constexpr double kBack = -0.5;    // cosine: a face that looks back at the one an element left by is no way out of there
+constexpr double kBack = -0.5;    // cosine: a face that looks back at the one an element left by is not a way out of there
 constexpr std::size_t kMost = 4;  // touches of one element at once: a corner has three
 constexpr int kSweeps = 8;        // of the shares: exact at right angles after one, and bounded always
 constexpr int kPerpendiculars =

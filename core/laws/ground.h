@@ -21,9 +21,10 @@ struct Box {
 ///
 /// A query finds one touch an element. In a box the nearest point of the surface counts: outside the foot of the perpendicular,
 /// inside the face of least depth. Three rules make of many solids one ground:
-/// - A face that another box covers is no way out, nor is one that looks down into the plane: an element that slides over the
-///   seam of two boxes of one height feels nothing there. (At a step in height let the lower box reach a little into the
-///   higher.)
+/// - A point inside a box is pushed out through the nearest exposed face: not covered by another box, not facing the ground
+/// plane.
+///   So an element that slides over the seam of two boxes of one height feels nothing there. (At a step in height let the boxes
+///   overlap a little.)
 /// - An element that touches several solids (floor and wall) gets one touch of penetration |sum s n|, normal along the sum: the
 ///   spring force of a linear law is the sum of theirs. s: the penetrations, less what the others push along the same normal
 ///   already, so that two floors carry like one. It changes continuously as one solid after the other comes in reach.

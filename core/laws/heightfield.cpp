@@ -17,7 +17,7 @@ struct Stencil {
 /// u: in units of the spacing; n nodes.
 Stencil stencil(double u, std::size_t n) {
   const double last = static_cast<double>(n - 1);
-  const double inside = u > 0 ? std::min(u, last) : 0.0;  // 0, too, where a run has diverged and u is no number
+  const double inside = u > 0 ? std::min(u, last) : 0.0;  // 0, too, where a run has diverged and u is not a number
   const auto cell = std::min(static_cast<std::size_t>(inside), n - 2);
   const double t = inside - static_cast<double>(cell);
   Stencil s;

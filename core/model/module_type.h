@@ -57,7 +57,7 @@ struct ModuleType {
   std::vector<HingeType> hinges;
   std::vector<FaceType> faces;
   std::vector<ContactType> feet, all;  ///< feet: those used for `on: feet`, on whichever body is free
-  std::size_t root = 0;                ///< the body that is no hinge's child; its frame is the module frame
+  std::size_t root = 0;                ///< the body that is not a hinge's child; its frame is the module frame
 };
 
 }  // namespace gaitlab

@@ -76,7 +76,7 @@ struct Robot {
 
 enum class ContactSet { none, feet, all };
 
-/// Builds the robot from `type_of_module` (index into types, one a module) and the docks.
+/// Builds the robot from `type_of_module` (index into types, one per module) and the docks.
 /// Errors (InputError, all at once, each at its row): wrong gender, face used twice, unknown module or face, two parents, loop,
 /// gap in the numbering, bad orientation, and for lattice types two blocks in one cell at zero angles.
 Robot assemble(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of_module, const std::vector<Dock>& docks);

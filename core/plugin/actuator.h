@@ -26,7 +26,7 @@ class Actuator {
   /// effort as it would be without the limit that depends on the speed (a motor's largest current); the same bits where that
   /// does not bind. Asked by contact.law: bullet, whose rows have the limit apart. Without such a limit: effort.
   virtual void unlimited(In command, In speed, Out torque, Out slope) const { effort(command, speed, torque, slope); }
-  /// Where effort is nothing but DC motors (core/laws/dc_motor.h): one a joint * lanes + lane, which an engine may then
+  /// Where effort is nothing but DC motors (core/laws/dc_motor.h): one per joint * lanes + lane, which an engine may then
   /// evaluate itself, several lanes at once. Else nullptr.
   [[nodiscard]] virtual const DcMotor* dc_motors() const { return nullptr; }
 };

@@ -153,7 +153,7 @@ void load_plugin(const std::string& path, Catalog& catalog) {
   const auto abi = reinterpret_cast<const char* (*)()>(dlsym(library, "gaitlab_abi"));
   const auto enter = reinterpret_cast<void (*)(Registry&)>(dlsym(library, "gaitlab_register"));
   if (abi == nullptr || enter == nullptr) {
-    throw std::runtime_error(path + " is no gaitlab plugin: it has no " +
+    throw std::runtime_error(path + " is not a gaitlab plugin: it has no " +
                              (abi == nullptr ? "gaitlab_abi" : "gaitlab_register") + " (GAITLAB_PLUGIN makes both)");
   }
   if (std::string_view(abi()) != GAITLAB_ABI) {
@@ -168,7 +168,7 @@ void load_plugin(const std::string& path, Catalog& catalog) {
     throw std::runtime_error(path + ": " + error.what());
   } catch (...) {
     catalog.set_origin(std::string(kBuiltIn));
-    throw std::runtime_error(path + ": gaitlab_register threw something that is no std::exception");
+    throw std::runtime_error(path + ": gaitlab_register threw something that is not derived from std::exception");
   }
   catalog.set_origin(std::string(kBuiltIn));
   catalog.set_loaded(path);

@@ -32,7 +32,8 @@ enum class CouplingRule { chain, parent, siblings, mirror, all };
 
 inline constexpr const char* kCouplingRules[] = {"chain", "parent", "siblings", "mirror", "all"};
 inline constexpr const char* kCouplingRulesAbout =
-    "Followed: the joint before; the next towards the base; that and siblings; the right's left image; all; or a list.";
+    "Which joint each joint follows. chain: the previous one; parent: the next towards the base; siblings: parent, and joints "
+    "with the same parent; mirror: a right joint follows its left counterpart; all: every other joint; or a list.";
 
 /// The joint that is the image of `joint` (y < 0) in the plane y = 0 at zero angles, or -1. Its axis is parallel to the image
 /// of the joint's; a positive turn may go the other way.

@@ -6,7 +6,7 @@
 
 namespace gaitlab {
 
-/// What the sensors say at a control tick; one entry a joint (touching: one a module, 1 or 0). SI units.
+/// What the sensors say at a control tick; one entry per joint (touching: one per module, 1 or 0). SI units.
 struct Measured {
   double t, period;
   In angle, speed, torque, touching;
@@ -24,7 +24,7 @@ class Cpg {
   }  ///< column `cpg.NAME`
   virtual void start(Out) const {}
   virtual void derivative(const Measured&, In, Out) const {}
-  virtual void event(const Measured&, Out) const {}              ///< phase resets; once a tick, before output
+  virtual void event(const Measured&, Out) const {}              ///< phase resets; once per tick, before output
   virtual void output(double t, In x, Out setpoint) const = 0;   ///< x is the state AT t
   [[nodiscard]] virtual std::string note() const { return {}; }  ///< one line for the user about how it was set up
 };

@@ -69,8 +69,8 @@ struct OscillatorNetwork {
   }
 };
 
-/// A CPG with one oscillator a joint, whose states stand in blocks, one number a joint: derive, and give start, derivative and
-/// output. The model's `coupling` is the weight of the couplings that a rule makes.
+/// A CPG with one oscillator per joint, whose states stand in blocks, one number per joint: derive, and give start, derivative
+/// and output. The model's `coupling` is the weight of the couplings that a rule makes.
 template <class Model>
 requires requires(Model model) { model.coupling + 1.0; }
 class OscillatorCpg : public Cpg {

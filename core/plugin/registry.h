@@ -55,7 +55,7 @@ void add_controller(Registry& registry, std::string_view name, std::string_view 
   });
 }
 
-/// T has `struct Settings` and a constructor T(const RobotInfo&, std::vector<const Settings*> one a lane).
+/// T has `struct Settings` and a constructor T(const RobotInfo&, std::vector<const Settings*> one per lane).
 template <class T>
 void add_actuator(Registry& registry, std::string_view name, std::string_view manual) {
   detail::add<T>(registry, Kind::actuator, name, manual, [](const RobotInfo& robot, std::span<const void* const> s) -> void* {

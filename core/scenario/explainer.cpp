@@ -105,9 +105,7 @@ void Explainer::on(const char* key, const char* about, const field::Flag& field)
 
 void Explainer::on(const char* key, const char* about, const field::Text& field) { row(key, "", field.value, "text", about); }
 
-void Explainer::on(const char* key, const char* about, const field::File&) {
-  row(key, "", "", "file, or its text", about);
-}
+void Explainer::on(const char* key, const char* about, const field::File&) { row(key, "", "", "file, or its text", about); }
 
 void Explainer::on(const char* key, const char* about, const field::OneOf& field) {
   row(key, "", if_among(field.names, field.value), alternatives(field.names), about);

@@ -25,10 +25,11 @@ struct BoxFields {
   Box box;
   void fields(Fields& f) {
     f.vector("center", span_of(box.center), {"m", -1e6, 1e6, "Middle of the box, world."});
-    f.vector("size", span_of(box.size), {"m", kPositive, 1e6, "Its edges, along its own axes; required."});
-    f.vector("rpy", span_of(box.rpy), {"rad", -100, 100, "Its axes in the world: roll, pitch, yaw."});
+    f.vector("size", span_of(box.size),
+             {"m", kPositive, 1e6, "Lengths of the edges of the box, along its own axes; required."});
+    f.vector("rpy", span_of(box.rpy), {"rad", -100, 100, "Orientation of the box in the world: roll, pitch, yaw."});
     f.number("friction", box.friction, {"", 0, 100, "Coulomb coefficient f; default: the ground's."});
-    f.number("mass", box.mass, {"kg", 0, 1e6, "0: it never moves; more: with contact.law: bullet."});
+    f.number("mass", box.mass, {"kg", 0, 1e6, "Mass of the box; 0: it never moves; more than 0 needs contact.law: bullet."});
   }
 };
 
@@ -37,15 +38,15 @@ struct HeightfieldFields {
   bool writing;
   void fields(Fields& f) {
     std::string file;  // read by finish_ground
-    if (!writing) f.text("file", file, "Text file with the heights: a row a line, numbers separated by commas or blanks.");
+    if (!writing) f.text("file", file, "Text file with the heights: a row per line, numbers separated by commas or blanks.");
     Rows rows;
     for (std::size_t i = 0; i < field.rows(); ++i) {
       const auto first = field.values.begin() + static_cast<std::ptrdiff_t>(i * field.columns);
       rows.emplace_back(first, first + static_cast<std::ptrdiff_t>(field.columns));
     }
     f.rows("values", rows, kHeights);
-    f.vector("origin", span_of(field.origin), {"m", -1e6, 1e6, "Where the first height of the first row stands, world."});
-    f.number("spacing", field.spacing, {"m", 1e-6, 1e6, "Between heights, in x and in y."});
+    f.vector("origin", span_of(field.origin), {"m", -1e6, 1e6, "Where the first height of the first row is, world."});
+    f.number("spacing", field.spacing, {"m", 1e-6, 1e6, "Distance between neighbouring heights, in x and in y."});
     set(rows);
   }
   void set(const Rows& rows) const {
@@ -121,11 +122,11 @@ void finish_field(const Node& section, const std::string& folder, Heightfield& f
 void GroundFields::fields(Fields& f) {
   f.choice("type", ground.kind, kTypes,
            "plane: world z = 0, solid below; boxes: the same with boxes on it; heightfield: a surface through heights.");
-  f.number("friction", ground.friction, {"", 0, 100, "Coulomb coefficient f."});
+  f.number("friction", ground.friction, {"", 0, 100, "Coulomb's coefficient of friction f between robot and ground."});
   if (!writing || ground.kind == Ground::Kind::boxes) {
     std::vector<BoxFields> boxes;
     for (const Box& box : ground.boxes) boxes.push_back({box});
-    f.list("boxes", boxes, "Solid boxes, for type boxes. One that stands flush at a higher one should reach into it a little.");
+    f.list("boxes", boxes, "Solid boxes, for type boxes. Let neighbouring boxes of different height overlap by about 1 mm.");
     ground.boxes.clear();
     for (BoxFields& one : boxes) {
       one.box.R = rpy(one.box.rpy);

@@ -27,7 +27,7 @@ std::vector<KeyRow> scenario_keys(const Catalog& catalog) {
                 "Module type, or {0: mtran, 5: ./foot.yaml, default: mtran}.");
   explainer.row("  types", "", "{}", "map", "Module types defined here, by name.");
   explainer.row("  build", "", "", "file", "Build file, rows child_face child_module parent_face parent_module orientation.");
-  explainer.row("  docks", "", "[]", "list", "The same rows here; neither: one module.");
+  explainer.row("  docks", "", "[]", "list", "Docks as rows of a build file, given here; without build and docks: one module.");
   Scenario scenario;
   Explainer base;
   BaseFields{scenario}.fields(base);

@@ -28,8 +28,8 @@ struct Node {
 /// deeper than 32, larger than 1 MB, not UTF-8 text, ...).
 Node parse_yaml(const std::string& text, const std::string& file);
 
-/// The same with every finding in `problems`; nothing where the text is no tree at all. (After a duplicate key, an anchor or a
-/// tag there still is one, so that its other errors are found too.)
+/// The same with every finding in `problems`; nothing where the text is not a tree at all. (After a duplicate key, an anchor or
+/// a tag there still is one, so that its other errors are found too.)
 std::optional<Node> parse_yaml(const std::string& text, const std::string& file, Problems& problems);
 
 /// The same from a file; a missing file is an InputError at `asked_at` (or the file itself).

@@ -87,8 +87,8 @@ Node* list_item(Node& list, const std::string& key, const std::string& where, co
   if (index.ok() && index.value >= 0 && static_cast<std::size_t>(index.value) < list.items.size()) {
     return &list.items[static_cast<std::size_t>(index.value)];
   }
-  problems.add(place, fmt::format("{} is a list of {}; {} is no element (they are numbered from 0)", where, list.items.size(),
-                                  in_quotes(key)));
+  problems.add(place, fmt::format("{} is a list of {}; {} is not an element (they are numbered from 0)", where,
+                                  list.items.size(), in_quotes(key)));
   return nullptr;
 }
 

@@ -24,7 +24,7 @@ struct Period {
   std::optional<Place> given = {};  ///< where; nothing: it is a default
 };
 
-/// A problem for each period that is no whole multiple of the step: at the period's place, or the step's where only that is
+/// A problem for each period that is not a whole multiple of the step: at the period's place, or the step's where only that is
 /// given, or `otherwise`.
 void check_periods(const std::vector<Period>& periods, const Period& step, const Place& otherwise, Problems& problems);
 

@@ -22,7 +22,7 @@ auto guarded(const Entry& entry, const char* function, Call call) {
   } catch (const std::exception& error) {
     throw PluginError(entry, before() + error.what());
   } catch (...) {
-    throw PluginError(entry, before() + "something that is no std::exception");
+    throw PluginError(entry, before() + "something that is not derived from std::exception");
   }
 }
 
@@ -114,7 +114,7 @@ class GuardedActuator final : public Actuator {
   [[nodiscard]] In sized(const char* function, In values) const {
     if (values.size() == size_) return values;
     throw PluginError(entry_,
-                      fmt::format("{} has {} numbers; expected {}, one a joint and lane", function, values.size(), size_));
+                      fmt::format("{} has {} numbers; expected {}, one per joint and lane", function, values.size(), size_));
   }
 
   const Entry& entry_;

@@ -122,7 +122,7 @@ void SchemaFields::on(const char* key, const char* about, const field::Texts& fi
 
 void SchemaFields::on(const char* key, const char* about, const field::Map& field) {
   Json one = scalar();
-  if (field.kind == NamedValues::texts_or_numbers) {  // a number may be one a joint
+  if (field.kind == NamedValues::texts_or_numbers) {  // a number may be one per joint
     one["type"] = {"string", "number", "boolean", "array", "object"};
     one["items"] = {{"type", "number"}};
     one["additionalProperties"] = {{"type", "number"}};

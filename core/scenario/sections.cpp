@@ -75,15 +75,16 @@ void BaseFields::fields(Fields& f) {
 void Initial::fields(Fields& f) {
   f.per_joint("angles", angles, {"rad", -1000, 1000, "Joint angles, within each hinge's range."});
   f.per_joint("speeds", speeds, {"rad/s", -1e4, 1e4, "Joint speeds."});
-  f.vector("base_velocity", span_of(base_velocity), {"m/s", -1e4, 1e4, "Of the base frame's origin, world axes."});
-  f.vector("base_angular_velocity", span_of(base_angular_velocity), {"rad/s", -1e4, 1e4, "World axes."});
+  f.vector("base_velocity", span_of(base_velocity), {"m/s", -1e4, 1e4, "Velocity of the base frame's origin, world axes."});
+  f.vector("base_angular_velocity", span_of(base_angular_velocity),
+           {"rad/s", -1e4, 1e4, "Angular velocity of the base, world axes."});
 }
 
 void PhysicsFields::fields(Fields& f) {
   const Names names(catalog != nullptr ? catalog->engines() : std::vector<std::string>{physics.engine->name});
   std::string name = physics.engine != nullptr ? physics.engine->name : kDefaultEngine;
   const std::size_t before = count(problems);
-  f.one_of("engine", name, names.pointers, "Physics engine.");
+  f.one_of("engine", name, names.pointers, "Physics engine; its manual: gaitlab explain engine NAME.");
   const bool known = count(problems) == before && names.has(name);
   if (names.texts.empty()) {
     f.problem("engine", "no physics engine is built in");
@@ -99,8 +100,11 @@ void PhysicsFields::fields(Fields& f) {
   if (known && !filled && physics.engine->adaptive() == nullptr) {
     step = solver && physics.engine->solver_step > 0 ? physics.engine->solver_step : physics.engine->step;
   }
-  f.number_or("step", step, "auto",
-              {"s", 1e-9, 1, "Time step; default: the engine's for integrator and contact law. auto: as accuracy asks."});
+  f.number_or(
+      "step", step, "auto",
+      {"s", 1e-9, 1,
+       "Time step; default: that of the engine, for the integrator and contact law. auto: chosen by accuracy. What a step "
+       "costs: gaitlab converge."});
   if (known) {
     const Engine& engine = *physics.engine;
     const Integrator& preset = filled ? *physics.integrator : step > 0 ? engine.fixed() : engine.integrators.front();
@@ -114,14 +118,14 @@ void PhysicsFields::fields(Fields& f) {
       f.number(
           "accuracy", physics.accuracy,
           {"", 1e-6, 0.5,
-           "Of the torques: of a joint's largest so far, and at least of 1 % of its motor's torque at rest. The integrator "
-           "adaptive divides its steps until they agree to that."});
+           "Accuracy of the motor torques, relative to a joint's largest torque so far (at least 1 % of its motor's torque "
+           "at rest). The integrator adaptive divides its steps until they agree to that."});
     }
   } else {
     std::string any;  // which there are depends on the engine
     f.text("integrator", any, "");
   }
-  f.vector("gravity", span_of(physics.gravity), {"m/s^2", -1000, 1000, "World axes."});
+  f.vector("gravity", span_of(physics.gravity), {"m/s^2", -1000, 1000, "Acceleration of gravity, world axes."});
 }
 
 void ContactSettings::fields(Fields& f) {
@@ -130,11 +134,14 @@ void ContactSettings::fields(Fields& f) {
            "solver, for comparison and clutter; it has none of the keys below but `on`.");
   f.choice("on", on, kContactSets, "Which elements touch: those of the free blocks' feet, of every block, or none.");
   if (solver()) return;
-  f.number("stiffness", penalty.kn, {"N/m^k", 0, 1e12, "Kn."});
-  f.number("exponent", penalty.k, {"", 1, 10, "k."});
-  f.number("damping", penalty.cd, {"N s/m^(d+1)", 0, 1e12, "Cd."});
-  f.number("damping_exponent", penalty.d, {"", 0, 10, "d."});
-  f.number("slip_speed", penalty.v_lim, {"m/s", kPositive, 1000, "v_lim, below which friction is viscous."});
+  f.number("stiffness", penalty.kn,
+           {"N/m^k", 0, 1e12, "Kn of the spring. On stiffer ground the robot sinks in less, and steps must be shorter."});
+  f.number("exponent", penalty.k, {"", 1, 10, "k: exponent of the depth in the spring's force."});
+  f.number("damping", penalty.cd, {"N s/m^(d+1)", 0, 1e12, "Cd of the damper."});
+  f.number("damping_exponent", penalty.d, {"", 0, 10, "d: exponent of the depth in the damper's force."});
+  f.number("slip_speed", penalty.v_lim,
+           {"m/s", kPositive, 1000,
+            "v_lim, below which friction is viscous. With a smaller one feet creep less, and steps must be shorter."});
 }
 
 void PluginFields::choose(Fields& f) {
@@ -201,13 +208,13 @@ void SectionFields::fields(Fields& f) {
   f.group("initial", scenario.initial, "State at the start.");
   f.group("physics", physics, "How time is integrated.");
   f.group("ground", ground, "What the robot stands on.");
-  f.group("contact", scenario.contact, "How it touches the ground.");
+  f.group("contact", scenario.contact, "How the robot touches the ground.");
   f.group("actuator", actuator, "The motor of every joint.");
-  if (!actuator.none) f.group("controller", controller, "From set points to commands.");
+  if (!actuator.none) f.group("controller", controller, "Controller of the joints: from set points to commands.");
   if (has_cpg) f.group("cpg", cpg, "Pattern generator; without this section the initial angles are held.");
-  f.number("duration", scenario.duration, {"s", kPositive, 1e6, "How long to simulate; required."});
-  f.group("trace", scenario.trace, "What is recorded.");
-  f.integer("seed", scenario.seed, {"", 0, 9e18, "Of every random number."});
+  f.number("duration", scenario.duration, {"s", kPositive, 1e6, "Simulated time; required."});
+  f.group("trace", scenario.trace, "The recorded trace.");
+  f.integer("seed", scenario.seed, {"", 0, 9e18, "Seed of the random number generator."});
 }
 
 std::vector<std::string> joint_names(const Robot& robot) {

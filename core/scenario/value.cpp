@@ -75,7 +75,7 @@ std::string expected(const Node& node, const std::string& before, const std::str
   return fmt::format("is {}; expected a {}{}{}{}", found(node), before, kind, unit.empty() ? "" : " in " + unit, after);
 }
 
-/// Why a plain scalar that is no decimal number is refused.
+/// Why a plain scalar that is not a decimal number is refused.
 std::string refuse_number(const Node& node, const std::string& kind, const std::string& unit) {
   if (node.kind != Node::Kind::scalar) return expected(node, "", kind, unit);
   if (node.quoted) return expected(node, "", kind, unit, ", without quotes");

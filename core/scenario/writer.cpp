@@ -56,7 +56,7 @@ void Writer::on(const char* key, const field::EachJoint& field) {
 }
 
 void Writer::on(const char* key, const field::Joint& field) {
-  // A number that is no joint means "none" to its plugin; it is the default, so that leaving it out says the same.
+  // A number that is not a joint means "none" to its plugin; it is the default, so that leaving it out says the same.
   if (field.value < 0 || static_cast<std::size_t>(field.value) >= joints_.size()) return;
   add(key, text_node(joints_[static_cast<std::size_t>(field.value)]));
 }

@@ -22,8 +22,8 @@ struct BatchSettings {
 
 /// Runs every scenario to its end: CPG, controller and trace of each by itself at its ticks, the steps of several at once.
 /// They may differ in everything; those that share engine, integrator, step, kind of actuator and the structure of the robot
-/// share packs (can_share). A rollout has the bits it has alone: neither threads nor lanes nor its neighbours show, be they
-/// done, diverged or limited.
+/// share packs (can_share). A rollout has the bits it has alone: the result does not depend on threads, lanes
+/// or the other rollouts, whether these have ended, diverged or are limited.
 /// end(i, RolloutEnd): once a rollout, from several threads at once, in any order.
 /// Throws InputError where a scenario's step is refused or its plugin cannot be made: the first such, after all others ended.
 void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings,

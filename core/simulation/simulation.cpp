@@ -56,7 +56,7 @@ bool Simulation::run(const std::function<void(double)>& progress, const std::ato
       progress(static_cast<double>(step_number()) / static_cast<double>(steps_));
     if (stop != nullptr && stop->load(std::memory_order_relaxed)) return false;
   }
-  record();  // t = duration is a row even where it is no multiple of the trace period
+  record();  // t = duration is a row even where it is not a multiple of the trace period
   return true;
 } catch (const PluginError& error) {
   throw stopped(error);
@@ -83,7 +83,8 @@ void Simulation::fail(Lane& lane, const SimulationError& error) {
   end(lane);
 }
 
-/// Closes its record. Its numbers go on from the start, without commands, so that they stay numbers.
+/// Closes the record of the lane and resets it to its initial state with zero commands, so that the unused lane cannot produce
+/// NaN.
 void Simulation::end(Lane& lane) {
   close(lane);
   if (lanes_.size() > 1) place_at_start(lane);
@@ -348,7 +349,7 @@ SimulationError Simulation::diverged(const Lane& lane) const {
           fmt::format("diverged at step {}, t = {:.6g} s: {}{}", step_number(), time(),
                       where == "base" ? "the base" : "joint " + where,
                       finite && worst > 0 ? fmt::format(" turns at {:.3g} rad/s", worst)
-                                          : fmt::format(" has left the numbers (+-{:g})", kLargestSpeed))};
+                                          : fmt::format(" is not finite, or beyond {:g} in SI units", kLargestSpeed))};
 }
 
 /// What is known of it at this step, beside the rows.

@@ -19,7 +19,7 @@ namespace gaitlab {
 
 class PluginError;
 
-/// A run that left the numbers, or whose plugin threw: step, time and joint or plugin are in what().
+/// Thrown when the state diverges (not finite, or above 1e5) or a plugin throws: step, time and joint or plugin are in what().
 class SimulationError : public RunError {
  public:
   SimulationError(std::int64_t step, double time, std::string where, const std::string& what);
@@ -54,8 +54,8 @@ struct RunRecord {
 /// robot's structure: links, joints, which link each contact element is on.
 bool can_share(const Scenario& a, const Scenario& b);
 
-/// Simulates one or more scenarios side by side, one a lane, each to its own end. All but what can_share asks may differ, and a
-/// lane's bits are those it has alone, whatever the others hold. Throws std::invalid_argument where they do not share it, or
+/// Simulates one or more scenarios side by side, one per lane, each to its own end. All but what can_share asks may differ, and
+/// a lane's bits are those it has alone, whatever the others hold. Throws std::invalid_argument where they do not share it, or
 /// the engine has no such number of lanes. The constructor checks the step: InputError where h lambda > 1 for the standing
 /// robot, naming the largest step allowed and the joint or contact that sets it. step() allocates nothing. A lane that leaves
 /// the numbers throws SimulationError if it is alone; beside others it ends there, and failure() tells.
@@ -74,7 +74,7 @@ class Simulation {
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
 
   /// Everything that changes: step counter, plant, held set points and commands, plugins' states, the ledger's sums. A copy is
-  /// a snapshot (what was recorded is no part of it: a run that is put back records on). Throws InputError where the plant
+  /// a snapshot (what was recorded is not part of it: a run that is put back records on). Throws InputError where the plant
   /// keeps more than that (Plant::memoryless).
   Out state();
   [[nodiscard]] std::int64_t step_number() const { return static_cast<std::int64_t>(state_[0]); }

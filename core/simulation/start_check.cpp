@@ -34,8 +34,8 @@ void check_inertia(const Scenario& scenario, const Kinematics& kinematics, In ro
     const double pivot = left(j, j);
     if (!(pivot > kNothing * locked[j])) {
       const Joint& joint = robot.joints[static_cast<std::size_t>(link.joint)];
-      throw InputError(place, fmt::format("joint '{}' has no inertia to move: what hangs on it can turn about the "
-                                          "same axis; give the body between the two hinges mass, or take other angles",
+      throw InputError(place, fmt::format("joint '{}' moves no inertia: the next joint turns about the same axis "
+                                          "(gimbal lock). Give the body between the two hinges mass, or start at other angles",
                                           joint.name));
     }
     const Eigen::VectorXd column = left.col(j);

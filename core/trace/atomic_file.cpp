@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kReadPiece = std::size_t{1} << 20;  // bytes; keeps the number of system calls small
 
-// 0 or errno; a signal that only interrupts is no failure.
+// 0 or errno; a signal that only interrupts is not a failure.
 int sync(int descriptor) {
   while (::fsync(descriptor) != 0) {
     if (errno != EINTR) return errno;

@@ -29,7 +29,7 @@ struct ConvergenceRow {
 /// contacts that switch, or rounding.
 std::vector<ConvergenceRow> convergence(std::span<const Trace> traces, const std::vector<std::string>& patterns);
 
-/// The same for a single figure, |.| a distance in `values` (one vector a step), its scale the finest's norm.
+/// The same for a single figure, |.| a distance in `values` (one vector per step), its scale the finest's norm.
 ConvergenceRow convergence(const std::string& name, std::span<const std::vector<double>> values);
 
 }  // namespace gaitlab

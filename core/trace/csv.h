@@ -1,4 +1,4 @@
-// Traces as text: one header row, one line a row.
+// Traces as text: one header row, one line per row.
 #pragma once
 #include <filesystem>
 
@@ -6,7 +6,7 @@
 
 namespace gaitlab {
 
-/// One header row of names, then one line a row: the shortest text that reads back to the same double, whatever the locale;
+/// One header row of names, then one line per row: the shortest text that reads back to the same double, whatever the locale;
 /// lines end in '\n'. Names that hold a comma or a quote are quoted (RFC 4180). The file appears whole or not at all. RunError:
 /// cannot be written (see AtomicFile), or a name that is empty or holds a line break.
 void write_csv(const Trace& trace, const std::filesystem::path& path);

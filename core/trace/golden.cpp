@@ -111,7 +111,7 @@ Json checked(const fs::path& file, const std::string& text) {
   const bool ours = text.starts_with(start);
   Json json = Json::parse(text, nullptr, false);
   if (!ours && !start.starts_with(text) && (json.is_discarded() || !json.is_object() || !json.contains(kVersionKey)))
-    throw wrong(file, "is no golden of gaitlab");
+    throw wrong(file, "is not a golden of gaitlab");
   if (json.is_discarded()) {
     const bool whole = text.ends_with("\"\n}\n");
     throw wrong(file, whole ? "is corrupt: it is not JSON" : fmt::format("is truncated: it ends after {} bytes", text.size()));
@@ -224,7 +224,7 @@ Golden read_golden(const fs::path& folder) {
   const fs::path file = folder / kJsonFile;
   const fs::file_type kind = kind_of(folder);
   if (kind == fs::file_type::not_found) throw wrong(folder, "there is no such golden; gaitlab approve makes it");
-  if (kind != fs::file_type::directory) throw wrong(folder, "is no golden: a golden is a folder");
+  if (kind != fs::file_type::directory) throw wrong(folder, "is not a golden: a golden is a folder");
   if (kind_of(file) == fs::file_type::not_found) throw wrong(file, "is missing: the golden is only half there");
   const Json json = checked(file, read_file(file));
   try {

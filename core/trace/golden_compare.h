@@ -8,7 +8,7 @@
 
 namespace gaitlab {
 
-inline constexpr double kOutside = 3;  ///< bands; an error that is one band in the mean is seldom three
+inline constexpr double kOutside = 3;  ///< bands; an error whose RMS is one band rarely exceeds three bands
 
 /// One column. Shares are of its scale (golden_bands.h); what the golden's own rounding explains is taken off, so that the same
 /// run differs by 0 and one that differs by less than the precision is measured right.

@@ -184,7 +184,7 @@ std::string complaint(std::string_view bytes, std::string_view& body) {
   std::string truncated = fmt::format("is truncated: {} bytes", bytes.size());
   const std::size_t expected = header(0, {}).size();
   if (bytes.size() < kName.size() && kName.starts_with(bytes)) return truncated;
-  if (!bytes.starts_with(kName)) return "is no golden trace of gaitlab";
+  if (!bytes.starts_with(kName)) return "is not a golden trace of gaitlab";
   const std::string_view version = bytes.substr(kName.size(), bytes.find('\n') - kName.size());
   if (version != kVersion) {
     if (bytes.size() < expected) return truncated;

@@ -21,7 +21,7 @@ struct RoundedTrace {
 /// finite, a range beyond a double.
 std::string pack(const Trace& trace);
 
-/// What pack made; `path` is for messages only. InputError `PATH: error: ...`, one message each: is truncated, is no golden
+/// What pack made; `path` is for messages only. InputError `PATH: error: ...`, one message each: is truncated, is not a golden
 /// trace, has another format version, is corrupt. Bytes whose checksum is wrong are not looked at.
 RoundedTrace unpack(std::string_view bytes, const std::filesystem::path& path);
 

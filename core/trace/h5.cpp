@@ -55,7 +55,7 @@ std::string complaint(std::string_view bytes) {
   std::string_view rest = bytes.substr(0, kUserBlock);
   if (rest.size() < kName.size() && kName.starts_with(rest)) return fmt::format("is truncated: {} bytes", bytes.size());
   if (!take(rest, kName))
-    return is_hdf5(bytes) ? "is an HDF5 file, but no gaitlab trace" : "is no gaitlab trace (nor another HDF5 file)";
+    return is_hdf5(bytes) ? "is an HDF5 file, but no gaitlab trace" : "is not a gaitlab trace (nor another HDF5 file)";
   const bool cut = bytes.size() < kUserBlock;
   const std::string_view version = rest.substr(0, rest.find('\n'));
   if (!take(rest, kTraceFormat.substr(kName.size())) || !(rest.empty() || rest.front() == '\n')) {

@@ -162,7 +162,7 @@ std::array<hsize_t, 2> shape_of(hid_t space, int rank, const char* what) {
 std::int64_t read_number(hid_t owner, const char* name) {
   const Handle attribute(H5Aopen(owner, name, H5P_DEFAULT), H5Aclose, name);
   const Handle type(H5Aget_type(attribute), H5Tclose, name);
-  if (H5Tget_class(type) != H5T_INTEGER) throw ImageError(fmt::format("{} is no integer", name));
+  if (H5Tget_class(type) != H5T_INTEGER) throw ImageError(fmt::format("{} is not an integer", name));
   shape_of(Handle(H5Aget_space(attribute), H5Sclose, name), 0, name);
   std::int64_t number = 0;
   checked(H5Aread(attribute, H5T_NATIVE_INT64, &number), name);
@@ -173,7 +173,7 @@ std::int64_t read_number(hid_t owner, const char* name) {
 std::vector<std::string> read_texts(hid_t owner, const char* name, int rank) {
   const Handle attribute(H5Aopen(owner, name, H5P_DEFAULT), H5Aclose, name);
   const Handle stored(H5Aget_type(attribute), H5Tclose, name);
-  if (checked(H5Tis_variable_str(stored), name) == 0) throw ImageError(fmt::format("{} is no text", name));
+  if (checked(H5Tis_variable_str(stored), name) == 0) throw ImageError(fmt::format("{} is not a text", name));
   const Handle space(H5Aget_space(attribute), H5Sclose, name);
   const std::size_t count = shape_of(space, rank, name)[0];
   std::vector<char*> texts(count + 1, nullptr);

@@ -11,7 +11,7 @@ namespace gaitlab {
 inline constexpr std::string_view kTraceFormat = "gaitlab-trace-1";
 inline constexpr std::size_t kUserBlock = 512;  ///< bytes before the HDF5 part; the smallest that HDF5 knows
 
-/// What the HDF5 library refused, or content that is no trace.
+/// What the HDF5 library refused, or content that is not a trace.
 class ImageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -39,7 +39,7 @@ fs::path trace_file(const fs::path& run) {
   for (const char* name : {"trace.h5", "trace.csv"}) {
     if (fs::exists(run / name, error)) return run / name;
   }
-  throw InputError(place, "holds neither trace.h5 nor trace.csv: it is no run folder");
+  throw InputError(place, "holds neither trace.h5 nor trace.csv: it is not a run folder");
 }
 
 Trace read_trace(const fs::path& run) {
@@ -52,7 +52,7 @@ nlohmann::json read_summary(const fs::path& folder) {
   const std::string text = read_file(file);
   try {
     nlohmann::json summary = nlohmann::json::parse(text);
-    if (!summary.is_object()) throw InputError(Place{file.string(), 1, 1}, "holds no JSON object: it is no summary");
+    if (!summary.is_object()) throw InputError(Place{file.string(), 1, 1}, "holds no JSON object: it is not a summary");
     return summary;
   } catch (const nlohmann::json::parse_error& error) {
     throw InputError(place_of(file, text, error.byte), "is not JSON from here on: it is truncated or damaged");

@@ -70,7 +70,7 @@ int RunFolder::make_parents(const fs::path& folder) {
 
 void RunFolder::use(const fs::path& out) {
   const auto refuse = [&](const std::string& text) { return InputError(Place{"--out " + out.string()}, text); };
-  if (out.empty()) throw refuse("is no folder");
+  if (out.empty()) throw refuse("is not a folder");
   path_ = out.has_filename() ? out : out.parent_path();  // `DIR/` is DIR
   int error = make_parents(path_);
   if (error == 0) error = make(path_);

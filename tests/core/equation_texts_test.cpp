@@ -29,9 +29,9 @@ class EquationTexts : public fakes::ScenarioTest {
 TEST_F(EquationTexts, OfWrongGrammarNameTheCharacter) {
   const std::array<std::pair<const char*, const char*>, 31> cases{{
       {"x + r*sin(phy)", "8:23: error: 'phy' is unknown; did you mean 'phi'?"},
-      {"x + r*sn(phi)", "8:19: error: 'sn' is no function; did you mean 'sin'?"},
+      {"x + r*sn(phi)", "8:19: error: 'sn' is not a function; did you mean 'sin'?"},
       {"x*foo(1)",
-       "8:15: error: 'foo' is no function; known functions: sin, cos, tan, tanh, exp, log, sqrt, abs, sign, min, max, "
+       "8:15: error: 'foo' is not a function; known functions: sin, cos, tan, tanh, exp, log, sqrt, abs, sign, min, max, "
        "clamp, if, sum"},
       {"x + sin(phi, r)", "8:17: error: sin has 2 arguments; expected 1"},
       {"max(x)", "8:13: error: max has 1 argument; expected 2"},
@@ -59,7 +59,7 @@ TEST_F(EquationTexts, OfWrongGrammarNameTheCharacter) {
       {"sum(j in all, x)", "8:22: error: found 'all'; expected 'neighbours': sum(j in neighbours, TERM)"},
       {"sum(j in neighbours, sum(j in neighbours, x))", "8:34: error: a sum within a sum; expected one level"},
       {"x + sin", "8:17: error: 'sin' is a function; put its arguments in brackets after it"},
-      {"x(1)", "8:13: error: 'x' is no function; multiply with *"},
+      {"x(1)", "8:13: error: 'x' is not a function; multiply with *"},
       {"t[i]", "8:13: error: 't' is one number; write it without brackets"},
   }};
   for (const auto& [text, message] : cases) EXPECT_EQ(output(text), message) << text;
@@ -71,11 +71,11 @@ TEST_F(EquationTexts, KnowWhereAWordMayStand) {
             "8:20: error: 'r' may not stand in an initial value; only in a derivative or the output");
   EXPECT_EQ(wrong("parameters: {a: b, b: 2}"), "8:21: error: 'b' stands below; a parameter may name those above it");
   EXPECT_EQ(wrong("parameters: {a: t}"), "8:21: error: 't' may not stand in a parameter; only in a derivative or the output");
-  EXPECT_EQ(wrong("initial: {phy: 1}"), "8:15: error: 'phy' is no state; did you mean 'phi'?");
+  EXPECT_EQ(wrong("initial: {phy: 1}"), "8:15: error: 'phy' is not a state; did you mean 'phi'?");
   EXPECT_EQ(wrong("parameters: {sin: 1}"), "8:18: error: 'sin' has a meaning of its own in equations; take another name");
   EXPECT_EQ(wrong("parameters: {depth: 1}"), "8:18: error: 'depth' has a meaning of its own in equations; take another name");
   EXPECT_EQ(wrong("parameters: {phi: 1}"), "8:18: error: 'phi' is a parameter and a state; give one of them another name");
-  EXPECT_EQ(wrong("parameters: {1a: 1}"), "8:18: error: '1a' is no name; expected a letter, then letters, digits and _");
+  EXPECT_EQ(wrong("parameters: {1a: 1}"), "8:18: error: '1a' is not a name; expected a letter, then letters, digits and _");
 }
 
 TEST_F(EquationTexts, LackNothing) {

@@ -85,7 +85,7 @@ TEST(GoldenFile, EveryDamageHasItsMessage) {
   EXPECT_EQ(refused(""), "x.golden: error: is truncated: 0 bytes");
   EXPECT_EQ(refused(bytes.substr(0, 30)), "x.golden: error: is truncated: 30 bytes");
   EXPECT_EQ(refused(bytes.substr(0, 200)), "x.golden: error: is truncated: 200 of " + size + " bytes");
-  EXPECT_EQ(refused("t,joint.0.torque\n0,1\n"), "x.golden: error: is no golden trace of gaitlab");
+  EXPECT_EQ(refused("t,joint.0.torque\n0,1\n"), "x.golden: error: is not a golden trace of gaitlab");
   std::string other = bytes;
   other[15] = '7';
   EXPECT_EQ(refused(other),

@@ -113,9 +113,9 @@ TEST_F(GoldenFolder, DamagedJson) {
   put("golden.json", text.substr(0, 400));
   EXPECT_EQ(complaint(), "G/golden.json: error: is truncated: it ends after 400 bytes");
   put("golden.json", R"({"distance": 1})");
-  EXPECT_EQ(complaint(), "G/golden.json: error: is no golden of gaitlab");
+  EXPECT_EQ(complaint(), "G/golden.json: error: is not a golden of gaitlab");
   put("golden.json", "distance: 1\n");
-  EXPECT_EQ(complaint(), "G/golden.json: error: is no golden of gaitlab");
+  EXPECT_EQ(complaint(), "G/golden.json: error: is not a golden of gaitlab");
   put("golden.json", text);
   replace("\"gaitlab_golden\": 1", "\"gaitlab_golden\": 2");
   EXPECT_EQ(complaint(), "G/golden.json: error: has golden format 2; this gaitlab reads 1: take the gaitlab that wrote it");

@@ -62,7 +62,7 @@ TEST(LaneClock, NothingIsWithinAStepThatWasGiven) {
     EXPECT_EQ(clock.commands(step), step % 15 == 0 && step < 300) << step;
     EXPECT_EQ(clock.ends(step), step == 300);
   }
-  // 1/40000 s is no binary number: the count of steps is rounded, not their sum.
+  // 1/40000 s is not a binary number: the count of steps is rounded, not their sum.
   EXPECT_EQ(LaneClock(scenario(2.5e-5, 20, 5e-3, false)).steps(), 800000);
 }
 

@@ -52,9 +52,9 @@ TEST(Overlay, MalformedOptions) {
             "--set a..b=3: error: found an empty key; expected KEY.PATH=VALUE, for example physics.step=2.5e-05");
   EXPECT_EQ(error("duration.x=1"), "--set duration.x=1: error: duration is 1, a single value; it has no key 'x'");
   EXPECT_EQ(error("docks.1.orientation=1"),
-            "--set docks.1.orientation=1: error: docks is a list of 1; '1' is no element (they are numbered from 0)");
+            "--set docks.1.orientation=1: error: docks is a list of 1; '1' is not an element (they are numbered from 0)");
   EXPECT_EQ(error("docks.first=1"),
-            "--set docks.first=1: error: docks is a list of 1; 'first' is no element (they are numbered from 0)");
+            "--set docks.first=1: error: docks is a list of 1; 'first' is not an element (they are numbered from 0)");
   EXPECT_EQ(error("duration=[1"), "--set duration=[1: error: not valid YAML: end of sequence flow not found");
   EXPECT_EQ(error("duration=1\nseed: 3"), "--set duration=1\\x0aseed: 3: error: the value has several lines; expected one");
   EXPECT_EQ(error("duration=&a 1"), "--set duration=&a 1: error: found the anchor '&a'; anchors and aliases are not supported");

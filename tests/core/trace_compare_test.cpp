@@ -114,7 +114,7 @@ TEST(Compare, FirstDivergenceIsAboveTheThreshold) {
   const Trace a = sampled({sine(1)});
   const Trace b = sampled({parting});
   EXPECT_NEAR(*compare(a, b).columns[0].first_divergence, 7.005, 1e-9);
-  EXPECT_NEAR(*compare(a, b, {{"*"}, 1e-3}).columns[0].first_divergence, 9.005, 1e-9);  // 2e-3 of 1e-3 a second
+  EXPECT_NEAR(*compare(a, b, {{"*"}, 1e-3}).columns[0].first_divergence, 9.005, 1e-9);  // 2e-3 of 1e-3 per second
   EXPECT_FALSE(compare(a, b, {{"*"}, 0.1}).columns[0].first_divergence);
 }
 

@@ -99,7 +99,7 @@ TEST_F(RunFolders, AFileIsRefused) {
   std::ofstream("file") << "mine";
   EXPECT_EQ(complaint("file"), "--out file: error: exists and is not a folder");
   EXPECT_EQ(complaint("file/run"), "--out file/run: error: cannot be made: Not a directory");
-  EXPECT_EQ(complaint(""), "--out : error: is no folder");
+  EXPECT_EQ(complaint(""), "--out : error: is not a folder");
 }
 
 TEST_F(RunFolders, LinksToNowhereAreRefused) {

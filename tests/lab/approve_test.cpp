@@ -68,7 +68,7 @@ TEST_F(ApproveCommand, ApproveKeepsTheBandsOfTheSameGaitAlone) {
 TEST_F(ApproveCommand, ApproveReplacesAGoldenThatCannotBeReadWhereTold) {
   folder.write("good.golden/golden.json", "{}");
   expect_refused("approve good.yaml --reason 'made anew'",
-                 "good.golden/golden.json: error: is no golden of gaitlab; it stays as it is. approve --replace makes a new "
+                 "good.golden/golden.json: error: is not a golden of gaitlab; it stays as it is. approve --replace makes a new "
                  "one, whose history begins with it");
   EXPECT_EQ(read(folder / "good.golden/golden.json"), "{}");
   EXPECT_EQ(call("approve good.yaml --reason 'made anew' --replace").code, 0);
@@ -78,7 +78,7 @@ TEST_F(ApproveCommand, ApproveReplacesAGoldenThatCannotBeReadWhereTold) {
 TEST_F(ApproveCommand, ApproveLooksAtItsTargetFirst) {
   folder.write("new.yaml", kCaterpillar);
   folder.write("new.golden", "a file");
-  expect_refused("approve new.yaml --reason 'mine'", "new.golden: error: is no folder, and a golden is one; move it away");
+  expect_refused("approve new.yaml --reason 'mine'", "new.golden: error: is not a folder, and a golden is one; move it away");
   fs::remove(folder / "good.golden/golden.json");
   expect_refused("approve good.yaml --reason 'made anew'",
                  "good.golden/golden.json: error: is missing: the golden is only half there; it stays as it is. approve "

@@ -37,7 +37,7 @@ TEST(Walk, JointSevenMovesAndWorksAsInFigureNine) {
   EXPECT_NEAR((hi_angle - lo_angle) / 2, 0.594, 0.02 * 0.594);
   EXPECT_NEAR(lo, -0.61, 0.061);  // torque is statically indeterminate: a band of 10 %
   EXPECT_NEAR(hi, 0.53, 0.053);
-  EXPECT_LT(repeat, 0.2 * std::max(-lo, hi));  // 4 s is no multiple of the control period: the cycles differ
+  EXPECT_LT(repeat, 0.2 * std::max(-lo, hi));  // 4 s is not a multiple of the control period: the cycles differ
 }
 
 TEST(Walk, MotorsDrawMoreThanTheirCopperLosesOverWholeCycles) {

@@ -101,7 +101,7 @@ TEST_F(CompareCommand, UnreadableInput) {
   make_run("a", "t,x\n0,1\n", kSummaryA);
   expect_refused("a nowhere", "nowhere: error: there is no such run folder or trace file");
   std::filesystem::create_directory(folder / "empty");
-  expect_refused("empty a", "empty: error: holds neither trace.h5 nor trace.csv: it is no run folder");
+  expect_refused("empty a", "empty: error: holds neither trace.h5 nor trace.csv: it is not a run folder");
   folder.write("notes.txt", "t,x\n");
   expect_refused("a notes.txt", "notes.txt: error: is neither a run folder nor a trace file (.h5, .csv)");
   make_run("unfinished", "t,x\n0,1\n");
@@ -109,7 +109,7 @@ TEST_F(CompareCommand, UnreadableInput) {
   make_run("cut", "t,x\n0,1\n", kSummaryA.substr(0, 140));
   expect_refused("a cut", "cut/summary.json:2:32: error: is not JSON from here on: it is truncated or damaged");
   make_run("list", "t,x\n0,1\n", "[1, 2]\n");
-  expect_refused("a list", "list/summary.json:1:1: error: holds no JSON object: it is no summary");
+  expect_refused("a list", "list/summary.json:1:1: error: holds no JSON object: it is not a summary");
   make_run("huge", "t,x\n0,1\n", R"({"distance": 1e999})");
   expect_refused("a huge", "huge/summary.json: error: holds a number that is outside the range of a double");
   folder.write("half.csv", "t,x\n0,1\n0.5,");

@@ -83,7 +83,7 @@ TEST_P(FreeChain, RungeKuttaIsOfFourthOrder) {
     validate_below({fmt::format("property.free_chain.{}", i == 2 ? "angular_momentum" : kName[i]),
                     fmt::format("eight modules thrown, rk4 at 1.25 ms: worst relative change of {} in 0.2 s", kName[i]),
                     "conservation", ""},
-                   fine[i], 1e-10, "order 4: (1.25 ms * 8 rad/s)^5 / 120 a step, 160 steps");
+                   fine[i], 1e-10, "order 4: (1.25 ms * 8 rad/s)^5 / 120 per step, 160 steps");
   }
 }
 

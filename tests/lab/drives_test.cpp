@@ -189,7 +189,7 @@ trace: {period: 0.015, columns: [cpg.*]}
   }
   const std::string source = "Adler's equation, Proceedings of the IRE 34, 1946";
   validate_below({"closed.phases.lag", "oscillator pulled by a faster one, RK4 at 1 ms: worst lag in 3 s", source, "rad"},
-                 worst, 1e-11, "order 4: (1 ms * 5/s)^4 / 120 a step, 300 steps until it has decayed");
+                 worst, 1e-11, "order 4: (1 ms * 5/s)^4 / 120 per step, 300 steps until it has decayed");
   const std::size_t late = 100;  // 1.5 s: the lag is within 1 % of the locked one, where the decay is exponential to 1 %
   const double rate = std::log((pair.locked() - lag(late)) / (pair.locked() - lag(late + 20))) / 0.3;
   validate({"closed.phases.decay",

@@ -237,7 +237,7 @@ TEST(ReactionColumns, CarryMotorAndStopTorquesAndNothingHoldsTheBase) {
 
 /// A rotor takes n^2 J qdd of its motor's torque for itself, and nothing from the ground.
 TEST(ReactionColumns, BalanceWithRotors) {
-  // A row a step: semi_implicit kicks speeds by h qdd, so two rows hold qdd, but for those between which the command changes.
+  // A row per step: semi_implicit kicks speeds by h qdd, so two rows hold qdd, but for those between which the command changes.
   Scenario walking = shipped(
       "caterpillar.yaml", {"duration=0.045", "trace.period=2.5e-5", "controller.period=0.02", "actuator.rotor_inertia=1e-8"});
   ASSERT_EQ(walking.physics.step, 2.5e-5);

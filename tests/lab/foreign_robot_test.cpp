@@ -193,9 +193,8 @@ duration: 0.1
 
 TEST(ForeignRobot, AJointWithoutInertiaIsRefused) {
   const std::string refusal =
-      "s.yaml:2:1: error: joint 'm0/{}' has no inertia to move: what hangs on it can turn about the same axis; "
-      "give "
-      "the body between the two hinges mass, or take other angles\n";
+      "s.yaml:2:1: error: joint 'm0/{}' moves no inertia: the next joint turns about the same axis (gimbal lock). Give "
+      "the body between the two hinges mass, or start at other angles\n";
   EXPECT_EQ(said_of("[1, 0, 0]", "0.5"), "");
   EXPECT_EQ(said_of("[1, 0, 0]", "0"), fmt::format(fmt::runtime(refusal), "one")) << "gimbal lock";
   EXPECT_EQ(said_of("[0, 0, 1]", "0.5"), fmt::format(fmt::runtime(refusal), "two")) << "in line";

@@ -66,7 +66,7 @@ TEST_F(GoldenCommand, HalfTheStepIsNone) {
 
 TEST_F(GoldenCommand, AnotherScenarioWithAGivenGolden) {
   folder.write("stiff.yaml", kCaterpillar + "controller: {Kp: 102}\nname: stiff&<feet>\n");
-  EXPECT_EQ(call("test stiff.yaml --golden good.golden").code, 2);  // that is no name
+  EXPECT_EQ(call("test stiff.yaml --golden good.golden").code, 2);  // that is not a name
   folder.write("stiff.yaml", kCaterpillar + "controller: {Kp: 102}\nname: stiff\n");
   Result result = call("test stiff.yaml --golden good.golden --out figures");
   EXPECT_EQ(result.code, 4);
@@ -122,7 +122,7 @@ TEST_F(GoldenCommand, NoGolden) {
   fs::create_directory(folder / "empty");
   expect_refused("test empty good.yaml", "empty: error: holds no scenario (*.yaml, *.yml)");
   folder.write("good.golden", "no folder");
-  EXPECT_EQ(call("test good.yaml").err, "good.golden: error: is no golden: a golden is a folder\n");
+  EXPECT_EQ(call("test good.yaml").err, "good.golden: error: is not a golden: a golden is a folder\n");
 }
 
 TEST_F(GoldenCommand, UnreadableGoldenOrScenarioIsNotTested) {
@@ -256,7 +256,7 @@ TEST_F(GoldenCommand, AFileThatCannotBeWrittenHidesNothing) {
                  "--junit no/where.xml: error: cannot be written: No such file or directory");
   const std::string before = bytes("good.golden");
   expect_refused("test good.yaml --junit good.golden/golden.json",
-                 "--junit good.golden/golden.json: error: is there and is no XML; it would be overwritten");
+                 "--junit good.golden/golden.json: error: is there and is not XML; it would be overwritten");
   EXPECT_EQ(bytes("good.golden"), before);
   EXPECT_EQ(call("test good.yaml --junit ''").code, 2);
   expect_refused("test good.yaml --junit modules", "--junit modules: error: is a folder");

@@ -92,7 +92,7 @@ TEST_P(DoublePendulum, SwingsAsLagrangesEquationsSay) {
 
   validate_below({"closed.double_pendulum.angle", "two rods, rk4 at 0.25 ms: worst angle after 2 s",
                   "Lagrange's equations, extrapolation of order 16", "rad"},
-                 error(record, 2), 1e-11, "order 4: (0.25 ms * 10 rad/s)^5 / 120 a step, 8000 steps");
+                 error(record, 2), 1e-11, "order 4: (0.25 ms * 10 rad/s)^5 / 120 per step, 8000 steps");
   validate_below(
       {"closed.double_pendulum.energy", "two rods, rk4 at 0.25 ms: worst change of energy in 2 s", "conservation", "J"}, energy,
       1e-11, "as the angle");

@@ -104,7 +104,7 @@ TEST_F(Plugins, WhatOneThrowsBeforeTheRunIsAnErrorOfTheScenario) {
       {"actuator", "constructor", "no luck"},
       {"actuator", "fields", "fields threw: no luck"},
       {"actuator", "effort", "effort threw: no luck"},
-      {"actuator", "size", "command_limit has 3 numbers; expected 2, one a joint and lane"}};
+      {"actuator", "size", "command_limit has 3 numbers; expected 2, one per joint and lane"}};
   for (const auto& [kind, where, what] : cases) {
     const std::string text = error(throwing(kind, where));
     const std::string place = "s.yaml:7:" + std::to_string(kind.size() + 10) + ": error: ";
@@ -116,9 +116,12 @@ TEST_F(Plugins, WhatOneThrowsBeforeTheRunIsAnErrorOfTheScenario) {
 
 TEST_F(Plugins, WhatOneThrowsInTheRunEndsItAndKeepsWhatWasSimulated) {
   const std::vector<std::array<std::string, 3>> cases{
-      {"cpg", "output", "output threw: no luck"},         {"cpg", "int", "output threw: something that is no std::exception"},
-      {"cpg", "derivative", "derivative threw: no luck"}, {"cpg", "event", "event threw: no luck"},
-      {"controller", "update", "update threw: no luck"},  {"actuator", "report", "report threw: no luck"}};
+      {"cpg", "output", "output threw: no luck"},
+      {"cpg", "int", "output threw: something that is not derived from std::exception"},
+      {"cpg", "derivative", "derivative threw: no luck"},
+      {"cpg", "event", "event threw: no luck"},
+      {"controller", "update", "update threw: no luck"},
+      {"actuator", "report", "report threw: no luck"}};
   for (const auto& [kind, where, what] : cases) {
     folder.write("s.yaml", throwing(kind, where));
     const Result result = gaitlab(fmt::format("run s.yaml --quiet --out {}{}", kind, where), folder / "");

@@ -108,7 +108,7 @@ TEST_F(Rerun, ARunThatEndedEarlyIsComparedUpToItsLastRow) {
   EXPECT_TRUE(contains(result.out, "it ended early (interrupted at t = 0.1 s): compared up to its last row, t = 0.1 s"))
       << result.out;
   replace("a/summary.json", "interrupted at t = 0.1 s", "done");
-  EXPECT_EQ(verify("a").code, 4);  // a trace that was cut short is no early end
+  EXPECT_EQ(verify("a").code, 4);  // a trace that was cut short is not an early end
   fs::remove(folder / "a/summary.json");
   EXPECT_EQ(verify("a").code, 4);  // nor is one that nothing explains
 }

@@ -65,7 +65,7 @@ TEST_F(TableGait, ErrorsNameLineAndColumn) {
   EXPECT_NE(error("time, 7\n").find(at + "1, column 7: no joint '7'"), std::string::npos);
   EXPECT_NE(error("time,0,m0/active\n").find(at + "1, column 8: joint 'm0/active' has a column already"), std::string::npos);
   EXPECT_NE(error("time,0\n0,0\n1\n").find(at + "3, column 1: 1 cells; expected 2"), std::string::npos);
-  EXPECT_NE(error("time,0\n0, nan\n").find(at + "2, column 4: 'nan' is no finite number"), std::string::npos);
+  EXPECT_NE(error("time,0\n0, nan\n").find(at + "2, column 4: 'nan' is not a finite number"), std::string::npos);
   EXPECT_NE(error("time,0\n0,0\n0,0\n").find(at + "3, column 1: times must rise"), std::string::npos);
   EXPECT_NE(error("").find("table is empty"), std::string::npos);
   EXPECT_NE(error("time,0\n0,0\n1,1\n").find("the last frame differs from the first at joint m0/active"), std::string::npos);

@@ -1,4 +1,4 @@
-"""Every step of an integrator (docs/equations.md, 7) and what it adds to the ledger (8), for traces with a row a step."""
+"""Every step of an integrator (docs/equations.md, 7) and what it adds to the ledger (8), for traces with a row per step."""
 import numpy as np
 
 from paper import checks, laws
@@ -7,7 +7,7 @@ from paper.robot import from_quaternion, skew
 
 
 def steps(gate, run, rules):
-    """Every step of the integrator, and what it adds to the ledger; a row a step."""
+    """Every step of the integrator, and what it adds to the ledger; a row per step."""
     physics, law, motor, robot = run.scenario["physics"], run.scenario["contact"], laws.Motor(run), run.robot
     h, implicit = physics["step"], physics["integrator"] == "implicit"
     assert run.scenario["trace"]["period"] == h and run.scenario["robot"]["base"] == "floating"
