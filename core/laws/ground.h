@@ -19,8 +19,8 @@ struct Box {
 
 /// World z = 0, solid below; with boxes on it; or a heightfield instead of it.
 ///
-/// A query finds one touch an element. In a box the nearest point of the surface counts: outside the foot of the perpendicular,
-/// inside the face of least depth. Three rules make of many solids one ground:
+/// A query finds one touch per element. In a box the nearest point of the surface counts: outside the foot of the
+/// perpendicular, inside the face of least depth. Three rules make of many solids one ground:
 /// - A point inside a box is pushed out through the nearest exposed face: not covered by another box, not facing the ground
 /// plane.
 ///   So an element that slides over the seam of two boxes of one height feels nothing there. (At a step in height let the boxes
