@@ -195,7 +195,7 @@ class @CLASS@ final : public gaitlab::Actuator {
     }
   };
 
-  // Once per run; one pointer per rollout that is simulated side by side (a lane). All spans below are joint * lanes + lane.
+  // Once per run. `lanes` has the settings of every rollout that is simulated side by side. All spans below are joint * lanes + lane.
   @CLASS@(const gaitlab::RobotInfo& robot, const std::vector<const Settings*>& lanes) {
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
       for (const Settings* s : lanes) {

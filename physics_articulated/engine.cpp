@@ -57,7 +57,9 @@ std::vector<Integrator> integrators() {
 
 articulated::Method method_of(const std::string& name) {
   const auto found = std::find_if(kOffers.begin(), kOffers.end(), [&](const Offer& one) { return one.name == name; });
-  return (found == kOffers.end() ? kOffers.front() : *found).method;
+  if (found != kOffers.end()) return found->method;
+  if (!name.empty()) throw std::invalid_argument("engine articulated has no integrator '" + name + "'");
+  return kOffers.front().method;
 }
 
 class ArticulatedPlant final : public Plant {

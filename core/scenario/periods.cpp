@@ -69,6 +69,10 @@ std::string values(const std::string& heading, const std::vector<double>& list) 
 
 }  // namespace
 
+double longest_step(double control_period) {
+  return control_period / std::max(1.0, std::ceil(control_period / kLongestStep - kTolerance));
+}
+
 double whole_multiple(double period, double step) {
   const double ratio = period / step;
   const double whole = std::round(ratio);

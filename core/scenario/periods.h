@@ -14,6 +14,13 @@ double whole_multiple(double period, double step);
 /// Up to two steps, one on each side of `step`, of which all `periods` are whole multiples; short decimals are preferred.
 std::vector<double> fitting_steps(const std::vector<double>& periods, double step);
 
+/// The longest step of an integrator that divides it as it needs, s: beyond, contacts that come and go are missed
+/// (docs/equations.md, 7).
+constexpr double kLongestStep = 5e-3;
+
+/// The longest such step that is a whole part of the control period.
+double longest_step(double control_period);
+
 /// Up to two whole multiples of `step`, one on each side of `period`.
 std::vector<double> fitting_periods(double period, double step);
 

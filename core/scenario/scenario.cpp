@@ -15,46 +15,13 @@
 #include "core/scenario/plugin_instance.h"
 #include "core/scenario/reader.h"
 #include "core/scenario/robot_section.h"
+#include "core/scenario/section_places.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/text_file.h"
 #include "core/scenario/value.h"
 
 namespace gaitlab {
 namespace {
-
-constexpr std::size_t kMostProblems = 200;  // more help nobody
-constexpr double kLongestStep = 5e-3;       // s: beyond, contacts that come and go are missed (docs/equations.md, 7)
-
-/// The longest step of an integrator that divides it as it needs: a whole part of the control period.
-double longest_step(double control_period) {
-  return control_period / std::max(1.0, std::ceil(control_period / kLongestStep - 1e-9));
-}
-
-/// Place of a key's value (`key` empty: of the section's name), or nothing where it is not given.
-std::optional<Place> given(const Node& root, const std::string& section, const std::string& key = {}) {
-  for (std::size_t i = 0; i < root.keys.size(); ++i) {
-    if (root.keys[i].first != section) continue;
-    if (key.empty()) return root.keys[i].second;
-    const Node* value = root.items[i].find(key);
-    return value == nullptr ? std::nullopt : std::optional<Place>(value->place);
-  }
-  return {};
-}
-
-/// The same, or the section's name, or the whole map.
-Place place_of(const Node& root, const std::string& section, const std::string& key) {
-  if (const std::optional<Place> exact = given(root, section, key)) return *exact;
-  return given(root, section).value_or(root.place);
-}
-
-/// Notes where every key of a map was given, `physics.step` and so on.
-void note_places(const Node& map, const std::string& prefix, std::map<std::string, Place>& places) {
-  for (std::size_t i = 0; i < map.keys.size(); ++i) {
-    const std::string key = prefix + map.keys[i].first;
-    places[key] = map.items[i].kind == Node::Kind::map ? map.keys[i].second : map.items[i].place;
-    if (key != "robot.types" && key != "robot.modules") note_places(map.items[i], key + ".", places);
-  }
-}
 
 /// The default motor that the module types name.
 struct TypeMotor {
@@ -77,21 +44,6 @@ TypeMotor motor_of(const std::vector<Node>& documents) {
     }
   }
   return motor;
-}
-
-/// Stable by place within the scenario file, so that findings come in the order in which one reads.
-std::vector<Problem> in_order(std::vector<Problem> problems, const std::string& file) {
-  const auto before = [&](const Problem& a, const Problem& b) {
-    if (a.place.file != file || b.place.file != file) return a.place.file == file && b.place.file != file;
-    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-  };
-  std::stable_sort(problems.begin(), problems.end(), before);
-  if (problems.size() > kMostProblems) {
-    const std::string more = fmt::format("{} more errors", problems.size() - kMostProblems);
-    problems.resize(kMostProblems);
-    problems.push_back({{file}, more});
-  }
-  return problems;
 }
 
 class ScenarioReader {

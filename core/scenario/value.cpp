@@ -137,6 +137,10 @@ std::string with_unit(double value, const std::string& unit) {
   return unit.empty() ? number_text(value) : number_text(value) + " " + unit;
 }
 
+std::string in_unit(const Spec& spec) { return *spec.unit == '\0' ? "" : std::string(" in ") + spec.unit; }
+
+std::string counted(std::size_t n, const std::string& what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+
 std::string range_text(const Spec& spec) {
   const bool low = !unbounded(spec.min);
   const bool high = !unbounded(spec.max);

@@ -33,6 +33,11 @@ std::string with_unit(double value, const std::string& unit);
 /// A range in words: `0 to 20 Hz`, `at least 0 s`, `more than 0 s`; empty where every number will do.
 std::string range_text(const Spec& spec);
 
+/// ` in Hz`, or nothing where there is no unit.
+std::string in_unit(const Spec& spec);
+/// `2 numbers`, `1 number`.
+std::string counted(std::size_t n, const std::string& what);
+
 /// What stands there, for a message: `'fast'`, `a list`, `empty`.
 std::string found(const Node& node);
 /// The text without control characters and not too long for a message.

@@ -195,6 +195,14 @@ TEST(ArticulatedEngine, RegistersWithItsDefaults) {
   EXPECT_EQ(engine->fixed().name, "implicit");
   EXPECT_EQ(engine->step, 5e-4);
   EXPECT_TRUE(engine->rotor_inertia);
+  EXPECT_THROW(
+      {
+        PlantSettings settings;
+        settings.robot = std::make_shared<const Robot>();
+        settings.integrator = "euler";
+        engine->make(settings);
+      },
+      std::invalid_argument);
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+#include "core/scenario/section_places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gaitlab {
+
+namespace {
+
+constexpr std::size_t kMostProblems = 200;  // more help nobody
+
+}  // namespace
+
+std::optional<Place> given(const Node& root, const std::string& section, const std::string& key) {
+  for (std::size_t i = 0; i < root.keys.size(); ++i) {
+    if (root.keys[i].first != section) continue;
+    if (key.empty()) return root.keys[i].second;
+    const Node* value = root.items[i].find(key);
+    return value == nullptr ? std::nullopt : std::optional<Place>(value->place);
+  }
+  return {};
+}
+
+Place place_of(const Node& root, const std::string& section, const std::string& key) {
+  if (const std::optional<Place> exact = given(root, section, key)) return *exact;
+  return given(root, section).value_or(root.place);
+}
+
+void note_places(const Node& map, const std::string& prefix, std::map<std::string, Place>& places) {
+  for (std::size_t i = 0; i < map.keys.size(); ++i) {
+    const std::string key = prefix + map.keys[i].first;
+    places[key] = map.items[i].kind == Node::Kind::map ? map.keys[i].second : map.items[i].place;
+    if (key != "robot.types" && key != "robot.modules") note_places(map.items[i], key + ".", places);
+  }
+}
+
+std::vector<Problem> in_order(std::vector<Problem> problems, const std::string& file) {
+  const auto before = [&](const Problem& a, const Problem& b) {
+    if (a.place.file != file || b.place.file != file) return a.place.file == file && b.place.file != file;
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  };
+  std::stable_sort(problems.begin(), problems.end(), before);
+  if (problems.size() > kMostProblems) {
+    const std::string more = fmt::format("{} more errors", problems.size() - kMostProblems);
+    problems.resize(kMostProblems);
+    problems.push_back({{file}, more});
+  }
+  return problems;
+}
+
+}  // namespace gaitlab
