@@ -6,20 +6,24 @@
 #include <cerrno>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <system_error>
 
 #include "app/commands.h"
-#include "app/golden_cases.h"
-#include "app/golden_report.h"
-#include "app/golden_runs.h"
+#include "app/progress.h"
 #include "core/errors.h"
-#include "core/trace/atomic_file.h"
-#include "core/trace/golden.h"
-#include "core/trace/golden_compare.h"
+#include "core/recording/atomic_file.h"
+#include "golden/cases.h"
+#include "golden/compare.h"
+#include "golden/golden.h"
+#include "golden/report.h"
+#include "golden/runs.h"
 
 namespace gaitlab::app {
+
+using namespace golden;
 
 namespace {
 
@@ -92,7 +96,11 @@ void check_finite(const GoldenRun& run, const std::string& which) {
 /// One each; nothing is written where one of them fails. `names` are for messages.
 std::vector<GoldenRun> simulate(const std::vector<Scenario>& scenarios, const std::vector<std::string>& names, int jobs) {
   std::vector<GoldenRun> runs;
-  std::vector<Outcome> outcomes = golden_runs(scenarios, jobs);
+  std::vector<Outcome> outcomes;
+  {
+    const Progress progress(false);
+    outcomes = golden_runs(scenarios, jobs, std::cref(progress));
+  }
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     try {
       if (outcomes[i].error) std::rethrow_exception(outcomes[i].error);

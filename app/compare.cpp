@@ -1,4 +1,4 @@
-#include "core/trace/compare.h"
+#include "core/recording/compare.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "app/commands.h"
 #include "core/errors.h"
-#include "core/trace/run_files.h"
+#include "core/recording/run_files.h"
 #include "report/numbers.h"
 
 namespace gaitlab::app {

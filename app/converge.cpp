@@ -5,8 +5,8 @@
 
 #include "app/commands.h"
 #include "core/parallel.h"
+#include "core/recording/convergence.h"
 #include "core/simulation/simulation.h"
-#include "core/trace/convergence.h"
 
 namespace gaitlab::app {
 
@@ -63,9 +63,9 @@ Runs all_runs(const Scenario& scenario, int halvings, int jobs) {
     Simulation simulation({&halved, 1});
     rate[i] = simulation.standing().rate;
     simulation.run();
-    RunRecord r = simulation.take_record(0);
+    Recording r = simulation.take_recording(0);
     rate[i] = std::max(rate[i], r.worst.rate);
-    runs.travel[i] = {r.com_x.back() - r.com_x.front(), r.com_y.back() - r.com_y.front()};
+    runs.travel[i] = {r.travel().x(), r.travel().y()};
     runs.traces[i] = std::move(r.trace);
   });
   if (rate.back() > 0) runs.allowed = 1 / rate.back();

@@ -4,9 +4,9 @@
 
 #include "app/commands.h"
 #include "core/errors.h"
-#include "core/trace/atomic_file.h"
-#include "core/trace/csv.h"
-#include "core/trace/run_files.h"
+#include "core/recording/atomic_file.h"
+#include "core/recording/csv.h"
+#include "core/recording/run_files.h"
 #include "interchange/mjcf.h"
 #include "interchange/urdf.h"
 

@@ -7,8 +7,8 @@
 
 #include "app/commands.h"
 #include "app/skeletons.h"
+#include "core/recording/atomic_file.h"
 #include "core/scenario/value.h"
-#include "core/trace/atomic_file.h"
 
 namespace gaitlab::app {
 

@@ -10,11 +10,11 @@
 #include "app/progress.h"
 #include "app/stored_scenario.h"
 #include "core/errors.h"
+#include "core/recording/compare.h"
+#include "core/recording/csv.h"
+#include "core/recording/h5.h"
+#include "core/recording/run_files.h"
 #include "core/simulation/simulation.h"
-#include "core/trace/compare.h"
-#include "core/trace/csv.h"
-#include "core/trace/h5.h"
-#include "core/trace/run_files.h"
 #include "report/build_id.h"
 
 namespace gaitlab::app {
@@ -98,7 +98,7 @@ Again run_again(const Scenario& scenario, const Past& past, bool early) {
   } catch (const SimulationError& error) {
     again.failure = error.what();
   }
-  again.trace = simulation.take_record(0).trace;
+  again.trace = simulation.take_recording(0).trace;
   const std::size_t rows = early ? std::min(past.trace.rows(), again.trace.rows()) : again.trace.rows();
   again.trace.values.resize(rows * again.trace.columns.size());
   return again;

@@ -8,16 +8,14 @@
 
 #include "app/commands.h"
 #include "app/progress.h"
+#include "core/recording/atomic_file.h"
+#include "core/recording/recording_file.h"
+#include "core/recording/run_folder.h"
 #include "core/simulation/simulation.h"
-#include "core/trace/atomic_file.h"
-#include "core/trace/csv.h"
-#include "core/trace/h5.h"
-#include "core/trace/run_folder.h"
 #include "report/build_id.h"
 #include "report/figure.h"
 #include "report/run_figure.h"
 #include "report/summary.h"
-#include "report/trust.h"
 
 namespace gaitlab::app {
 
@@ -40,16 +38,12 @@ class StopOnSignal {
 };
 
 void write_files(const std::filesystem::path& folder, const std::string& format, const Scenario& scenario,
-                 const RunRecord& record, const Summary& summary) {
-  if (format == "csv") {
-    write_csv(record.trace, folder / "trace.csv");
-  } else {
-    write_h5(record.trace, {resolved(scenario), scenario.seed, build_id()}, folder / "trace.h5");
-  }
+                 const Recording& recording, const Summary& summary) {
+  write_recording(recording, {resolved(scenario), scenario.seed, summary.build, recording.outcome}, format, folder);
   write_file(folder / "scenario.resolved.yaml", resolved(scenario));
-  write_file(folder / "figure.svg", run_figure(scenario, record, summary));
+  write_file(folder / "figure.svg", run_figure(scenario, recording, summary));
   // Last: a folder with a summary is a whole run.
-  write_file(folder / "summary.json", to_json(summary, scenario, record));
+  write_file(folder / "summary.json", to_json(summary, scenario, recording));
 }
 
 }  // namespace
@@ -75,26 +69,18 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
 
-  const RunRecord record = simulation.take_record(0);
-  Summary summary = summarise(scenario, record, wall.count());
-  if (!failure.empty()) summary.outcome = failure;
-  write_files(folder.path(), arguments.format, scenario, record, summary);
+  Recording recording = simulation.take_recording(0);
+  if (!failure.empty()) recording.outcome = failure;
+  const Summary summary = summarise(scenario, recording, wall.count());
+  write_files(folder.path(), arguments.format, scenario, recording, summary);
   folder.keep();
   if (!arguments.quiet) {
-    fmt::print("{}  {:<13} {}: trace.{}, summary.json, scenario.resolved.yaml, figure.svg\n",
-               to_text(summary, scenario, record), "files", folder.path().string(), arguments.format);
+    fmt::print("{}  {:<13} {}: {}, summary.json, scenario.resolved.yaml, figure.svg\n", to_text(summary, scenario, recording),
+               "files", folder.path().string(), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5");
   }
   warn_of_start(scenario);
-  if (const std::string fall = fall_warning(scenario, record); !fall.empty())
-    fmt::print(stderr, "{}: warning: {}\n", scenario.file, fall);
-  const std::string warning = stability_warning(summary, scenario, record);
-  if (!warning.empty()) fmt::print(stderr, "{}: warning: {}\n", to_string(scenario.place("physics.step")), warning);
-  if (failure.empty()) {
-    for (const std::string& doubt : trust_warnings(scenario, record)) {
-      fmt::print(stderr, "{}: warning: {}\n", to_string(scenario.place("physics.step")), doubt);
-    }
-    return 0;
-  }
+  warn_of_run(scenario, recording, summary);
+  if (failure.empty()) return 0;
   fmt::print(stderr, "{}: error: {}; what was simulated until then is in {}\n", scenario.file, failure, folder.path().string());
   return 1;
 }

@@ -10,11 +10,11 @@
 #include <system_error>
 
 #include "core/errors.h"
+#include "core/recording/atomic_file.h"
+#include "core/recording/h5.h"
+#include "core/recording/run_files.h"
 #include "core/scenario/node.h"
 #include "core/scenario/plugin_files.h"
-#include "core/trace/atomic_file.h"
-#include "core/trace/h5.h"
-#include "core/trace/run_files.h"
 
 namespace gaitlab::app {
 

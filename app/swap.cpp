@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "app/commands.h"
-#include "app/golden_report.h"
 #include "core/errors.h"
+#include "core/recording/atomic_file.h"
+#include "core/recording/run_folder.h"
 #include "core/simulation/batch.h"
-#include "core/trace/atomic_file.h"
-#include "core/trace/run_folder.h"
+#include "golden/report.h"
 #include "report/curves.h"
 #include "report/numbers.h"
 
@@ -30,7 +30,7 @@ struct Swapped {
   std::string cpg;
   std::optional<Scenario> scenario = {};
   std::vector<std::string> notes = {};
-  RunRecord record = {};
+  Recording record = {};
   Summary summary = {};
 };
 
@@ -107,10 +107,9 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
 void run_all(std::vector<Swapped>& all, int jobs) {
   std::vector<Scenario> scenarios;
   for (const Swapped& one : all) scenarios.push_back(*one.scenario);
-  run_batch(scenarios, {.threads = jobs}, [&](std::size_t i, RolloutEnd&& end) {
-    all[i].record = std::move(end.record);
+  run_batch(scenarios, {.threads = jobs}, [&](std::size_t i, Recording&& recording) {
+    all[i].record = std::move(recording);
     all[i].summary = summarise(*all[i].scenario, all[i].record, 0);
-    all[i].summary.outcome = end.outcome;
   });
 }
 
@@ -151,7 +150,7 @@ void print_table(const std::vector<Swapped>& all) {
 std::string figure(const std::vector<Swapped>& all) {
   const Scenario& first = *all.front().scenario;
   CurvesInput input;
-  input.title = fmt::format("{} under {}", first.name, plural(all.size(), "CPG"));
+  input.title = fmt::format("{} under {}", first.name, golden::plural(all.size(), "CPG"));
   const std::size_t joints = first.robot->joints.size();
   const std::size_t joint = all.front().summary.most_loaded;
   CurvesPanel setpoint{"set point (rad)"};
@@ -164,18 +163,20 @@ std::string figure(const std::vector<Swapped>& all) {
   }
   setpoint.from = torque.from = std::max(0.0, first.duration - kShown);
   for (const Swapped& swapped : all) {
-    const RunRecord& r = swapped.record;
+    const Recording& r = swapped.record;
     input.names.push_back(swapped.cpg);
     std::vector<double> time;
     std::vector<double> set;
     std::vector<double> load;
     std::vector<double> way;
-    for (std::size_t k = 0; k < r.com_x.size(); ++k) {
+    const Series x = r.series("com.x");
+    for (std::size_t k = 0; k < x.size(); ++k) {
       time.push_back(std::min(static_cast<double>(k) * first.trace.period, swapped.summary.simulated));
-      way.push_back(r.com_x[k] - r.com_x.front());
-      if (joints == 0 || first.actuator.entry == nullptr) continue;
-      set.push_back(r.setpoints[k * joints + joint]);
-      load.push_back(r.torques[k * joints + joint]);
+      way.push_back(x[k] - x.front());
+    }
+    if (joints > 0 && first.actuator.entry != nullptr) {
+      set = r.joint(joint, "setpoint").values();
+      load = r.joint(joint, "torque").values();
     }
     input.time.push_back(std::move(time));
     setpoint.values.push_back(std::move(set));

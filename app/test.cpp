@@ -9,15 +9,18 @@
 #include <system_error>
 
 #include "app/commands.h"
-#include "app/golden_cases.h"
-#include "app/golden_report.h"
+#include "app/progress.h"
 #include "core/errors.h"
-#include "core/trace/atomic_file.h"
-#include "core/trace/run_folder.h"
+#include "core/recording/atomic_file.h"
+#include "core/recording/run_folder.h"
+#include "golden/cases.h"
+#include "golden/report.h"
 #include "report/overlay.h"
 #include "report/svg.h"
 
 namespace gaitlab::app {
+
+using namespace golden;
 
 namespace {
 
@@ -209,7 +212,10 @@ int test_goldens(const TestArguments& arguments) {
   if (arguments.junit) check_report(*arguments.junit);
   Catalog catalog = standard_catalog();
   std::vector<GoldenCase> cases = golden_cases(arguments, catalog);
-  run_cases(cases, arguments.jobs);
+  {
+    const Progress progress(false);
+    run_cases(cases, arguments.jobs, std::cref(progress));
+  }
   bool written = true;
   const auto write = [&](const std::function<void()>& file) {  // what was found counts more than a file that cannot be written
     try {

@@ -52,16 +52,20 @@ TorqueError torque_error(const Torques& torques, const Torques& reference, doubl
   return {*worst, median(errors), static_cast<std::size_t>(worst - errors.begin())};
 }
 
-Course course(const RunRecord& record, double from) {
-  const std::size_t rows = record.com_x.size();
+Course course(const Recording& record, double from) {
+  const std::size_t rows = record.rows();
   std::size_t first = 0;
   while (first < rows && record.trace.at(first, 0) < from) ++first;
   if (first == rows) return {};
-  const std::size_t modules = record.loads.size() / rows;
   double force = 0;
-  for (std::size_t i = first * modules; i < rows * modules; ++i) force += record.loads[i];
-  return {std::hypot(record.com_x.back() - record.com_x[first], record.com_y.back() - record.com_y[first]),
-          force / static_cast<double>(rows - first)};
+  for (const Trace* table : {&record.trace, &record.rest}) {
+    for (std::size_t c = 0; c < table->columns.size(); ++c) {
+      if (!table->columns[c].name.starts_with("load.")) continue;
+      for (std::size_t row = first; row < rows; ++row) force += table->at(row, c);
+    }
+  }
+  const Vec3 way = record.com(rows - 1) - record.com(first);
+  return {std::hypot(way.x(), way.y()), force / static_cast<double>(rows - first)};
 }
 
 std::string strays(const Course& seen, const Course& bullet) {
@@ -92,10 +96,14 @@ Measured measure(const std::vector<Scenario>& lanes, double least) {
     sum.cpu += cpu_seconds() - cpu;
     sum.wall += wall_seconds() - wall;
     if (++runs > 1) continue;
-    RunRecord record = simulation.take_record(0);
-    for (std::size_t row = 0; row < record.trace.rows(); ++row) measured.torques.time.push_back(record.trace.at(row, 0));
+    const Recording record = simulation.take_recording(0);
+    measured.torques.time = record.series("t").values();
     measured.course = course(record, lanes[0].duration / 2);
-    measured.torques.values = std::move(record.torques);
+    std::vector<Series> torques;
+    for (std::size_t j = 0; j < record.joints.size(); ++j) torques.push_back(record.joint(j, "torque"));
+    for (std::size_t row = 0; row < record.rows(); ++row) {
+      for (const Series& torque : torques) measured.torques.values.push_back(torque[row]);
+    }
   }
   measured.timing = {sum.wall / runs, sum.cpu / runs};
   return measured;

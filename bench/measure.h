@@ -29,7 +29,7 @@ struct Course {
   double force = 0;   ///< N, mean over the rows: normal forces of all contact elements; of a walk on a plane the robot's weight
 };
 /// Over the rows from `from` on; zeros without such a row.
-Course course(const RunRecord& record, double from);
+Course course(const Recording& record, double from);
 /// In which figure `seen` is more than kApart from bullet's, as a sentence; empty: in none. Travel that differs by less than 1
 /// mm passes, so that robots that stay can be compared.
 std::string strays(const Course& seen, const Course& bullet);

@@ -13,8 +13,8 @@
 #include <limits>
 
 #include "core/laws/dc_motor.h"
+#include "core/recording/atomic_file.h"
 #include "core/simulation/plant.h"
-#include "core/trace/atomic_file.h"
 #include "interchange/mjcf.h"
 
 namespace gaitlab {

@@ -8,7 +8,7 @@
 #include "app/app.h"
 #include "bench/mujoco_plant.h"
 #include "bench/results.h"
-#include "core/trace/atomic_file.h"
+#include "core/recording/atomic_file.h"
 #include "physics_bullet/engine.h"
 #include "report/build_id.h"
 

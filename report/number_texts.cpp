@@ -18,15 +18,15 @@ constexpr double kLeastTravel = 1e-3;  // m: the work of a robot that stays is d
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
-double created(const RunRecord& record) {
+double created(const Recording& record) {
   double sum = 0;
-  for (const JointFigures& joint : record.joints) sum += joint.created;
+  for (const JointStatistics& joint : record.joints) sum += joint.created;
   return sum;
 }
 
 std::size_t farthest(const RunData& run) {
-  const std::vector<JointFigures>& all = run.record.joints;
-  const auto nearer = [](const JointFigures& a, const JointFigures& b) { return a.error_peak < b.error_peak; };
+  const std::vector<JointStatistics>& all = run.record.joints;
+  const auto nearer = [](const JointStatistics& a, const JointStatistics& b) { return a.error_peak < b.error_peak; };
   return static_cast<std::size_t>(std::max_element(all.begin(), all.end(), nearer) - all.begin());
 }
 
@@ -51,16 +51,19 @@ Lines robot(const RunData& run) {
 }
 
 Lines distance(const RunData& run) {
+  if (run.record.series("com.x").empty()) return {};
   const Summary& s = run.summary;
   return {fmt::format("{:.4f} m (x {:+.4f}, y {:+.4f}), heading change {:+.3f} rad", s.distance, s.displacement_x,
                       s.displacement_y, s.heading_change)};
 }
 
 Lines speed(const RunData& run) {
+  if (run.record.series("com.x").empty()) return {};
   return {fmt::format("{:.4f} m/s over a path of {:.4f} m", run.summary.speed, run.summary.path_length)};
 }
 
 Lines limit_cycle(const RunData& run) {
+  if (!run.record.has_states(*run.scenario.robot)) return {};
   const MotionCycle& cycle = run.summary.limit_cycle;
   if (!cycle.found) return {"none found"};
   return {fmt::format("from t = {:.2f} s, period {:.4f} s, repeats to {}", cycle.from, cycle.period, percent(cycle.error))};
@@ -68,31 +71,31 @@ Lines limit_cycle(const RunData& run) {
 
 Lines transport(const RunData& run) {
   const Summary& s = run.summary;
-  if (!has_motors(run.scenario)) return {};
+  if (!has_motors(run)) return {};
   if (s.distance < kLeastTravel) return {"cost of transport undefined: travelled less than 1 mm"};
   return {
       fmt::format("cost {:.3g} electrical, {:.3g} mechanical (J per N of weight and m)", s.cost_electrical, s.cost_mechanical)};
 }
 
 Lines most_loaded(const RunData& run) {
-  if (!has_motors(run.scenario)) return {};
+  if (!has_motors(run)) return {};
   const std::size_t j = run.summary.most_loaded;
-  const JointFigures& f = run.record.joints[j];
+  const JointStatistics& f = run.record.joints[j];
   return {fmt::format("joint {} ({}): torque peak {:.3f} N m, RMS {:.3f} N m; saturated {} voltage, {} current", j,
                       run.scenario.robot->joints[j].name, f.torque_peak, f.torque_rms, percent(f.saturated_voltage),
                       percent(f.saturated_current))};
 }
 
 Lines tracking(const RunData& run) {
-  if (!has_motors(run.scenario)) return {};
+  if (!has_motors(run)) return {};
   const std::size_t j = farthest(run);
-  const JointFigures& f = run.record.joints[j];
+  const JointStatistics& f = run.record.joints[j];
   return {fmt::format("error at most {:.3f} rad at t = {:.2f} s (joint {})", f.error_peak, f.error_peak_time,
                       run.scenario.robot->joints[j].name)};
 }
 
 Lines energy(const RunData& run) {
-  if (!has_motors(run.scenario)) return {};
+  if (!has_motors(run)) return {};
   const Ledger& l = run.record.ledger;
   std::string text = fmt::format("{:.4g} J drawn = {:.4g} copper", l.electrical, l.copper);
   const auto add = [&](double value, const char* what) {
@@ -110,7 +113,7 @@ Lines energy(const RunData& run) {
 
 Lines created_energy(const RunData& run) {
   const double energy = created(run.record);
-  if (!has_motors(run.scenario) || !(energy > kVisible * run.record.ledger.electrical)) return {};
+  if (!has_motors(run) || !(energy > kVisible * run.record.ledger.electrical)) return {};
   return {fmt::format(
       "the gears created {:.3g} J (eq. 2 on back-driven joints; actuator.efficiency_model: directional does not)", energy)};
 }
@@ -118,7 +121,7 @@ Lines created_energy(const RunData& run) {
 Lines range(const RunData& run) {
   Lines lines;
   for (std::size_t j = 0; j < run.record.joints.size(); ++j) {
-    const JointFigures& f = run.record.joints[j];
+    const JointStatistics& f = run.record.joints[j];
     if (!(f.setpoint_outside > 0 || f.range_share > 0)) continue;
     lines.push_back(fmt::format("joint {} ({}): outside its range {} of the time, worst by {:.3g} rad; its set point {}", j,
                                 run.scenario.robot->joints[j].name, percent(f.range_share), f.range_worst,
@@ -148,18 +151,18 @@ std::string cost_cell(const RunData& run) {
 
 std::string torque_cell(const RunData& run) {
   const std::size_t j = run.summary.most_loaded;
-  if (!has_motors(run.scenario)) return fmt::format("{:>12.3f} {}", 0.0, "-");
+  if (!has_motors(run)) return fmt::format("{:>12.3f} {}", 0.0, "-");
   return fmt::format("{:>12.3f} {}", run.record.joints[j].torque_peak, run.scenario.robot->joints[j].name);
 }
 
 std::string saturated_cell(const RunData& run) {
   double worst = 0;
-  for (const JointFigures& f : run.record.joints) worst = std::max(worst, f.saturated_voltage + f.saturated_current);
+  for (const JointStatistics& f : run.record.joints) worst = std::max(worst, f.saturated_voltage + f.saturated_current);
   return percent(worst);
 }
 
 std::string tracking_cell(const RunData& run) {
-  return has_motors(run.scenario) ? fmt::format("{:.3f}", run.record.joints[farthest(run)].error_peak) : "-";
+  return has_motors(run) ? fmt::format("{:.3f}", run.record.joints[farthest(run)].error_peak) : "-";
 }
 
 std::string limit_cycle_cell(const RunData& run) {

@@ -12,7 +12,7 @@ using Lines = std::vector<std::string>;
 std::string percent(double share);
 
 /// J: what the gears gave instead of losing it.
-double created(const RunRecord& record);
+double created(const Recording& record);
 
 /// The joint with the largest tracking error.
 std::size_t farthest(const RunData& run);

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using R = const RunData&;
-using F = JointFigures;
+using F = JointStatistics;
 
 constexpr std::string_view kOfJoint = "per_joint.J.";
 
@@ -33,7 +33,7 @@ Json torque_errors(R run) {
 
 /// Of the joint that was farthest from its set point; null: nothing drives the joints.
 Json tracked(R run, double F::*figure) {
-  return has_motors(run.scenario) ? Json(run.record.joints[texts::farthest(run)].*figure) : Json();
+  return has_motors(run) ? Json(run.record.joints[texts::farthest(run)].*figure) : Json();
 }
 
 template <class Named>
@@ -272,7 +272,7 @@ std::vector<SummaryNumber> list() {
        .swap = {60, "tracking", "error, rad", 10, texts::tracking_cell}},
       {.key = "tracking_error.joint",
        .definition = "The joint that has it.",
-       .value = [](R r) { return has_motors(r.scenario) ? Json(r.scenario.robot->joints[texts::farthest(r)].name) : Json(); }},
+       .value = [](R r) { return has_motors(r) ? Json(r.scenario.robot->joints[texts::farthest(r)].name) : Json(); }},
       {.key = "tracking_error.time",
        .unit = "s",
        .definition = "Start of the step in which it was reached.",
@@ -382,6 +382,8 @@ const std::vector<SummaryNumber>& summary_numbers() {
   static const std::vector<SummaryNumber> kAll = list();
   return kAll;
 }
+
+bool has_motors(const RunData& run) { return run.scenario.actuator.entry != nullptr && !run.record.joints.empty(); }
 
 bool has_motors(const Scenario& scenario) { return scenario.actuator.entry != nullptr && !scenario.robot->joints.empty(); }
 

@@ -14,7 +14,7 @@ namespace gaitlab {
 /// What a number is computed from: a run that has ended, and its summary.
 struct RunData {
   const Scenario& scenario;
-  const RunRecord& record;
+  const Recording& record;
   const Summary& summary;
 };
 
@@ -27,7 +27,7 @@ struct SummaryNumber {
   const char* definition = "";  ///< as in docs/conventions.md
   /// null: not known. A group (`torque_error`) of which a number is null is null.
   std::function<nlohmann::ordered_json(const RunData&)> value = {};
-  double JointFigures::*of_joint = nullptr;  ///< instead of `value`: for every joint
+  double JointStatistics::*of_joint = nullptr;  ///< instead of `value`: for every joint
 
   struct Line {
     int place = 0;
@@ -76,5 +76,7 @@ std::vector<const SummaryNumber*> placed(Shown SummaryNumber::*shown) {
 
 /// Whether something drives joints: without, torque, cost and tracking error mean nothing.
 bool has_motors(const Scenario& scenario);
+/// The same of a run, and whether its statistics are known.
+bool has_motors(const RunData& run);
 
 }  // namespace gaitlab

@@ -12,13 +12,7 @@ namespace gaitlab {
 
 namespace {
 
-std::vector<double> series(const std::vector<double>& values, std::size_t columns, std::size_t column) {
-  std::vector<double> out;
-  for (std::size_t at = column; at < values.size(); at += columns) out.push_back(values[at]);
-  return out;
-}
-
-View view_at(const Scenario& scenario, const RunRecord& r, std::size_t tick, std::size_t joint) {
+View view_at(const Scenario& scenario, const Recording& r, std::size_t tick, std::size_t joint) {
   const Robot& robot = *scenario.robot;
   Kinematics k(robot);
   k.update(robot, r.state(robot, tick));
@@ -37,15 +31,15 @@ View view_at(const Scenario& scenario, const RunRecord& r, std::size_t tick, std
 }
 
 // Boxes as they are; of a field the line below the robot at the end.
-std::vector<Polygon> solids(const Scenario& scenario, const RunRecord& r) {
+std::vector<Polygon> solids(const Scenario& scenario, const Recording& r) {
   std::vector<Polygon> seen;
   const Ground& ground = scenario.ground;
   if (ground.kind == Ground::Kind::boxes) {
     for (const Box& box : ground.boxes) seen.push_back(box_outline({box.R, box.center}, box.size));
-  } else if (ground.kind == Ground::Kind::heightfield && !r.poses.empty()) {
+  } else if (ground.kind == Ground::Kind::heightfield && r.rows() > 0) {
     constexpr int kPieces = 400;
     constexpr double kThick = 0.004;  // m
-    const double y = r.poses[r.poses.size() - 6];
+    const double y = r.series("base.y").back();
     const double from = ground.field.origin.x();
     const double step = ground.field.spacing * static_cast<double>(ground.field.columns - 1) / kPieces;
     constexpr double kFar = 1000;  // m, beyond the border, where the heights go on
@@ -77,21 +71,20 @@ std::vector<Leg> legs_that_walk(const Scenario& s) {
   return legs;
 }
 
-std::vector<double> times(const Scenario& scenario, const RunRecord& r, const Summary& summary) {
+std::vector<double> times(const Scenario& scenario, const Recording& r, const Summary& summary) {
   std::vector<double> time;
-  for (std::size_t k = 0; k < r.com_x.size(); ++k)
+  for (std::size_t k = 0; k < r.rows(); ++k)
     time.push_back(std::min(static_cast<double>(k) * scenario.trace.period, summary.simulated));
   return time;
 }
 
 // Angle, set point and torque of a joint over `input.time`.
-void add_joint(FigureInput& input, const Scenario& scenario, const RunRecord& r, std::size_t joint) {
-  const std::size_t n = scenario.robot->joints.size();
+void add_joint(FigureInput& input, const Scenario& scenario, const Recording& r, std::size_t joint) {
   input.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
-  input.angle = series(r.angles, n, joint);
+  input.angle = r.joint(joint, "angle").values();
   if (scenario.actuator.entry != nullptr) {
-    input.setpoint = series(r.setpoints, n, joint);
-    input.torque = series(r.torques, n, joint);
+    input.setpoint = r.joint(joint, "setpoint").values();
+    input.torque = r.joint(joint, "torque").values();
   }
 }
 
@@ -103,16 +96,16 @@ double periods_from(const Summary& s) {
   return s.simulated - std::floor(shown / period + 1e-3) * period;
 }
 
-std::vector<Footfall> footfalls(const Scenario& scenario, const RunRecord& r, const std::vector<Leg>& legs,
+std::vector<Footfall> footfalls(const Scenario& scenario, const Recording& r, const std::vector<Leg>& legs,
                                 const std::vector<double>& time, double from) {
-  const std::size_t modules = scenario.robot->modules.size();
   const double weight = scenario.robot->mass * scenario.physics.gravity.norm();
   const std::vector<std::string> names = leg_names(legs);
   std::vector<Footfall> rows;
   for (std::size_t i = 0; i < legs.size(); ++i) {
     std::vector<double> load(time.size(), 0.0);
-    for (std::size_t k = 0; k < time.size(); ++k) {
-      for (const std::int64_t m : legs[i].modules) load[k] += r.loads[k * modules + static_cast<std::size_t>(m)];
+    for (const std::int64_t m : legs[i].modules) {
+      const Series of_module = r.series(fmt::format("load.{}", m));
+      for (std::size_t k = 0; k < of_module.size(); ++k) load[k] += of_module[k];
     }
     Footfall row{names[i], stances(time, load, kStands * weight)};
     row.duty_factor = duty_factor(row.stances, from, time.back());
@@ -122,7 +115,7 @@ std::vector<Footfall> footfalls(const Scenario& scenario, const RunRecord& r, co
 }
 
 // Five views from the start of the last period on; the sixth would show what the first shows.
-void add_period(FigureInput& input, const Scenario& scenario, const RunRecord& r, const Summary& s, std::size_t joint) {
+void add_period(FigureInput& input, const Scenario& scenario, const Recording& r, const Summary& s, std::size_t joint) {
   const MotionCycle& cycle = s.limit_cycle;
   const double span = std::min({cycle.found ? cycle.period : kPeriodless, kLongest, s.simulated});
   for (std::size_t i = 0; i < kViews; ++i) {
@@ -133,13 +126,12 @@ void add_period(FigureInput& input, const Scenario& scenario, const RunRecord& r
   }
   input.views_title =
       fmt::format("side view over {} {:.3g} s", cycle.found && cycle.period <= span ? "one period," : "the last", span);
-  const double* p = r.poses.data() + r.poses.size() - 7;
-  const double ahead = (Quat(p[3], p[4], p[5], p[6]) * Vec3::UnitX()).x();
+  const double ahead = (r.state(*scenario.robot, r.rows() - 1).orientation * Vec3::UnitX()).x();
   if (std::abs(ahead) < 0.7) return;  // seen from the front rather than from the side
   input.views_axis = fmt::format("x (m), forward is {}; heights on the same scale", ahead > 0 ? "right" : "left");
 }
 
-std::string legged_figure(const Scenario& scenario, const RunRecord& r, const Summary& summary, const std::vector<Leg>& legs) {
+std::string legged_figure(const Scenario& scenario, const Recording& r, const Summary& summary, const std::vector<Leg>& legs) {
   FigureInput input;
   input.title = scenario.name;
   input.ground = scenario.ground.kind != Ground::Kind::heightfield;
@@ -184,9 +176,9 @@ std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& 
   return *std::max_element(joints.begin(), joints.end(), [&](std::size_t a, std::size_t b) { return x(a) < x(b); });
 }
 
-std::string run_figure(const Scenario& scenario, const RunRecord& r, const Summary& summary) {
+std::string run_figure(const Scenario& scenario, const Recording& r, const Summary& summary) {
   const std::vector<Leg> legs = legs_that_walk(scenario);
-  const std::size_t ticks = r.com_x.size();
+  const std::size_t ticks = r.rows();
   if (!legs.empty() && ticks > 0) return legged_figure(scenario, r, summary, legs);
   const std::size_t joint = summary.most_loaded;
   FigureInput input;

@@ -15,7 +15,7 @@ namespace gaitlab {
 /// instead (the paper's figure 14), the footfalls of its legs and five side views a fifth of a period apart: the last period of
 /// the limit cycle, at most 4 s; 2 s without one. A leg stands where it carries more than 2 % of the weight; its duty factor is
 /// over as many whole periods as the last 8 s hold (without a limit cycle, or with a longer period, over all of them).
-std::string run_figure(const Scenario& scenario, const RunRecord& record, const Summary& summary);
+std::string run_figure(const Scenario& scenario, const Recording& record, const Summary& summary);
 
 /// The joint the paper's figure 13 points to. The spine is every module that is in no leg. Of its joints that turn about y
 /// (within 25 degrees, at zero angles: they bend the spine up and down; all where there is none), the one nearest, along x, to

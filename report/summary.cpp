@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -21,29 +22,29 @@ using Json = nlohmann::ordered_json;
 
 /// Turn about world z from one tick to the next: the twist of the rotation between them. Defined however far the base is
 /// pitched.
-double twist(const std::vector<double>& poses, std::size_t tick) {
-  const auto at = [&](std::size_t k) { return Quat(poses[7 * k + 3], poses[7 * k + 4], poses[7 * k + 5], poses[7 * k + 6]); };
-  const Quat turn = at(tick) * at(tick - 1).conjugate();
+double twist(const Quat& before, const Quat& now) {
+  const Quat turn = now * before.conjugate();
   return std::remainder(2 * math::atan2(turn.z(), turn.w()), 2 * std::numbers::pi);
 }
 
-void travel(const RunRecord& r, Summary& s) {
-  const std::size_t ticks = r.com_x.size();
-  if (ticks == 0) return;
-  s.displacement_x = r.com_x.back() - r.com_x.front();
-  s.displacement_y = r.com_y.back() - r.com_y.front();
+void travel(const Recording& r, Summary& s) {
+  const Series x = r.series("com.x");
+  const Series y = r.series("com.y");
+  if (x.empty() || y.empty()) return;
+  s.displacement_x = x.back() - x.front();
+  s.displacement_y = y.back() - y.front();
   s.distance = std::hypot(s.displacement_x, s.displacement_y);
   s.speed = s.simulated > 0 ? s.distance / s.simulated : 0;
-  for (std::size_t k = 1; k < ticks; ++k) {
-    s.path_length += std::hypot(r.com_x[k] - r.com_x[k - 1], r.com_y[k] - r.com_y[k - 1]);
-    s.heading_change += twist(r.poses, k);
-  }
+  for (std::size_t k = 1; k < x.size(); ++k) s.path_length += std::hypot(x[k] - x[k - 1], y[k] - y[k - 1]);
+  const std::array turn{r.series("base.qw"), r.series("base.qx"), r.series("base.qy"), r.series("base.qz")};
+  const auto at = [&](std::size_t k) { return Quat(turn[0][k], turn[1][k], turn[2][k], turn[3][k]); };
+  for (std::size_t k = 1; k < turn[0].size(); ++k) s.heading_change += twist(at(k - 1), at(k));
 }
 
-void transport(const Scenario& scenario, const RunRecord& r, Summary& s) {
+void transport(const Scenario& scenario, const Recording& r, Summary& s) {
   double electrical = 0;
   double mechanical = 0;
-  for (const JointFigures& joint : r.joints) {
+  for (const JointStatistics& joint : r.joints) {
     electrical += joint.electrical;
     mechanical += joint.shaft_positive;
   }
@@ -53,20 +54,23 @@ void transport(const Scenario& scenario, const RunRecord& r, Summary& s) {
   s.cost_mechanical = mechanical / work;
 }
 
-MotionCycle cycle(const Scenario& scenario, const RunRecord& r, const Summary& s) {
+MotionCycle cycle(const Scenario& scenario, const Recording& r, const Summary& s) {
   const std::size_t n = scenario.robot->joints.size();
   if (n == 0) return {};
   // The last row may lie off the grid of trace periods.
   const auto ticks = static_cast<std::size_t>(std::floor(s.simulated / scenario.trace.period + 1e-9)) + 1;
-  std::vector<double> both;
-  both.reserve(r.angles.size() * 2);
-  for (std::size_t at = 0; at < std::min(ticks * n, r.angles.size()); at += n) {
-    both.insert(both.end(), r.angles.begin() + static_cast<std::ptrdiff_t>(at),
-                r.angles.begin() + static_cast<std::ptrdiff_t>(at + n));
-    both.insert(both.end(), r.setpoints.begin() + static_cast<std::ptrdiff_t>(at),
-                r.setpoints.begin() + static_cast<std::ptrdiff_t>(at + n));
+  std::vector<Series> columns;
+  for (const char* quantity : {"angle", "setpoint"}) {
+    for (std::size_t j = 0; j < n; ++j) {
+      if (const Series one = r.joint(j, quantity); !one.empty()) columns.push_back(one);
+    }
   }
-  return find_limit_cycle(both, 2 * n, scenario.trace.period);
+  std::vector<double> all;
+  all.reserve(r.rows() * columns.size());
+  for (std::size_t k = 0; k < std::min(ticks, r.rows()); ++k) {
+    for (const Series& column : columns) all.push_back(column[k]);
+  }
+  return find_limit_cycle(all, columns.size(), scenario.trace.period);
 }
 
 /// A group of which a number is not known is null.
@@ -78,16 +82,18 @@ void put(Json& json, const SummaryNumber& number, const std::string& joint, cons
 
 }  // namespace
 
-Summary summarise(const Scenario& scenario, const RunRecord& r, double wall_time) {
+Summary summarise(const Scenario& scenario, const Recording& r, double wall_time) {
   Summary s;
   s.wall_time = wall_time;
   s.build = build_id();
+  s.outcome = r.outcome;
   s.simulated = r.simulated;
   travel(r, s);
   transport(scenario, r, s);
   s.limit_cycle = cycle(scenario, r, s);
   s.stability_max = scenario.physics.step * r.worst.rate;
-  s.stability_share = r.ticks > 0 ? static_cast<double>(r.ticks_above_1) / static_cast<double>(r.ticks) : 0;
+  s.stability_share =
+      r.control_ticks > 0 ? static_cast<double>(r.control_ticks_above_1) / static_cast<double>(r.control_ticks) : 0;
   const auto contacts = contact_elements(*scenario.robot, scenario.contact.on);
   if (r.worst.rate > 0) s.stability_source = source_of(r.worst, *scenario.robot, contacts);
   for (std::size_t j = 1; j < r.joints.size(); ++j) {
@@ -97,7 +103,7 @@ Summary summarise(const Scenario& scenario, const RunRecord& r, double wall_time
   return s;
 }
 
-std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord& r) {
+std::string to_json(const Summary& s, const Scenario& scenario, const Recording& r) {
   const RunData run{scenario, r, s};
   Json json;
   for (const SummaryNumber& number : summary_numbers()) {
@@ -112,7 +118,7 @@ std::string to_json(const Summary& s, const Scenario& scenario, const RunRecord&
   return json.dump(2) + "\n";
 }
 
-std::string to_text(const Summary& s, const Scenario& scenario, const RunRecord& r) {
+std::string to_text(const Summary& s, const Scenario& scenario, const Recording& r) {
   std::string text;
   for (const SummaryNumber* number : placed(&SummaryNumber::line)) {
     const char* title = number->line.title;
@@ -148,21 +154,22 @@ std::string start_warning(const Scenario& scenario) {
                             scenario.contact.on == ContactSet::feet ? "feet" : "none");
 }
 
-std::string fall_warning(const Scenario& scenario, const RunRecord& r) {
-  if (!has_height(scenario.ground) || r.poses.empty() || scenario.base != Base::floating) return "";
+std::string fall_warning(const Scenario& scenario, const Recording& r) {
+  if (!has_height(scenario.ground) || !r.has_states(*scenario.robot) || scenario.base != Base::floating) return "";
   const Robot& robot = *scenario.robot;
   Kinematics k(robot);
   k.update(robot, r.state(robot, 0));
   const double start = sums(robot, k, Vec3::Zero()).com.z();
-  for (std::size_t tick = 0; start > 0 && tick < r.com_z.size(); ++tick) {
-    if (r.com_z[tick] > 0.5 * start) continue;
+  const Series height = r.series("com.z");
+  for (std::size_t tick = 0; start > 0 && tick < height.size(); ++tick) {
+    if (height[tick] > 0.5 * start) continue;
     return fmt::format("it fell: at t = {:.2f} s the centre of mass is at {:.3f} m, from {:.3f} m at the start",
-                       std::min(static_cast<double>(tick) * scenario.trace.period, r.simulated), r.com_z[tick], start);
+                       std::min(static_cast<double>(tick) * scenario.trace.period, r.simulated), height[tick], start);
   }
   return "";
 }
 
-std::string stability_warning(const Summary& s, const Scenario& scenario, const RunRecord& r) {
+std::string stability_warning(const Summary& s, const Scenario& scenario, const Recording& r) {
   if (!(s.stability_share > 0.01)) return "";
   const auto contacts = contact_elements(*scenario.robot, scenario.contact.on);
   return fmt::format("in {} of the control ticks {}", texts::percent(s.stability_share),

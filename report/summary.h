@@ -25,22 +25,22 @@ struct Summary {
   std::string trace_hash;
 };
 
-Summary summarise(const Scenario& scenario, const RunRecord& record, double wall_time);
+Summary summarise(const Scenario& scenario, const Recording& record, double wall_time);
 
 /// The text of summary.json.
-std::string to_json(const Summary& summary, const Scenario& scenario, const RunRecord& record);
+std::string to_json(const Summary& summary, const Scenario& scenario, const Recording& record);
 
 /// What `gaitlab run` prints.
-std::string to_text(const Summary& summary, const Scenario& scenario, const RunRecord& record);
+std::string to_text(const Summary& summary, const Scenario& scenario, const Recording& record);
 
 /// The warning about a part of the robot that starts below the ground, or "": its height was given, or only contact elements
 /// touch the ground.
 std::string start_warning(const Scenario& scenario);
 
 /// The warning about a robot that fell (the centre of mass came below half its height at the start), or "".
-std::string fall_warning(const Scenario& scenario, const RunRecord& record);
+std::string fall_warning(const Scenario& scenario, const Recording& record);
 
 /// The warning about a step that was too long for more than 1 % of the control ticks, or "".
-std::string stability_warning(const Summary& summary, const Scenario& scenario, const RunRecord& record);
+std::string stability_warning(const Summary& summary, const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab

@@ -45,7 +45,7 @@ std::string percent(double share) { return fmt::format("{:.{}g} %", 100 * share,
 
 }  // namespace
 
-TorqueError torque_error(const RunRecord& r) {
+TorqueError torque_error(const Recording& r) {
   TorqueError worst;
   double largest = 0;
   for (const double peak : r.tally.torque_peak) largest = std::max(largest, peak);
@@ -65,7 +65,7 @@ std::string step_text(const Physics& physics) {
   return text;
 }
 
-std::string steps_text(const Scenario& scenario, const RunRecord& r) {
+std::string steps_text(const Scenario& scenario, const Recording& r) {
   std::string text = step_text(scenario.physics);
   if (r.tally.solves > 0) text += fmt::format(", {:.0f} solves", r.tally.solves);
   const TorqueError error = torque_error(r);
@@ -77,7 +77,7 @@ std::string steps_text(const Scenario& scenario, const RunRecord& r) {
   return text;
 }
 
-std::vector<std::string> trust_warnings(const Scenario& s, const RunRecord& r) {
+std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
   std::vector<std::string> warnings;
   const TorqueError error = torque_error(r);
   const double allowed = s.physics.adapts() ? std::max(kGood, s.physics.accuracy) : kGood;

@@ -14,17 +14,17 @@ struct TorqueError {
   double share = 0;
   std::size_t joint = 0;
 };
-TorqueError torque_error(const RunRecord& record);
+TorqueError torque_error(const Recording& record);
 
 /// `step auto (at most 0.005 s), accuracy 1 %`, or `step 2.5e-05 s`.
 std::string step_text(const Physics& physics);
 
 /// What the summary says of the steps: their kind, the solves, the torque error.
-std::string steps_text(const Scenario& scenario, const RunRecord& record);
+std::string steps_text(const Scenario& scenario, const Recording& record);
 
 /// One sentence each, with its remedy: torques that are off by more than 1 % (or the accuracy asked for, if that is more), an
 /// energy that does not add up to 1 % of what is drawn (or stored, or lifts the robot by 1 mm, if that is more), joint-steps
 /// off their law, steps that never reached the accuracy.
-std::vector<std::string> trust_warnings(const Scenario& scenario, const RunRecord& record);
+std::vector<std::string> trust_warnings(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab

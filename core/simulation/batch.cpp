@@ -50,7 +50,7 @@ std::vector<Pack> packs(std::span<const Scenario> rollouts, std::size_t most) {
 }  // namespace
 
 void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings,
-               const std::function<void(std::size_t, RolloutEnd&&)>& end) {
+               const std::function<void(std::size_t, Recording&&)>& end) {
   const std::vector<Pack> all = packs(rollouts, settings.lanes);
   std::vector<std::exception_ptr> refused(rollouts.size());
   const auto alone = [&](std::size_t i) {
@@ -62,7 +62,9 @@ void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings
       } catch (const SimulationError& error) {
         outcome = error.what();
       }
-      end(i, {simulation.take_record(0), std::move(outcome)});
+      Recording recording = simulation.take_recording(0);
+      recording.outcome = std::move(outcome);
+      end(i, std::move(recording));
     } catch (const InputError&) {
       refused[i] = std::current_exception();
     }
@@ -88,8 +90,7 @@ void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings
         alone(pack[l]);
         continue;
       }
-      const std::string& failure = simulation->failure(l);
-      end(pack[l], {simulation->take_record(l), failure.empty() ? "done" : failure});
+      end(pack[l], simulation->take_recording(l));
     }
   });
   for (const std::exception_ptr& error : refused) {

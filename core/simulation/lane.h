@@ -64,7 +64,8 @@ struct Simulation::Lane {
   std::vector<double> k1, k2, k3, k4, stage;
   Sample sample;
   std::unique_ptr<Probes> probes;
-  RunRecord record;
+  Recording recording;
+  std::int64_t ticks_per_row = 1;  ///< of Recording::ticks
 };
 
 }  // namespace gaitlab

@@ -7,33 +7,13 @@ namespace gaitlab {
 
 namespace {
 
-using F = JointFigures;
-/// All members, in the order of Meter::figures_.
-constexpr std::array kMembers{&F::torque_peak,
-                              &F::torque_rms,
-                              &F::speed_peak,
-                              &F::current_peak,
-                              &F::current_rms,
-                              &F::error_rms,
-                              &F::error_peak,
-                              &F::error_peak_time,
-                              &F::saturated_voltage,
-                              &F::saturated_current,
-                              &F::range_share,
-                              &F::range_worst,
-                              &F::setpoint_outside,
-                              &F::electrical,
-                              &F::copper,
-                              &F::gear,
-                              &F::shaft,
-                              &F::shaft_positive,
-                              &F::created};
-static_assert(kMembers.size() == kFigures, "every member of JointFigures is measured");
+using F = JointStatistics;
 
-template <class Figures>
-double* at(Figures& figures, double F::*member) {
-  const auto place = std::find(kMembers.begin(), kMembers.end(), member);
-  return figures[static_cast<std::size_t>(place - kMembers.begin())].data();
+template <class Sums>
+double* at(Sums& sums, double F::*member) {
+  const auto place = std::find_if(kJointStatistics.begin(), kJointStatistics.end(),
+                                  [&](const JointStatistic& one) { return one.member == member; });
+  return sums[static_cast<std::size_t>(place - kJointStatistics.begin())].data();
 }
 
 }  // namespace
@@ -45,8 +25,8 @@ Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()), time_(lane
       hi_.push_back(lane.robot->joints.at(j).hi);
     }
   }
-  for (auto& figure : figures_) figure.assign(lo_.size(), 0.0);
-  for (auto* weights : {&sum_, &share_, &seen_}) weights->assign(lo_.size(), 0.0);
+  for (auto& sums : sums_) sums.assign(lo_.size(), 0.0);
+  for (auto* values : {&recent_peak_, &weight_, &share_, &seen_}) values->assign(lo_.size(), 0.0);
 }
 
 void Meter::add(double time, const Applied::Part& part, In setpoint, const Actuator::Report& report, In measured) {
@@ -62,38 +42,39 @@ void Meter::add(double time, const Applied::Part& part, In setpoint, const Actua
     some = some || seen > 0;
     time_[l] += sum;
     for (std::size_t i = l; i < n; i += lanes_) {
-      sum_[i] = sum;
+      weight_[i] = sum;
       share_[i] = share;
       seen_[i] = seen;
     }
   }
-  const auto peak = [&](double JointFigures::*member, auto value) {
-    double* const to = at(figures_, member);
+  const auto peak = [&](double F::*member, auto value) {
+    double* const to = at(sums_, member);
     if (!some) return;
     for (std::size_t i = 0; i < n; ++i) to[i] = std::max(to[i], seen_[i] * value(i));
   };
-  const auto sum = [&](double JointFigures::*member, auto value) {
+  const auto sum = [&](double F::*member, auto value) {
     if (part.instant) return;
-    double* const to = at(figures_, member);
-    for (std::size_t i = 0; i < n; ++i) to[i] += sum_[i] * value(i);
+    double* const to = at(sums_, member);
+    for (std::size_t i = 0; i < n; ++i) to[i] += weight_[i] * value(i);
   };
-  const auto share = [&](double JointFigures::*member, auto value) {
+  const auto share = [&](double F::*member, auto value) {
     if (part.instant || !some) return;
-    double* const to = at(figures_, member);
+    double* const to = at(sums_, member);
     for (std::size_t i = 0; i < n; ++i) to[i] += share_[i] * value(i);
   };
   const auto error = [&](std::size_t i) { return setpoint[i] - angle[i]; };
   const auto excess = [&](std::size_t i) { return std::max(std::max(angle[i] - hi_[i], lo_[i] - angle[i]), 0.0); };
   const auto shaft = [&](std::size_t i) { return torque[i] * speed[i]; };
   peak(&F::torque_peak, [&](std::size_t i) { return std::abs(torque[i]); });
+  for (std::size_t i = 0; some && i < n; ++i) recent_peak_[i] = std::max(recent_peak_[i], seen_[i] * std::abs(torque[i]));
   share(&F::torque_rms, [&](std::size_t i) { return torque[i] * torque[i]; });
   peak(&F::speed_peak, [&](std::size_t i) { return std::abs(speed[i]); });
   peak(&F::current_peak, [&](std::size_t i) { return std::abs(report.current[i]); });
   share(&F::current_rms, [&](std::size_t i) { return report.current[i] * report.current[i]; });
   sum(&F::error_rms, [&](std::size_t i) { return error(i) * error(i); });
   // Before error_peak itself, which decides whether this is the largest so far.
-  const double* const largest = at(figures_, &F::error_peak);
-  double* const when = at(figures_, &F::error_peak_time);
+  const double* const largest = at(sums_, &F::error_peak);
+  double* const when = at(sums_, &F::error_peak_time);
   for (std::size_t i = 0; some && i < n; ++i) when[i] = seen_[i] * std::abs(error(i)) > largest[i] ? time : when[i];
   peak(&F::error_peak, [&](std::size_t i) { return std::abs(error(i)); });
   share(&F::saturated_voltage, [&](std::size_t i) { return report.saturation[i] == 1 ? 1.0 : 0.0; });
@@ -109,15 +90,26 @@ void Meter::add(double time, const Applied::Part& part, In setpoint, const Actua
   share(&F::shaft_positive, [&](std::size_t i) { return std::max(shaft(i), 0.0); });
 }
 
-JointFigures Meter::figures(std::size_t joint, std::size_t lane) const {
-  JointFigures f;
-  for (std::size_t k = 0; k < kFigures; ++k) f.*kMembers[k] = figures_[k][joint * lanes_ + lane];
+JointStatistics Meter::statistics(std::size_t joint, std::size_t lane) const {
+  F f;
+  for (std::size_t k = 0; k < sums_.size(); ++k) f.*kJointStatistics[k].member = sums_[k][joint * lanes_ + lane];
   const double time = time_[lane];
   if (!(time > 0)) return f;
   for (double* mean_square : {&f.torque_rms, &f.current_rms, &f.error_rms})
     *mean_square = std::sqrt(std::max(*mean_square, 0.0) / time);
   for (double* share : {&f.saturated_voltage, &f.saturated_current, &f.range_share, &f.setpoint_outside}) *share /= time;
   return f;
+}
+
+void Meter::tick(std::size_t lane, Out row) {
+  const double* const square = at(sums_, &F::torque_rms);
+  const double* const voltage = at(sums_, &F::saturated_voltage);
+  const double* const current = at(sums_, &F::saturated_current);
+  std::size_t to = 0;
+  for (std::size_t i = lane; i < lo_.size(); i += lanes_) {
+    for (const double value : {recent_peak_[i], square[i], voltage[i], current[i]}) row[to++] = value;
+    recent_peak_[i] = 0;
+  }
 }
 
 }  // namespace gaitlab

@@ -9,16 +9,10 @@
 #include "core/laws/ground.h"
 #include "core/model/kinematics.h"
 #include "core/plugin/actuator.h"
+#include "core/recording/statistics.h"
 #include "core/simulation/state_layout.h"
 
 namespace gaitlab {
-
-/// Largest rate lambda of M^-1 (B + sum J^T G J), 1/s, and what it comes from. A step h is stable for h lambda <= 1 (explicit).
-struct Stability {
-  double rate = 0;
-  enum class Source { motor, stop, contact } source = Source::motor;
-  std::size_t index = 0;  ///< joint, or contact element
-};
 
 /// World force on the robot at a contact element, N, and its penetration, m; both 0 without contact.
 struct ContactSample {
@@ -42,16 +36,6 @@ struct LaneSettings {
   std::vector<ContactElement> contacts;
   PenaltyContact law;
   double accuracy = 0;  ///< of the torques, relative: of an integrator that chooses its steps
-};
-
-/// What is known of a lane's steps since the start.
-struct StepTally {
-  double solves = 0;                 ///< of the equations of motion; 0: not counted
-  double off = 0;                    ///< joint-steps that ended off the law of their motor or stop
-  double coarse = 0;                 ///< s in which the shortest steps that an integrator takes did not reach the accuracy
-  bool estimated = false;            ///< whether there is an estimate of the torque error yet (step_error.h)
-  std::vector<double> torque_error;  ///< of each joint, RMS, N m
-  std::vector<double> torque_peak;   ///< of each joint, largest torque where that error is asked for, N m
 };
 
 /// What an engine is made from; everything outlives the plant. The base: what lane 0 has, and all there is for an engine of

@@ -71,6 +71,7 @@ Probes::Probes(const Scenario& scenario, const std::vector<ContactElement>& cont
   add_base();
   add_vector("com", "m", "centre of mass, world axes", [](const Sample& s) { return s.sums.com; });
   add_contacts(contacts);
+  add_loads(robot, contacts);
   add_bodies(robot, sample);
   add_boxes(scenario.ground);
   for (std::size_t i = 0; cpg != nullptr && i < cpg->states(); ++i) {
@@ -156,6 +157,22 @@ void Probes::add_contacts(const std::vector<ContactElement>& contacts) {
     add(name + "penetration", "m", "penetration, 0 without contact," + of,
         [c](const Sample& s) { return s.contacts[c].penetration; });
     add_vector(name + "f", "N", "force on the robot, world axes," + of, [c](const Sample& s) { return s.contacts[c].force; });
+  }
+}
+
+void Probes::add_loads(const Robot& robot, const std::vector<ContactElement>& contacts) {
+  for (std::size_t m = 0; m < robot.modules.size(); ++m) {
+    std::vector<std::size_t> elements;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      if (robot.bodies[contacts[c].body].module == m) elements.push_back(c);
+    }
+    if (elements.empty()) continue;
+    add(fmt::format("load.{}", m), "N", fmt::format("normal force on all contact elements of module {}", m),
+        [elements](const Sample& s) {
+          double sum = 0;
+          for (const std::size_t c : elements) sum += s.contacts[c].fn;
+          return sum;
+        });
   }
 }
 
@@ -249,14 +266,20 @@ void Probes::select(const Scenario& scenario) {
     const std::string near = nearest(pattern, names);
     problems.add(scenario.place("trace.columns"),
                  fmt::format("'{}' matches no column{}", pattern,
-                             near.empty() ? "; groups are t, joint, base, com, contact, body, box, cpg, "
-                                            "energy, momentum, angular_momentum, reaction"
+                             near.empty() ? "; groups are t, joint, base, com, contact, load, body, box, "
+                                            "cpg, energy, momentum, angular_momentum, steps, torque_error, reaction"
                                           : "; did you mean '" + near + "'?"));
   }
   problems.raise();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    if (!wanted[i]) continue;
+    if (!wanted[i]) {
+      const auto covers = [&](const std::string& pattern) { return glob(pattern, columns_[i].name); };
+      if (std::ranges::none_of(report_columns(), covers)) continue;
+      rest_columns_.push_back(std::move(columns_[i]));
+      rest_sources_.push_back(std::move(sources_[i]));
+      continue;
+    }
     if (kept != i) {
       columns_[kept] = std::move(columns_[i]);
       sources_[kept] = std::move(sources_[i]);
@@ -276,10 +299,14 @@ void Probes::select(const Scenario& scenario) {
                    "elements; remove the columns reaction.*, or take contact.law: penalty");
 }
 
-void Probes::fill(Out row) const {
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
-    row[i] = sources_[i].number != nullptr ? *sources_[i].number : sources_[i].read(sample_);
-  }
+void Probes::fill(Out row, Out rest) const {
+  const auto read = [&](const std::vector<Source>& sources, Out into) {
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      into[i] = sources[i].number != nullptr ? *sources[i].number : sources[i].read(sample_);
+    }
+  };
+  read(sources_, row);
+  read(rest_sources_, rest);
 }
 
 }  // namespace gaitlab

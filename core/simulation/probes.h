@@ -5,10 +5,9 @@
 #include <vector>
 
 #include "core/dynamics/inverse_dynamics.h"
+#include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
-#include "core/simulation/ledger.h"
 #include "core/simulation/plant.h"
-#include "core/trace/trace.h"
 
 namespace gaitlab {
 
@@ -52,11 +51,13 @@ class Probes {
          const Sample& sample);
 
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
+  /// Those of report_columns() that are not among them.
+  [[nodiscard]] const std::vector<Column>& rest_columns() const { return rest_columns_; }
   /// Whether a column reads Sample::reactions.
   [[nodiscard]] bool want_reactions() const { return want_reactions_; }
   /// Whether a column reads what Sample::place fills in, the centre of mass aside.
   [[nodiscard]] bool want_places() const { return want_places_; }
-  void fill(Out row) const;  ///< from the sample as it is now
+  void fill(Out row, Out rest) const;  ///< from the sample as it is now
 
  private:
   using Read = std::function<double(const Sample&)>;
@@ -67,6 +68,7 @@ class Probes {
   void add_joints(const Robot& robot, bool driven, std::string_view command_unit);
   void add_base();
   void add_contacts(const std::vector<ContactElement>& contacts);
+  void add_loads(const Robot& robot, const std::vector<ContactElement>& contacts);
   void add_bodies(const Robot& robot, const Sample& first);
   void add_boxes(const Ground& ground);
   void add_energy();
@@ -82,8 +84,8 @@ class Probes {
   };
 
   const Sample& sample_;
-  std::vector<Column> columns_;
-  std::vector<Source> sources_;
+  std::vector<Column> columns_, rest_columns_;
+  std::vector<Source> sources_, rest_sources_;
   bool want_reactions_ = false, want_places_ = false;
 };
 

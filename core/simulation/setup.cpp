@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/simulation/lane.h"
 #include "core/simulation/start.h"
@@ -9,6 +10,12 @@
 #include "core/simulation/step_advice.h"
 
 namespace gaitlab {
+
+namespace {
+
+constexpr double kTickRows = 2e-3;  // s, between rows of Recording::ticks at least: a gait has hundreds of them
+
+}  // namespace
 
 bool can_share(const Scenario& a, const Scenario& b) {
   const auto same_link = [](const Link& x, const Link& y) { return x.parent == y.parent && x.joint == y.joint; };
@@ -118,14 +125,16 @@ void Simulation::set_start() {
     }
     lane.probes = std::make_unique<Probes>(s, lane.contacts, lane.cpg.get(),
                                            actuator_ == nullptr ? "" : actuator_->command_unit(), sample);
-    const auto rows = static_cast<std::size_t>(s.duration / s.trace.period + 3);
-    RunRecord& record = lane.record;
-    record.trace.columns = lane.probes->columns();
-    record.trace.values.reserve(rows * record.trace.columns.size());
-    for (auto* series : {&record.com_x, &record.com_y, &record.com_z}) series->reserve(rows);
-    record.poses.reserve(rows * 7);
-    for (auto* series : {&record.angles, &record.setpoints, &record.torques}) series->reserve(rows * layout_.joints);
-    record.loads.reserve(rows * lane.robot.modules.size());
+    Recording& recording = lane.recording;
+    recording.trace.columns = lane.probes->columns();
+    recording.rest.columns = lane.probes->rest_columns();
+    recording.ticks.columns = tick_columns(layout_.joints);
+    lane.ticks_per_row = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kTickRows / s.control_period - 1e-9)));
+    const auto reserve = [](Trace& table, double rows) {
+      table.values.reserve(static_cast<std::size_t>(rows + 3) * table.columns.size());
+    };
+    for (Trace* table : {&recording.trace, &recording.rest}) reserve(*table, s.duration / s.trace.period);
+    reserve(recording.ticks, s.duration / (s.control_period * static_cast<double>(lane.ticks_per_row)));
   }
 }
 

@@ -164,25 +164,9 @@ void Simulation::record() {
 void Simulation::record(Lane& lane) {
   Sample& s = take_sample(lane, false);
   if (lane.probes->want_reactions()) s.react(lane.contacts, *plant_, lane.index);
-  RunRecord& r = lane.record;
-  r.trace.values.resize(r.trace.values.size() + r.trace.columns.size());
-  lane.probes->fill(Out(r.trace.values).last(r.trace.columns.size()));
-  r.com_x.push_back(s.sums.com.x());
-  r.com_y.push_back(s.sums.com.y());
-  r.com_z.push_back(s.sums.com.z());
-  const Quat& turn = s.state.orientation;
-  for (const double x :
-       {s.state.position.x(), s.state.position.y(), s.state.position.z(), turn.w(), turn.x(), turn.y(), turn.z()}) {
-    r.poses.push_back(x);
-  }
-  r.angles.insert(r.angles.end(), s.state.q.begin(), s.state.q.end());
-  r.setpoints.insert(r.setpoints.end(), s.setpoint.begin(), s.setpoint.end());
-  r.torques.insert(r.torques.end(), s.torque.begin(), s.torque.end());
-  r.loads.resize(r.loads.size() + lane.robot.modules.size(), 0.0);
-  const Out loads = Out(r.loads).last(lane.robot.modules.size());
-  for (std::size_t c = 0; c < lane.contacts.size(); ++c) {
-    loads[lane.robot.bodies[lane.contacts[c].body].module] += s.contacts[c].fn;
-  }
+  Recording& r = lane.recording;
+  for (Trace* table : {&r.trace, &r.rest}) table->values.resize(table->values.size() + table->columns.size());
+  lane.probes->fill(Out(r.trace.values).last(r.trace.columns.size()), Out(r.rest.values).last(r.rest.columns.size()));
 }
 
 /// Rows and ends within the step that starts now: each by a shorter step of its own, after which the state is put back, so that
@@ -248,9 +232,22 @@ void Simulation::sense() {
 
 void Simulation::command() {
   for (const auto& lane : lanes_) {
-    if (control_tick(*lane)) guard(*lane, [&] { command(*lane); });
+    if (!control_tick(*lane)) continue;
+    if (lane->recording.control_ticks % lane->ticks_per_row == 0) record_tick(*lane);
+    guard(*lane, [&] { command(*lane); });
   }
   watch_stability();
+}
+
+/// A row of Recording::ticks.
+void Simulation::record_tick(Lane& lane) {
+  Trace& ticks = lane.recording.ticks;
+  const std::size_t columns = ticks.columns.size();
+  if (!ticks.values.empty() && ticks.values[ticks.values.size() - columns] == time()) return;
+  ticks.values.resize(ticks.values.size() + columns);
+  const Out row = Out(ticks.values).last(columns);
+  row[0] = time();
+  meter_.tick(lane.index, row.subspan(1));
 }
 
 void Simulation::command(Lane& lane) {
@@ -278,13 +275,13 @@ void Simulation::command(Lane& lane) {
 void Simulation::watch_stability() {
   for (const auto& lane : lanes_) {
     if (!control_tick(*lane)) continue;
-    RunRecord& record = lane->record;
+    Recording& recording = lane->recording;
     const Stability now = plant_->stability(lane->index, command_, false);
-    ++record.ticks;
-    if (h_ * now.rate > 1) ++record.ticks_above_1;
-    if (now.rate > record.worst.rate) {
-      record.worst = now;
-      record.worst_time = time();
+    ++recording.control_ticks;
+    if (h_ * now.rate > 1) ++recording.control_ticks_above_1;
+    if (now.rate > recording.worst.rate) {
+      recording.worst = now;
+      recording.worst_time = time();
     }
   }
 }
@@ -356,20 +353,29 @@ SimulationError Simulation::diverged(const Lane& lane) const {
 void Simulation::close(Lane& lane) {
   lane.closed = true;
   plant_->look();
-  lane.record.steps = step_number();
-  lane.record.simulated = time();
+  record_tick(lane);
+  Recording& recording = lane.recording;
+  recording.steps = step_number();
+  recording.simulated = time();
   const Sample& last = take_sample(lane, true);
-  lane.record.tally = last.tally;
-  lane.record.ledger = last.ledger;
-  lane.record.joints.clear();
-  for (std::size_t j = 0; j < layout_.joints; ++j) lane.record.joints.push_back(meter_.figures(j, lane.index));
+  recording.tally = last.tally;
+  recording.ledger = last.ledger;
+  if (!lane.failure.empty()) recording.outcome = lane.failure;
+  recording.joints.clear();
+  for (std::size_t j = 0; j < layout_.joints; ++j) recording.joints.push_back(meter_.statistics(j, lane.index));
+}
+
+Out Simulation::state() {
+  if (plant_->memoryless()) return state_;
+  throw InputError(scenarios_[0].place("contact.law"),
+                   "contact.law: bullet gives no snapshot: its contact points and boxes are no part of the state");
 }
 
 const std::string& Simulation::failure(std::size_t lane) const { return lanes_[lane]->failure; }
 
-RunRecord Simulation::take_record(std::size_t lane) {
+Recording Simulation::take_recording(std::size_t lane) {
   if (!lanes_[lane]->closed) close(*lanes_[lane]);
-  return std::move(lanes_[lane]->record);
+  return std::move(lanes_[lane]->recording);
 }
 
 }  // namespace gaitlab

@@ -7,13 +7,12 @@
 #include <span>
 #include <vector>
 
+#include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
-#include "core/simulation/ledger.h"
 #include "core/simulation/meter.h"
 #include "core/simulation/plant.h"
 #include "core/simulation/probes.h"
 #include "core/simulation/step_error.h"
-#include "core/trace/trace.h"
 
 namespace gaitlab {
 
@@ -26,28 +25,6 @@ class SimulationError : public RunError {
   std::int64_t step;
   double time;
   std::string where;  ///< a joint's name, "base", or the kind of the plugin
-};
-
-/// How one lane ran: what the summary is made from.
-struct RunRecord {
-  Trace trace;
-  std::vector<JointFigures> joints;
-  /// Every trace tick: centre of mass; base frame (x y z qw qx qy qz, tick * 7); angles, set points and motor torques (tick *
-  /// joints
-  /// + joint).
-  std::vector<double> com_x, com_y, com_z, poses;
-  std::vector<double> angles, setpoints, torques;
-  /// Every trace tick: normal force on all contact elements of a module, N (tick * modules + module).
-  std::vector<double> loads;
-  /// Angles and pose at a trace tick; speeds 0.
-  [[nodiscard]] RobotState state(const Robot& robot, std::size_t tick) const;
-  Ledger ledger;         ///< at the last row
-  StepTally tally;       ///< of the engine's steps
-  double simulated = 0;  ///< s
-  Stability worst;       ///< the largest rate seen at a control tick
-  double worst_time = 0;
-  std::int64_t ticks = 0, ticks_above_1 = 0;
-  std::int64_t steps = 0;
 };
 
 /// Whether two scenarios can be lanes of one simulation: they share engine, integrator, step, kind of actuator, base, and the
@@ -79,8 +56,8 @@ class Simulation {
   Out state();
   [[nodiscard]] std::int64_t step_number() const { return static_cast<std::int64_t>(state_[0]); }
   [[nodiscard]] double time() const { return static_cast<double>(step_number()) * h_ + within_; }
-  /// What lane `lane` has recorded so far. The trace is moved out: call it once, at the end.
-  RunRecord take_record(std::size_t lane);
+  /// What lane `lane` has recorded so far, moved out: call it once, at the end.
+  Recording take_recording(std::size_t lane);
   [[nodiscard]] const Stability& standing() const { return standing_; }
 
  private:
@@ -115,6 +92,7 @@ class Simulation {
   void fail(Lane& lane, const SimulationError& error);
   void end(Lane& lane);
   void close(Lane& lane);
+  void record_tick(Lane& lane);
   [[nodiscard]] SimulationError stopped(const PluginError& error) const;
   [[nodiscard]] SimulationError diverged(const Lane& lane) const;
 

@@ -1,5 +1,5 @@
 // convergence() on figures whose order is known because we make them.
-#include "core/trace/convergence.h"
+#include "core/recording/convergence.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,10 @@
 // The packed trace: what is written is read back within its precision, and every damage has its message.
-#include "core/trace/golden_file.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 
+#include "golden/file.h"
 #include "golden_sample.h"
 
 namespace gaitlab::test {

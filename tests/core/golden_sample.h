@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/errors.h"
-#include "core/trace/trace.h"
+#include "core/recording/trace.h"
 
 namespace gaitlab::test {
 

@@ -1,5 +1,5 @@
 // Goldens as folders and as judges: damage has its own message, and only what strays fails.
-#include "core/trace/golden.h"
+#include "golden/golden.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <limits>
 #include <random>
 
-#include "core/trace/atomic_file.h"
-#include "core/trace/golden_compare.h"
+#include "core/recording/atomic_file.h"
+#include "golden/compare.h"
 #include "golden_sample.h"
 #include "tests/folder.h"
 

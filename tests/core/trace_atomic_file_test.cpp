@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/errors.h"
-#include "core/trace/atomic_file.h"
+#include "core/recording/atomic_file.h"
 #include "tests/folder.h"
 
 namespace gaitlab {

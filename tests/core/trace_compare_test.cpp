@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/trace/compare.h"
+#include "core/recording/compare.h"
 
 namespace gaitlab {
 namespace {

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "core/errors.h"
-#include "core/trace/csv.h"
+#include "core/recording/csv.h"
 #include "tests/folder.h"
 
 namespace gaitlab {

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "core/errors.h"
-#include "core/trace/h5.h"
+#include "core/recording/h5.h"
 #include "tests/folder.h"
 
 namespace gaitlab {
@@ -44,10 +44,10 @@ class H5 : public testing::Test {
   // Bytes whose header is right for them again: what reaches HDF5.
   [[nodiscard]] static std::string sealed(std::string bytes) {
     const std::string from = "from byte 512 on: ";
-    return bytes.replace(bytes.find(from) + from.size(), 16, hash(std::string_view(bytes).substr(kHeader)));
+    return bytes.replace(bytes.find(from) + from.size(), 16, hash_words(std::string_view(bytes).substr(kHeader)));
   }
 
-  const Origin kOrigin{"gaitlab: 1\nname: \"é\"\n", -5, "0.1.0+abc (g++)"};
+  const Origin kOrigin{"gaitlab: 1\nname: \"é\"\n", -5, "0.1.0+abc (g++)", "done"};
   const test::Folder own_;
   const fs::path folder_ = own_.path(), file_ = folder_ / "trace.h5";
 };
@@ -116,8 +116,8 @@ TEST_F(H5, SameTraceSameBytes) {
 TEST_F(H5, FirstLinesSayWhatItIs) {
   const std::string bytes = written(sample(3));
   EXPECT_EQ(bytes.substr(0, bytes.find('\0')),
-            "gaitlab-trace-1\nHDF5 follows at byte 512. Bytes in all: " + std::to_string(bytes.size()) +
-                "; FNV-1a from byte 512 on: " + hash(std::string_view(bytes).substr(kHeader)) + "\n");
+            "gaitlab-trace-2\nHDF5 follows at byte 512. Bytes in all: " + std::to_string(bytes.size()) +
+                "; hash from byte 512 on: " + hash_words(std::string_view(bytes).substr(kHeader)) + "\n");
   EXPECT_EQ(bytes.substr(kHeader, 4), "\x89HDF");
 }
 
@@ -182,11 +182,11 @@ TEST_F(H5, EveryFlippedByteIsSeen) {
 
 TEST_F(H5, OtherVersion) {
   std::string other = written(sample(3));
-  other.replace(other.find('1'), 1, "2");
-  EXPECT_EQ(complaint(other), "has format gaitlab-trace-2; this gaitlab reads gaitlab-trace-1");
+  other.replace(other.find('2'), 1, "3");
+  EXPECT_EQ(complaint(other), "has format gaitlab-trace-3; this gaitlab reads gaitlab-trace-1 and 2");
   other = written(sample(3));
-  other.replace(other.find("1\n"), 2, "12\n");
-  EXPECT_EQ(complaint(other), "has format gaitlab-trace-12; this gaitlab reads gaitlab-trace-1");
+  other.replace(other.find("2\n"), 2, "12\n");
+  EXPECT_EQ(complaint(other), "has format gaitlab-trace-12; this gaitlab reads gaitlab-trace-1 and 2");
 }
 
 TEST_F(H5, Foreign) {
@@ -215,7 +215,7 @@ TEST_F(H5, ContentThatDoesNotFitTogether) {
   ASSERT_EQ(complaint(sealed(whole)), "");
   EXPECT_EQ(complaint(changed(hash(sample(3)), "0123456789abcdef")), "is corrupt: the trace does not match its checksum");
   EXPECT_EQ(complaint(changed("joint.0.angle", "joint.1.angle")), "is corrupt: the trace does not match its checksum");
-  EXPECT_EQ(complaint(changed("gaitlab-trace-1", "gaitlab-trace-3")),
+  EXPECT_EQ(complaint(changed("gaitlab-trace-2", "gaitlab-trace-3")),
             "is corrupt: the attribute `format` is not that of the first line");
   EXPECT_EQ(complaint(changed("checksum", "checksun")), "is corrupt: HDF5: checksum failed");
 }

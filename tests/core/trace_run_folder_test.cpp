@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "core/trace/run_folder.h"
+#include "core/recording/run_folder.h"
 #include "tests/folder.h"
 
 namespace gaitlab {

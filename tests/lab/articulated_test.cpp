@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "random_scenario.h"
+#include "tests/lab/torques.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
@@ -84,8 +85,8 @@ trace: {{period: 5e-3, columns: ["*"]}}
   };
   for (const auto& [base, velocity] :
        {std::pair("floating", "[0.3, 0.2, -0.5]"), std::pair("planar", "[0.3, 0, -0.5]"), std::pair("fixed", "[0, 0, 0]")}) {
-    const RunRecord a = thrown("articulated", base, velocity);
-    const RunRecord b = thrown("bullet", base, velocity);
+    const Recording a = thrown("articulated", base, velocity);
+    const Recording b = thrown("bullet", base, velocity);
     double stops = 0;
     double touching = 0;
     const Table table(a.trace);
@@ -116,14 +117,14 @@ TEST(Engines, TraceRandomRobotsUnderTheSameMethod) {
     const Base base = std::array{Base::floating, Base::floating, Base::planar, Base::fixed}[i % 4];
     Scenario s = random_run(random, base, 40, random.uniform(0.05, 0.2));
     s.physics.integrator = s.physics.engine->integrator("rk4");
-    const RunRecord b = run(s);
+    const Recording b = run(s);
     s.physics.engine = catalog().engine("articulated");
     s.physics.integrator = s.physics.engine->integrator("rk4");
-    const RunRecord a = run(s);
+    const Recording a = run(s);
     worst = std::max(worst, difference(a.trace, b.trace));
     rubbed += a.ledger.friction;
     stopped += std::abs(a.ledger.stops);
-    for (const JointFigures& joint : a.joints) limited += joint.saturated_current;
+    for (const JointStatistics& joint : a.joints) limited += joint.saturated_current;
   }
   EXPECT_GT(rubbed, 0.1) << "J";
   EXPECT_GT(stopped, 0.1) << "J";
@@ -142,7 +143,7 @@ TEST(Engines, JudgeAnExplicitStepAlike) {
 
 /// Two rods of 1 kg and 1 m behind motors whose damping is as fast as they swing; angles at the end.
 std::array<double, 2> driven_rods(const std::string& engine, const std::string& integrator, double step) {
-  const RunRecord record = run(scenario(fmt::format(R"(
+  const Recording record = run(scenario(fmt::format(R"(
 gaitlab: 1
 robot:
   base: fixed
@@ -197,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(At, SetPointStep, testing::Values(5e-5, 1e-4, 2.5e-4, 5
 
 TEST_P(SetPointStep, DoesNotChatterAtTheCurrentLimit) {
   for (const char* integrator : {"adaptive", "implicit", "extrapolated"}) {
-    const RunRecord record = run(scenario(fmt::format(R"(
+    const Recording record = run(scenario(fmt::format(R"(
 gaitlab: 1
 robot: {{modules: mtran, build: robots/caterpillar-8.dat, base: fixed, on_ground: false, position: [0, 0, 1]}}
 ground: {{type: none}}
@@ -244,30 +245,14 @@ TEST_P(WalkOfTwoEngines, IsOneWalk) {
     sets.insert(sets.end(), {"duration=6", "trace.columns=[joint.*]"});
     return run(shipped(GetParam() + ".yaml", sets));
   };
-  const RunRecord bullet = with({"physics.engine=bullet", "physics.step=1.25e-5"});
-  const RunRecord ours = with({"physics.engine=articulated", "physics.integrator=extrapolated", "physics.step=1e-4"});
-  const std::size_t joints = bullet.joints.size();
-  double worst = 0;
-  for (std::size_t j = 0; j < joints; ++j) {
-    double square = 0;
-    double peak = 0;
-    double rows = 0;
-    for (std::size_t row = 0; row < bullet.trace.rows(); ++row) {
-      if (bullet.trace.at(row, 0) < kFrom) continue;
-      const std::size_t i = row * joints + j;
-      square += std::pow(bullet.torques[i] - ours.torques[i], 2);
-      peak = std::max(peak, std::abs(bullet.torques[i]));
-      ++rows;
-    }
-    worst = std::max(worst, std::sqrt(square / rows) / peak);
-  }
+  const Recording bullet = with({"physics.engine=bullet", "physics.step=1.25e-5"});
+  const Recording ours = with({"physics.engine=articulated", "physics.integrator=extrapolated", "physics.step=1e-4"});
+  const double worst = torques_off(ours, bullet, kFrom);
   const std::string what = "articulated, extrapolated at 0.1 ms, against bullet at 12.5 us: ";
   validate_below({"property.engines." + GetParam(), what + "RMS of any joint's torque over its peak, 4 to 6 s",
                   "another engine, another method", ""},
                  worst, 0.005, "required by the issue: 0.5 %");
-  const auto travel = [](const RunRecord& r) {
-    return Vec3(r.com_x.back() - r.com_x.front(), r.com_y.back() - r.com_y.front(), 0);
-  };
+  const auto travel = [](const Recording& r) { return Vec3(r.travel().x(), r.travel().y(), 0); };
   validate_below(
       {"property.engines." + GetParam() + "_travel", what + "displacement in 6 s", "another engine, another method", ""},
       (travel(bullet) - travel(ours)).norm() / travel(bullet).norm(), 0.003, "required by the issue: 0.3 %");
@@ -289,22 +274,12 @@ trace: {{columns: [joint.*]}}
 )",
                                     physics)));
   };
-  const RunRecord bullet = swung("engine: bullet, step: 1e-5");
-  const RunRecord ours = swung("engine: articulated, integrator: extrapolated, step: 1e-4");
+  const Recording bullet = swung("engine: bullet, step: 1e-5");
+  const Recording ours = swung("engine: articulated, integrator: extrapolated, step: 1e-4");
   double limited = 0;
-  double worst = 0;
-  for (std::size_t j = 0; j < bullet.joints.size(); ++j) {
-    double square = 0;
-    double peak = 0;
-    for (std::size_t i = j; i < bullet.torques.size(); i += bullet.joints.size()) {
-      square += std::pow(bullet.torques[i] - ours.torques[i], 2);
-      peak = std::max(peak, std::abs(bullet.torques[i]));
-    }
-    worst = std::max(worst, std::sqrt(square / static_cast<double>(bullet.trace.rows())) / peak);
-    limited = std::max(limited, bullet.joints[j].saturated_current);
-  }
+  for (const JointStatistics& joint : bullet.joints) limited = std::max(limited, joint.saturated_current);
   EXPECT_GT(limited, 0.05) << "share of the time";
-  EXPECT_LT(worst, 0.005) << "as on the ground; with the limit's corners extrapolated it is 0.014";
+  EXPECT_LT(torques_off(ours, bullet), 0.005) << "as on the ground; with the limit's corners extrapolated it is 0.014";
 }
 
 TEST(Articulated, IsThereForTheProgram) {

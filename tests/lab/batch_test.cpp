@@ -26,10 +26,10 @@ const std::vector<std::vector<std::string>> kOwn{
 };
 
 /// All that a rollout gives, as text that shows every bit.
-std::string bits(const RunRecord& record, const std::string& outcome) {
+std::string bits(const Recording& record, const std::string& outcome) {
   std::string text = fmt::format("{} {} steps, {} rows {}, ledger {:a} {:a}", outcome, record.steps, record.trace.rows(),
                                  hash(record.trace), record.ledger.electrical, record.ledger.residual());
-  for (const JointFigures& joint : record.joints) {
+  for (const JointStatistics& joint : record.joints) {
     text += fmt::format(", {:a} {:a} {:a}", joint.torque_rms, joint.speed_peak, joint.shaft);
   }
   return text;
@@ -43,7 +43,7 @@ std::string alone(const Scenario& scenario) {
   } catch (const SimulationError& error) {
     outcome = error.what();
   }
-  return bits(simulation.take_record(0), outcome);
+  return bits(simulation.take_recording(0), outcome);
 }
 
 TEST(Batch, EndsEveryRolloutAsAlone) {
@@ -57,10 +57,10 @@ TEST(Batch, EndsEveryRolloutAsAlone) {
     for (const int threads : {1, 2}) {
       std::mutex lock;
       std::vector<std::string> ends(all.size());
-      run_batch(all, {threads, lanes}, [&](std::size_t i, RolloutEnd&& end) {
+      run_batch(all, {threads, lanes}, [&](std::size_t i, Recording&& end) {
         const std::lock_guard hold(lock);
         EXPECT_TRUE(ends[i].empty()) << "told twice: " << i;
-        ends[i] = bits(end.record, end.outcome);
+        ends[i] = bits(end, end.outcome);
       });
       for (std::size_t i = 0; i < all.size(); ++i) {
         EXPECT_EQ(ends[i], expected[i]) << "rollout " << i << ", " << lanes << " lanes, " << threads << " threads";
@@ -79,7 +79,7 @@ TEST(Batch, MixesRobotsOfOneStructureAndKeepsOthersApart) {
   EXPECT_TRUE(can_share(all[1], all[2]));
   EXPECT_FALSE(can_share(all[0], all[1]));
   std::vector<std::string> ends(all.size());
-  run_batch(all, {}, [&](std::size_t i, RolloutEnd&& end) { ends[i] = bits(end.record, end.outcome); });
+  run_batch(all, {}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome); });
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(ends[i], alone(all[i])) << i;
 }
 
@@ -90,8 +90,7 @@ TEST(Batch, TellsOfTheOthersBesideOneThatIsRefused) {
       kScenarios + "hexapod.yaml",
       {"physics.engine=articulated", "physics.integrator=rk4", "physics.step=2.5e-5", "duration=0.01"}, own, catalog());
   std::vector<std::string> ends(all.size());
-  EXPECT_THROW(run_batch(all, {}, [&](std::size_t i, RolloutEnd&& end) { ends[i] = bits(end.record, end.outcome); }),
-               InputError);
+  EXPECT_THROW(run_batch(all, {}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome); }), InputError);
   EXPECT_TRUE(ends[1].empty()) << ends[1];
   for (const std::size_t i : {0U, 2U, 3U}) EXPECT_EQ(ends[i], alone(all[i]));
 }
@@ -100,7 +99,7 @@ TEST(Batch, RunsEveryEngine) {
   const std::vector<Scenario> all =
       rollouts(kScenarios + "pendulum.yaml", {"duration=0.05"}, std::vector<std::vector<std::string>>(3), catalog());
   std::vector<std::string> ends(all.size());
-  run_batch(all, {.threads = 2}, [&](std::size_t i, RolloutEnd&& end) { ends[i] = bits(end.record, end.outcome); });
+  run_batch(all, {.threads = 2}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome); });
   for (const std::string& end : ends) EXPECT_EQ(end, alone(all[0]));
 }
 

@@ -32,7 +32,7 @@ physics: {{engine: {}, integrator: rk4, step: {}{}
                               height, duration, engine, step, rest));
 }
 
-double end(const RunRecord& record, const std::string& column) {
+double end(const Recording& record, const std::string& column) {
   return Table(record.trace).at(record.trace.rows() - 1, column);
 }
 
@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Block, engines(), engine_name);
 TEST_P(Block, SlidesAsFarAsFrictionLetsIt) {
   const oracle::SlidingBlock law{0.8, 9.81, 0.01};
   const double sink = oracle::standing_sink(1, 9.81, 4, 1e4);
-  const RunRecord record = run(block(GetParam(), "}\ninitial: {base_velocity: [0.6, 0.8, 0]}", -sink, 5e-5, 0.2));
+  const Recording record = run(block(GetParam(), "}\ninitial: {base_velocity: [0.6, 0.8, 0]}", -sink, 5e-5, 0.2));
   validate({"closed.block.slide.distance", "block sliding obliquely at 1 m/s on four points: stopping distance", kEq12, "m"},
            std::hypot(end(record, "base.x"), end(record, "base.y")), law.stops_after(1), 1e-8,
            "the speed wrong by at most 8e-6 m/s for the last 1.3 ms (row slide.speed)");
@@ -62,7 +62,7 @@ TEST_P(Block, SlidesAsFarAsFrictionLetsIt) {
 TEST_P(Block, CreepsDownASlope) {
   const double a = 0.2;
   const double sink = oracle::standing_sink(1, 9.81 * std::cos(a), 4, 1e4);
-  const RunRecord record =
+  const Recording record =
       run(block(GetParam(), fmt::format(", gravity: [{:.17g}, 0, {:.17g}]}}", 9.81 * std::sin(a), -9.81 * std::cos(a)), -sink,
                 1e-4, 0.1));
   validate({"closed.block.creep", "block on a slope of 0.2 rad: speed at which it creeps, v_lim tan(a) / f", kEq12, "m/s"},
@@ -71,7 +71,7 @@ TEST_P(Block, CreepsDownASlope) {
 }
 
 TEST_P(Block, SinksUntilTheGroundCarriesIt) {
-  const RunRecord record = run(block(GetParam(), "}", 0, 1e-4, 1));
+  const Recording record = run(block(GetParam(), "}", 0, 1e-4, 1));
   validate({"closed.block.sink", "block let down on four points: sink m g / (n Kn) after 1 s", kEq12, "m"},
            -end(record, "base.z"), oracle::standing_sink(1, 9.81, 4, 1e4), 1e-15,
            "the swing is gone (exp(-49)); rounding of forces of 10 N over 4e4 N/m");
@@ -80,7 +80,7 @@ TEST_P(Block, SinksUntilTheGroundCarriesIt) {
 TEST_P(Block, SwingsOnLinearDampers) {
   const oracle::StandingBlock law{1, 4, 1e4, 20};
   const double sink = oracle::standing_sink(1, 9.81, 4, 1e4);
-  const RunRecord record = run(block(GetParam(), "}\ncontact: {damping: 20, damping_exponent: 0}", 1e-4 - sink, 5e-5, 0.08));
+  const Recording record = run(block(GetParam(), "}\ncontact: {damping: 20, damping_exponent: 0}", 1e-4 - sink, 5e-5, 0.08));
   const Table table(record.trace);
   double worst = 0;
   for (std::size_t row = 0; row < record.trace.rows(); ++row)
@@ -92,7 +92,7 @@ TEST_P(Block, SwingsOnLinearDampers) {
 
 TEST_P(Block, BouncesWithWhatDampingLeaves) {
   for (const double speed : {0.02, 0.1, 0.5}) {
-    const RunRecord record =
+    const Recording record =
         run(block(GetParam(), fmt::format(", gravity: [0, 0, 0]}}\ninitial: {{base_velocity: [0, 0, -{}]}}", speed),
                   1e-3 * speed, 1e-5, 0.03));
     validate(

@@ -6,12 +6,12 @@ namespace gaitlab::test {
 namespace {
 
 /// One run of 16 s for all tests of this file.
-const RunRecord& walk() {
-  static const RunRecord record = run(shipped("caterpillar.yaml", {"duration=16"}));
+const Recording& walk() {
+  static const Recording record = run(shipped("caterpillar.yaml", {"duration=16"}));
   return record;
 }
 
-double travel(const RunRecord& record, double from, double to) {
+double travel(const Recording& record, double from, double to) {
   const Table table(record.trace);
   return table(to, "com.x") - table(from, "com.x");
 }
@@ -58,7 +58,7 @@ TEST(Walk, MotorsDrawMoreThanTheirCopperLosesOverWholeCycles) {
 }
 
 TEST(Walk, ReversedLagWalksBack) {
-  const RunRecord back = run(shipped("caterpillar.yaml", {"duration=8", "cpg.phase_lag=-1.2"}));
+  const Recording back = run(shipped("caterpillar.yaml", {"duration=8", "cpg.phase_lag=-1.2"}));
   // 1 %: the start differs (which end leads), the cycle does not.
   EXPECT_NEAR(travel(back, 4, 8), -travel(walk(), 4, 8), 0.01 * 0.1087);
 }
@@ -87,7 +87,7 @@ trace: {columns: [joint.*, contact.*, body.*, com.*]}
 }
 
 TEST(Standing, ContactForcesCarryTheWeightAndCurrentsTheStaticTorque) {
-  const RunRecord record = run(posture());
+  const Recording record = run(posture());
   const Robot& robot = *posture().robot;
   const Table table(record.trace);
   const std::size_t last = record.trace.rows() - 1;
@@ -98,9 +98,8 @@ TEST(Standing, ContactForcesCarryTheWeightAndCurrentsTheStaticTorque) {
     state.q.push_back(table.at(last, fmt::format("joint.{}.angle", j)));
     state.qd.push_back(0);
   }
-  const double* pose = record.poses.data() + record.poses.size() - 7;
-  state.position = Vec3(pose[0], pose[1], pose[2]);
-  state.orientation = Quat(pose[3], pose[4], pose[5], pose[6]);
+  state.position = record.state(robot, last).position;
+  state.orientation = record.state(robot, last).orientation;
   k.update(robot, state);
   std::vector<Vec3> forces;
   Vec3 total = Vec3::Zero();

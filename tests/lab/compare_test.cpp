@@ -1,9 +1,9 @@
 // What users see of compare and export, and of traces as HDF5: whole outputs, whole messages.
 #include <nlohmann/json.hpp>
 
-#include "core/trace/csv.h"
-#include "core/trace/h5.h"
-#include "core/trace/run_files.h"
+#include "core/recording/csv.h"
+#include "core/recording/h5.h"
+#include "core/recording/run_files.h"
 #include "fixture.h"
 
 namespace gaitlab::test {

@@ -31,7 +31,7 @@ trace: {{period: 0.01, columns: [energy.*, momentum.*, angular_momentum.*]}}
 
 /// Largest relative change over the run of kinetic energy, momentum, angular momentum.
 std::array<double, 3> drift(const Scenario& scenario) {
-  const RunRecord record = run(scenario);
+  const Recording record = run(scenario);
   const Table table(record.trace);
   const auto vec = [&](std::size_t row, const std::string& name) {
     return Vec3(table.at(row, name + ".x"), table.at(row, name + ".y"), table.at(row, name + ".z"));

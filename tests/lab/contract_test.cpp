@@ -140,7 +140,7 @@ TEST_P(Contract, TheManualsScenarioRuns) {
   const std::string body = GetParam().kind == Kind::cpg
                                ? text(own)
                                : "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.06\n" + own;
-  const RunRecord record = run(scenario(body));
+  const Recording record = run(scenario(body));
   EXPECT_EQ(record.trace.rows(), 13U);
 }
 

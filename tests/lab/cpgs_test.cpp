@@ -16,7 +16,7 @@ Gait walk_under(const std::string& type, double lag) {
   constexpr double kFrom = 3.5, kUntil = 8;
   std::vector<std::string> sets{"cpg.type=" + type, fmt::format("cpg.phase_lag={}", lag), "duration=8"};
   if (type == "wave") sets.push_back("plugins=[" + std::string(GAITLAB_BINARY_DIR) + "/plugins/wave.so]");
-  const RunRecord record = run(shipped("caterpillar.yaml", sets));
+  const Recording record = run(shipped("caterpillar.yaml", sets));
   const Table table(record.trace);
   std::vector<std::vector<double>> rises(16);  // of each joint's angle through 0
   for (std::size_t j = 0; j < 16; ++j) {
@@ -88,8 +88,8 @@ TEST(EquationRuns, ThatLeaveTheNumbersNameJointAndState) {
 }
 
 TEST(EquationRuns, TheFileWithItsEquationsWalksAsTheNativeModel) {
-  const RunRecord native = run(shipped("caterpillar.yaml", {"duration=1"}));
-  const RunRecord written = run(shipped("caterpillar-equations.yaml", {"duration=1"}));
+  const Recording native = run(shipped("caterpillar.yaml", {"duration=1"}));
+  const Recording written = run(shipped("caterpillar-equations.yaml", {"duration=1"}));
   ASSERT_EQ(native.trace.rows(), 201U);
   EXPECT_EQ(native.trace.values, written.trace.values);  // to the bit: the same operations in the same order
 }

@@ -2,8 +2,8 @@
 #include <locale>
 
 #include "allocations.h"
+#include "core/recording/trace.h"
 #include "core/scenario/scenario.h"
-#include "core/trace/trace.h"
 #include "engines.h"
 
 namespace gaitlab::test {
@@ -91,7 +91,7 @@ struct Clock final : Cpg {
 
 TEST(Simulation, CpgStatesAreIntegratedToFourthOrder) {
   add_cpg<Clock>(catalog(), "clock", "a test's");
-  const RunRecord record = run(shipped("caterpillar.yaml", {"duration=0.6", "cpg.type=clock", "trace.columns=[cpg.*]"}));
+  const Recording record = run(shipped("caterpillar.yaml", {"duration=0.6", "cpg.type=clock", "trace.columns=[cpg.*]"}));
   // Simpson's rule at 15 ms: h^4 / 2880 * max of 16 cos(2t) * 0.6 s = 1.7e-10.
   EXPECT_NEAR(Table(record.trace)(0.6, "cpg.0"), 0.5 * math::sin(1.2), 2e-10);
 }

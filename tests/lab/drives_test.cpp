@@ -33,7 +33,7 @@ const std::string kEq12 = "closed form of eq. 1, 2 (docs/equations.md, 3)";
 
 /// Worst speed while the current is limited and afterwards, over 0.3 s at 7.4 V.
 std::array<double, 2> spin_up(const oracle::MotorSpinUp& motor, double rotor) {
-  const RunRecord record = run(scenario(flywheel("[0, 0, 0]") + fmt::format(R"(
+  const Recording record = run(scenario(flywheel("[0, 0, 0]") + fmt::format(R"(
 physics: {{integrator: rk4, step: 1e-4}}
 actuator: {{rotor_inertia: {}}}
 controller: {{type: hold, command: 7.4, period: 1e-3}}
@@ -73,7 +73,7 @@ TEST(Motor, HoldsAWeight) {
   // 2 V at rest: eta Kt n u / R = m g l sin(q).
   const double torque = 0.7 * 0.00395 * 594 * 2 / 4.3;
   const double angle = std::asin(torque / (9.81 * 0.1));
-  const RunRecord record = run(scenario(flywheel("[0, 0, -0.1]") + fmt::format(R"(
+  const Recording record = run(scenario(flywheel("[0, 0, -0.1]") + fmt::format(R"(
 initial: {{angles: {:.17g}}}
 physics: {{integrator: rk4, step: 1e-3}}
 controller: {{type: hold, command: 2, period: 1e-3}}
@@ -94,7 +94,7 @@ TEST(HingeStop, ThrowsBackWhatDampingLeaves) {
   std::string text = flywheel("[0, 0, 0]");
   text.replace(text.find("[-1000, 1000]"), 13, "[-1, 0]");
   // Starts at the limit with 1 rad/s; a step of 1 us, because the stop's torque jumps by cs v where it is touched.
-  const RunRecord record = run(scenario(text + R"(
+  const Recording record = run(scenario(text + R"(
 initial: {speeds: 1}
 actuator: {type: none}
 physics: {integrator: rk4, step: 1e-6}
@@ -114,7 +114,7 @@ trace: {period: 0.005, columns: [joint.*]}
 }
 
 TEST(PidLoop, IsTheTextbooks) {
-  const RunRecord record = run(scenario(flywheel("[0, 0, -0.1]") + R"(
+  const Recording record = run(scenario(flywheel("[0, 0, -0.1]") + R"(
 physics: {integrator: semi_implicit, step: 1e-3}
 controller: {type: pid, period: 0.015, Kp: 3, Ki: 2, Kd: 0.2, N: 5, anti_windup: false}
 cpg: {type: sine, frequency: 1, amplitude: 0.5}
@@ -136,7 +136,7 @@ trace: {period: 0.015, columns: [joint.*]}
 
 TEST(PidLoop, DoesNotWindUp) {
   // A supply of 1 V: the command is beyond it for most of the time, also where the error changes its sign.
-  const RunRecord record = run(scenario(flywheel("[0, 0, -0.1]") + R"(
+  const Recording record = run(scenario(flywheel("[0, 0, -0.1]") + R"(
 physics: {integrator: semi_implicit, step: 1e-3}
 actuator: {u_max: 1}
 controller: {type: pid, period: 0.015, Kp: 50, Ki: 300, Kd: 0.2, N: 20}
@@ -174,7 +174,7 @@ contact: {on: none}
 actuator: {type: none}
 physics: {integrator: semi_implicit, step: 1e-3, gravity: [0, 0, 0]}
 )";
-  const RunRecord record = run(scenario(mtran + R"(
+  const Recording record = run(scenario(mtran + R"(
 cpg: {type: phase_oscillator, frequency: [0.85, 0.25], phase_lag: 1.2, step: 1e-3, model: {coupling: 5}}
 duration: 3
 trace: {period: 0.015, columns: [cpg.*]}
@@ -199,7 +199,7 @@ trace: {period: 0.015, columns: [cpg.*]}
 
 TEST(PhaseChain, LocksAllAlong) {
   // Sixteen joints, each follows the one before it; the first is faster: every link of the chain lags by asin(detuning / w).
-  const RunRecord record = run(scenario(R"(
+  const Recording record = run(scenario(R"(
 gaitlab: 1
 robot: {modules: mtran, build: robots/caterpillar-8.dat, position: [0, 0, 1]}
 ground: {type: none}

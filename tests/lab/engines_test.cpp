@@ -1,6 +1,7 @@
 // What acts while something slips, rolls or hits a stop, in every engine, by what comes out: closed forms, balances, and the
 // engines against each other.
 #include "engines.h"
+#include "torques.h"
 
 #include <cmath>
 
@@ -16,7 +17,7 @@ TEST_P(Rolling, GoesOnAtTheDepthOfItsWeight) {
   constexpr double kRadius = 0.05;
   constexpr double kDepth = 1.5 * 9.81 / 1e4;  // m g / Kn
   for (const char* base : {"floating", "planar"}) {
-    const RunRecord record = run(scenario(fmt::format(R"(
+    const Recording record = run(scenario(fmt::format(R"(
 gaitlab: 1
 robot:
   base: {}
@@ -61,7 +62,7 @@ trace: {{columns: [joint.*, com.*]}}
 )",
                                     engine)));
   };
-  const RunRecord bullet = walk("engine: bullet, step: 1e-5");
+  const Recording bullet = walk("engine: bullet, step: 1e-5");
   EXPECT_GT(bullet.ledger.friction, 0.1) << "J";
   struct Bound {
     const char* integrator;
@@ -70,23 +71,10 @@ trace: {{columns: [joint.*, com.*]}}
   // Measured 0.00015 and 0.013, 0.0001 and 0.0009. With the slope of friction along the slip the wrong way, which only the
   // step's matrix sees: 0.005 and 0.027, 0.0014 and 0.004.
   for (const Bound& bound : {Bound{"implicit", 0.001, 0.02}, Bound{"extrapolated", 0.0005, 0.002}}) {
-    const RunRecord ours = walk(fmt::format("engine: articulated, integrator: {}, step: 5e-4", bound.integrator));
-    const auto travel = [](const RunRecord& r) {
-      return Vec3(r.com_x.back() - r.com_x.front(), r.com_y.back() - r.com_y.front(), 0);
-    };
+    const Recording ours = walk(fmt::format("engine: articulated, integrator: {}, step: 5e-4", bound.integrator));
+    const auto travel = [](const Recording& r) { return Vec3(r.travel().x(), r.travel().y(), 0); };
     EXPECT_LT((travel(bullet) - travel(ours)).norm() / travel(bullet).norm(), bound.travel) << bound.integrator;
-    const std::size_t joints = bullet.joints.size();
-    double worst = 0;
-    for (std::size_t j = 0; j < joints; ++j) {
-      double square = 0;
-      double peak = 0;
-      for (std::size_t i = j; i < bullet.torques.size(); i += joints) {
-        square += std::pow(bullet.torques[i] - ours.torques[i], 2);
-        peak = std::max(peak, std::abs(bullet.torques[i]));
-      }
-      worst = std::max(worst, std::sqrt(square / static_cast<double>(bullet.trace.rows())) / peak);
-    }
-    EXPECT_LT(worst, bound.torque) << bound.integrator << ": RMS of a joint's torque over its peak";
+    EXPECT_LT(torques_off(ours, bullet), bound.torque) << bound.integrator << ": RMS of a joint's torque over its peak";
   }
 }
 

@@ -35,10 +35,10 @@ inline Scenario scenario(const std::string& text, const std::vector<std::string>
   return read_scenario(folder.write("test.yaml", text), sets, catalog());
 }
 
-inline RunRecord run(const Scenario& scenario) {
+inline Recording run(const Scenario& scenario) {
   Simulation simulation({&scenario, 1});
   simulation.run();
-  return simulation.take_record(0);
+  return simulation.take_recording(0);
 }
 
 /// A column by name; a missing one is a test failure.

@@ -16,7 +16,7 @@ std::string list(const Mat3& m) {
 }
 
 /// Three bodies and two hinges on axes that are not parallel, the same robot whatever the turns of its hinge frames; thrown.
-RunRecord thrown(const std::array<Mat3, 2>& turns, const Mat3& world) {
+Recording thrown(const std::array<Mat3, 2>& turns, const Mat3& world) {
   const std::array<Vec3, 2> origin{Vec3(0.1, 0.05, -0.2), Vec3(-0.05, 0.3, 0.1)};  // in the frame of the body before, unturned
   const std::array<Vec3, 2> axis{Vec3(0.6, 0, 0.8), Vec3(0, 1, 0)};
   const Vec3 com(0.03, -0.04, 0.1);
@@ -57,7 +57,7 @@ trace: {{period: 0.1, columns: [joint.*, base.*]}}
 }
 
 /// Worst difference of the columns that match.
-double apart(const RunRecord& a, const RunRecord& b, const std::string& pattern) {
+double apart(const Recording& a, const Recording& b, const std::string& pattern) {
   double worst = 0;
   std::size_t compared = 0;
   for (std::size_t c = 0; c < a.trace.columns.size(); ++c) {
@@ -74,8 +74,8 @@ const Mat3 kPlain = Mat3::Identity();
 const std::string kRounding = "rounding of 1000 steps of numbers of 10, multiplied by the motion's own growth";
 
 TEST(ForeignRobot, FramesOfHingesAreFree) {
-  const RunRecord plain = thrown({kPlain, kPlain}, kPlain);
-  const RunRecord turned = thrown({rpy({0.7, -1.1, 2}), rpy({-2, 0.4, 0.9})}, kPlain);
+  const Recording plain = thrown({kPlain, kPlain}, kPlain);
+  const Recording turned = thrown({rpy({0.7, -1.1, 2}), rpy({-2, 0.4, 0.9})}, kPlain);
   validate_below(
       {"property.foreign.frames", "three bodies thrown, written in turned hinge frames: worst joint angle or speed in 1 s",
        "the same robot in plain frames", "rad, rad/s"},
@@ -88,8 +88,8 @@ TEST(ForeignRobot, FramesOfHingesAreFree) {
 
 TEST(ForeignRobot, TheWorldMayBeTurned) {
   const Mat3 world = rpy({1.2, -0.5, 2.2});
-  const RunRecord plain = thrown({kPlain, kPlain}, kPlain);
-  const RunRecord turned = thrown({kPlain, kPlain}, world);
+  const Recording plain = thrown({kPlain, kPlain}, kPlain);
+  const Recording turned = thrown({kPlain, kPlain}, world);
   validate_below({"property.foreign.world", "three bodies thrown, start and gravity turned: worst joint angle or speed in 1 s",
                   "the same throw, not turned", "rad, rad/s"},
                  apart(plain, turned, "joint.*"), 1e-12, kRounding);
@@ -108,7 +108,7 @@ TEST(ForeignRobot, TheWorldMayBeTurned) {
 }
 
 /// Two links thrown in the plane y = 0.
-RunRecord in_plane(const std::string& base) {
+Recording in_plane(const std::string& base) {
   return run(scenario(fmt::format(R"(
 gaitlab: 1
 robot:
@@ -136,8 +136,8 @@ trace: {{period: 0.1, columns: [joint.*, base.*]}}
 }
 
 TEST(ForeignRobot, APlanarBaseIsAFloatingOneInThePlane) {
-  const RunRecord planar = in_plane("planar");
-  const RunRecord floating = in_plane("floating");
+  const Recording planar = in_plane("planar");
+  const Recording floating = in_plane("floating");
   // The floating one leaves the plane by rounding only: the plane of symmetry holds every COM.
   validate_below(
       {"property.foreign.planar", "three bodies thrown in the plane y = 0, planar base: worst joint angle or speed in 1 s",

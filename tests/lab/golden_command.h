@@ -1,8 +1,8 @@
 // What the tests of `approve` and `test` share: a folder with a scenario and its golden.
 #pragma once
-#include "core/trace/atomic_file.h"
-#include "core/trace/golden.h"
+#include "core/recording/atomic_file.h"
 #include "fixture.h"
+#include "golden/golden.h"
 
 namespace gaitlab::test {
 

@@ -41,7 +41,7 @@ physics: {{engine: {}, integrator: rk4, step: 5e-5}}
                               slope, ground, duration, engine, rest));
 }
 
-double end(const RunRecord& record, const std::string& column) {
+double end(const Recording& record, const std::string& column) {
   return Table(record.trace).at(record.trace.rows() - 1, column);
 }
 
@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Of, OnGround, engines(), engine_name);
 // As on the plane under a tilted gravity, but for the ground's place.
 TEST_P(OnGround, HoldsABlockOnATiltedBoxByFriction) {
   for (const std::string& ground : {kTiltedBox, tilted_field()}) {
-    const RunRecord record = run(block(GetParam(), ground, kSlope, "", 0.4));
+    const Recording record = run(block(GetParam(), ground, kSlope, "", 0.4));
     const double creep = oracle::SlidingBlock{0.8, 9.81, 0.01}.creeps(kSlope);
     validate({"closed.block.tilted.creep", "block on a box or heightfield tilted by 0.2 rad: speed at which it creeps", kEq12,
               "m/s"},
@@ -79,7 +79,7 @@ TEST_P(OnGround, HoldsABlockOnATiltedBoxByFriction) {
 TEST_P(OnGround, LetsABlockSlideWhereFrictionIsTooSmall) {
   // f = 0.1 < tan(0.2): from v_lim on it accelerates by g (sin a - f cos a).
   const std::string box = "{type: boxes, boxes: [{center: [0, 0, 1], size: [4, 1, 0.2], rpy: [0, 0.2, 0], friction: 0.1}]}";
-  const RunRecord record = run(block(GetParam(), box, kSlope, "", 0.4));
+  const Recording record = run(block(GetParam(), box, kSlope, "", 0.4));
   const Table table(record.trace);
   const auto speed = [&](double t) { return std::hypot(table(t, "base.vx"), table(t, "base.vz")); };
   validate({"closed.block.tilted.slide", "block on a box tilted by 0.2 rad, f = 0.1: acceleration", kEq12, "m/s^2"},
@@ -104,7 +104,7 @@ trace: {{period: 1e-3, columns: [base.*, contact.*]}}
 physics: {{engine: {}, step: 2.5e-5, gravity: [3, 0, -9.81]}}
 )",
                                           GetParam()));
-  const RunRecord record = run(s);
+  const Recording record = run(s);
   // Kn times the depths: 3 N against the wall, 9.81 N on the floor.
   const std::string what = "ball pressed into the corner of floor and wall: depth ";
   validate({"closed.corner.wall", what + "in the wall, m g_x / Kn", kEq12, "m"}, end(record, "base.x") + 0.05, 3e-4, 5e-14,

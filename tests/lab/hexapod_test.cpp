@@ -14,7 +14,7 @@ struct Walked {
   explicit Walked(Scenario s)
       : scenario(std::move(s)), record(run(scenario)), table(record.trace), legs(find_legs(info(*scenario.robot))) {}
   Scenario scenario;
-  RunRecord record;
+  Recording record;
   Table table;
   std::vector<Leg> legs;
   std::vector<ContactElement> contacts = contact_elements(*scenario.robot, ContactSet::feet);
@@ -45,14 +45,8 @@ struct Walked {
   /// Motion at a trace tick.
   [[nodiscard]] Kinematics at(double t) const {
     const auto tick = static_cast<std::size_t>(std::llround(t / scenario.trace.period));
-    const std::size_t n = scenario.robot->joints.size();
-    RobotState state;
-    const double* p = record.poses.data() + 7 * tick;
-    state.position = Vec3(p[0], p[1], p[2]);
-    state.orientation = Quat(p[3], p[4], p[5], p[6]);
-    state.q.assign(record.angles.begin() + static_cast<std::ptrdiff_t>(tick * n),
-                   record.angles.begin() + static_cast<std::ptrdiff_t>((tick + 1) * n));
-    for (std::size_t j = 0; j < n; ++j) state.qd.push_back(table(t, fmt::format("joint.{}.speed", j)));
+    RobotState state = record.state(*scenario.robot, tick);
+    for (std::size_t j = 0; j < state.qd.size(); ++j) state.qd[j] = table(t, fmt::format("joint.{}.speed", j));
     state.velocity = Vec3(table(t, "base.vx"), table(t, "base.vy"), table(t, "base.vz"));
     state.angular_velocity = Vec3(table(t, "base.wx"), table(t, "base.wy"), table(t, "base.wz"));
     Kinematics k(*scenario.robot);
@@ -115,7 +109,7 @@ TEST(Walk, HexapodWalksUprightOnItsTripods) {
 TEST(Walk, OctopodWalksByTheSameMeasures) { expect_walks(Walked(shipped("octopod.yaml", {"duration=12"})), 0.025); }
 
 TEST(Walk, GaitBackwardsInTimeTravelsBack) {
-  const RunRecord back = run(shipped("hexapod.yaml", {"duration=6", "cpg.model.reverse=true"}));
+  const Recording back = run(shipped("hexapod.yaml", {"duration=6", "cpg.model.reverse=true"}));
   const Table t(back.trace);
   const double forward = hexapod().table(6, "com.x") - hexapod().table(2, "com.x");
   // The robot is not symmetric about its middle (fronts and rears of its spine differ): 10 %.

@@ -168,7 +168,7 @@ std::string with(std::string text, const std::string& old, const std::string& no
 
 TEST(Keyframes, ReadFromAScenarioMovesEveryJointThroughItsFrames) {
   const Scenario s = scenario(kScenario);
-  const RunRecord r = run(s);
+  const Recording r = run(s);
   const Table table(r.trace);
   // The row at t holds the set point of the last control tick before t (every 0.015 s): 0.6 s is one, in force until 0.615 s.
   const double expected[4] = {0, 0.1, 0.2, -0.3};

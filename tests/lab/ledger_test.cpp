@@ -27,14 +27,14 @@ TEST_P(LedgerOf, ExplainsTheElectricalEnergy) {
 INSTANTIATE_TEST_SUITE_P(Robots, LedgerOf, testing::Values("caterpillar.yaml", "hexapod.yaml"));
 
 TEST(Ledger, DirectionalGearsCreateNothing) {
-  const RunRecord printed = run(shipped("hexapod.yaml", {kShort}));
-  const RunRecord directional = run(shipped("hexapod.yaml", {kShort, "actuator.efficiency_model=directional"}));
+  const Recording printed = run(shipped("hexapod.yaml", {kShort}));
+  const Recording directional = run(shipped("hexapod.yaml", {kShort, "actuator.efficiency_model=directional"}));
   double created = 0;
-  for (const JointFigures& joint : printed.joints) created += joint.created;
+  for (const JointStatistics& joint : printed.joints) created += joint.created;
   EXPECT_GT(created, 0.05 * printed.ledger.electrical);  // measured: 0.2 of it; the reason for the model
   const double electrical = directional.ledger.electrical;
   double most = 0;
-  for (const JointFigures& joint : directional.joints) most = std::max(most, joint.created);
+  for (const JointStatistics& joint : directional.joints) most = std::max(most, joint.created);
   validate_below(
       {"ledger.directional_created", "hexapod, directional gears, 1.5 s: most that any joint's gear creates, of what is drawn",
        "a gear loses", ""},
@@ -73,7 +73,7 @@ trace: {{period: 0.01, columns: [energy.*]}}
 
 // A hinge that swings against its stop and back, thrice: what the stop takes is what is missing, and nothing else acts.
 TEST_P(LedgerIn, BooksWhatAStopTakes) {
-  const RunRecord record = run(scenario(fmt::format(R"(
+  const Recording record = run(scenario(fmt::format(R"(
 gaitlab: 1
 robot:
   base: fixed
@@ -105,7 +105,7 @@ trace: {{period: 0.01, columns: [energy.*, joint.*]}}
 }
 
 TEST(Ledger, RowsAndSummaryHoldTheSameSums) {
-  const RunRecord record = run(shipped("caterpillar.yaml", {"duration=0.3", kColumns}));
+  const Recording record = run(shipped("caterpillar.yaml", {"duration=0.3", kColumns}));
   const Table table(record.trace);
   const std::size_t last = record.trace.rows() - 1;
   EXPECT_EQ(table.at(0, "energy.electrical"), 0);
@@ -113,7 +113,7 @@ TEST(Ledger, RowsAndSummaryHoldTheSameSums) {
   EXPECT_EQ(table.at(last, "energy.friction"), record.ledger.friction);
   EXPECT_EQ(table.at(last, "energy.residual"), record.ledger.residual());
   double electrical = 0;
-  for (const JointFigures& joint : record.joints) electrical += joint.electrical;
+  for (const JointStatistics& joint : record.joints) electrical += joint.electrical;
   // The same numbers, added up in another order.
   EXPECT_NEAR(table.at(last, "energy.electrical"), electrical, 1e-12 * electrical);
 }

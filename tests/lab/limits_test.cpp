@@ -10,15 +10,17 @@ namespace gaitlab::test {
 namespace {
 
 /// RMS over the rows over the joint's peak, which counts as at least 2 % of the largest of all; of the worst joint.
-double torque_error(const RunRecord& measured, const RunRecord& truth) {
+double torque_error(const Recording& measured, const Recording& truth) {
   const std::size_t joints = truth.joints.size();
-  const std::size_t rows = truth.torques.size() / joints;
-  EXPECT_EQ(measured.torques.size(), truth.torques.size());
+  EXPECT_EQ(measured.rows(), truth.rows());
   std::vector<double> peak(joints), square(joints);
-  for (std::size_t k = 0; k < rows * joints; ++k) {
-    const double d = measured.torques[k] - truth.torques[k];
-    peak[k % joints] = std::max(peak[k % joints], std::abs(truth.torques[k]));
-    square[k % joints] += d * d / static_cast<double>(rows);
+  for (std::size_t j = 0; j < joints; ++j) {
+    const Series one = measured.joint(j, "torque");
+    const Series other = truth.joint(j, "torque");
+    for (std::size_t row = 0; row < other.size(); ++row) {
+      peak[j] = std::max(peak[j], std::abs(other[row]));
+      square[j] += std::pow(one[row] - other[row], 2) / static_cast<double>(truth.rows());
+    }
   }
   const double largest = *std::max_element(peak.begin(), peak.end());
   double worst = 0;
@@ -26,22 +28,22 @@ double torque_error(const RunRecord& measured, const RunRecord& truth) {
   return worst;
 }
 
-double at_limit(const JointFigures& joint) { return joint.saturated_voltage + joint.saturated_current; }
+double at_limit(const JointStatistics& joint) { return joint.saturated_voltage + joint.saturated_current; }
 
 /// Mean over all joints and time.
-double at_limit(const RunRecord& record) {
+double at_limit(const Recording& record) {
   double sum = 0;
-  for (const JointFigures& joint : record.joints) sum += at_limit(joint) / static_cast<double>(record.joints.size());
+  for (const JointStatistics& joint : record.joints) sum += at_limit(joint) / static_cast<double>(record.joints.size());
   return sum;
 }
 
-double outside_range(const RunRecord& record) {
+double outside_range(const Recording& record) {
   double most = 0;
-  for (const JointFigures& joint : record.joints) most = std::max(most, joint.range_share);
+  for (const JointStatistics& joint : record.joints) most = std::max(most, joint.range_share);
   return most;
 }
 
-double travel(const RunRecord& r) { return std::hypot(r.com_x.back() - r.com_x.front(), r.com_y.back() - r.com_y.front()); }
+double travel(const Recording& r) { return r.travel().head<2>().norm(); }
 
 struct Case {
   std::string name;
@@ -116,10 +118,10 @@ class Limits : public testing::TestWithParam<Case> {};
 
 TEST_P(Limits, AreMetAsByBulletAtAFineStep) {
   const Case& c = GetParam();
-  const RunRecord truth = run(c.with({"physics.engine=bullet", fmt::format("physics.step={}", kFine)}));
+  const Recording truth = run(c.with({"physics.engine=bullet", fmt::format("physics.step={}", kFine)}));
   const Scenario s = c.with({"physics.engine=articulated"});
   EXPECT_TRUE(s.physics.adaptive_step);
-  const RunRecord ours = run(s);
+  const Recording ours = run(s);
   EXPECT_GE(at_limit(truth), c.limited);
   if (c.name == "beyond_the_stops") {
     EXPECT_GT(outside_range(truth), 0.05);
@@ -157,7 +159,7 @@ TEST(StiffGround, MakesNoEnergyAndTheRobotWalksAsFar) {
   EXPECT_NEAR(far, 36.6e-3, 1e-5);  // at 2.5 us: 36.5995 mm
   for (const char* step : {"2.5e-3", "5e-3", "auto"}) {
     const Scenario s = scenario(text, {"physics.engine=articulated", std::string("physics.step=") + step});
-    const RunRecord r = run(s);
+    const Recording r = run(s);
     validate_below(
         {"limits.stiff_ground", "ground of Kn 1e6 N/m at steps of 2.5 ms, 5 ms and auto: energy missing, of what is drawn",
          "conservation of energy", ""},

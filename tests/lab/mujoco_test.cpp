@@ -171,13 +171,13 @@ TEST(Mujoco, MovesTheSameWithoutMotorsAndContacts) {
     s.physics.step = std::array{2.5e-4, 2e-4, 1.25e-4, 1e-4}[random.below(4)];
     s.duration = 0.2;
     s.trace.period = s.control_period = s.cpg_step = 0.2;
-    const RunRecord record = run(s);
+    const Recording record = run(s);
     InMujoco mujoco(s);
     for (std::int64_t step = 0; step < std::llround(s.duration / s.physics.step); ++step)
       mj_step(&mujoco.model(), &mujoco.data());
     const std::size_t joints = s.robot->joints.size();
     for (std::size_t j = 0; j < joints; ++j) {
-      worst = std::max(worst, std::abs(record.angles[joints + j] - mujoco.q(j)));
+      worst = std::max(worst, std::abs(record.joint(j, "angle")[1] - mujoco.q(j)));
     }
     const RobotState end = record.state(*s.robot, 1);
     const double* q = mujoco.data().qpos;

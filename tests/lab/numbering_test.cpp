@@ -122,8 +122,8 @@ trace: {{columns: [joint.*, com.*]}}
 )",
                                     docks, GetParam())));
   };
-  const RunRecord along = walk([](int m) { return m; });
-  const RunRecord against = walk([](int m) { return m == 0 ? 0 : 11 - m; });
+  const Recording along = walk([](int m) { return m; });
+  const Recording against = walk([](int m) { return m == 0 ? 0 : 11 - m; });
   const Table a(along.trace);
   const Table b(against.trace);
   // The gait's tripods are those of the first leg, front left, whatever its number.

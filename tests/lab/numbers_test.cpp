@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 struct Walk {
   Scenario scenario = shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=0.5"});
-  RunRecord record = run(scenario);
+  Recording record = run(scenario);
   Summary summary = summarise(scenario, record, 1);
   Json json = Json::parse(to_json(summary, scenario, record));
 };
@@ -79,7 +79,7 @@ TEST(Numbers, TheSummaryHoldsNothingElse) {
 /// Rows of every step. A row is the left limit: it holds the set point of the step before, whose start is the row before.
 TEST(Numbers, TheWorstTrackingErrorIsWhereTheTraceHasIt) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=0.3", "trace.period=2.5e-5"});
-  const RunRecord r = run(s);
+  const Recording r = run(s);
   const Json worst = Json::parse(to_json(summarise(s, r, 1), s, r)).at("tracking_error");
   const double largest = worst.at("worst");
   const double h = s.physics.step;
@@ -97,7 +97,7 @@ TEST(Numbers, TheWorstTrackingErrorIsWhereTheTraceHasIt) {
   EXPECT_GT(largest, 0.01);
 
   const Scenario still = shipped("pendulum.yaml", {"duration=0.1"});
-  const RunRecord swings = run(still);
+  const Recording swings = run(still);
   EXPECT_TRUE(Json::parse(to_json(summarise(still, swings, 1), still, swings)).at("tracking_error").is_null());
 }
 

@@ -23,7 +23,7 @@ Errors errors(const std::string& scene, const std::string& integrator, double st
                     {"physics.integrator=" + integrator, fmt::format("physics.step={:.17g}", step),
                      fmt::format("trace.period={:.17g}", every * step), fmt::format("duration={:.17g}", steps * step)},
                     catalog());
-  const RunRecord record = run(box);
+  const Recording record = run(box);
   const Table table(record.trace);
   const auto vec = [&](std::size_t row, const std::string& name) {
     return Vec3(table.at(row, name + "x"), table.at(row, name + "y"), table.at(row, name + "z"));

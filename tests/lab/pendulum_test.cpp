@@ -14,7 +14,7 @@ class Pendulum : public EveryEngine {};
 INSTANTIATE_TEST_SUITE_P(Of, Pendulum, engines(), engine_name);
 
 TEST_P(Pendulum, SwingsAsTheEllipticFunctionsSay) {
-  const RunRecord record = run(shipped("pendulum.yaml", {"duration=4", set()}));
+  const Recording record = run(shipped("pendulum.yaml", {"duration=4", set()}));
   const oracle::Pendulum rod(std::sqrt(1.5 * 9.81), 1);
   const Table table(record.trace);
   double angle = 0;
@@ -41,7 +41,7 @@ TEST_P(Pendulum, SwingsAsTheEllipticFunctionsSay) {
 }
 
 /// Two rods of 1 kg and 1 m, hinge axis y; angles of the hinges are theta1 and theta2 - theta1.
-RunRecord two_rods(const std::string& engine, const std::string& integrator, double step, double duration) {
+Recording two_rods(const std::string& engine, const std::string& integrator, double step, double duration) {
   return run(scenario(fmt::format(R"(
 gaitlab: 1
 robot:
@@ -68,7 +68,7 @@ trace: {{period: 0.1, columns: [joint.*, energy.*]}}
 }
 
 /// Largest error of the two angles from the vertical at the end.
-double error(const RunRecord& record, double duration) {
+double error(const Recording& record, double duration) {
   const oracle::DoublePendulum::State end = oracle::DoublePendulum{}.at(duration, {1, 1.5, 0.3, -1.7});
   const Table table(record.trace);
   const std::size_t row = record.trace.rows() - 1;
@@ -81,7 +81,7 @@ class DoublePendulum : public EveryEngine {};
 INSTANTIATE_TEST_SUITE_P(Of, DoublePendulum, engines(), engine_name);
 
 TEST_P(DoublePendulum, SwingsAsLagrangesEquationsSay) {
-  const RunRecord record = two_rods(GetParam(), "rk4", 2.5e-4, 2);
+  const Recording record = two_rods(GetParam(), "rk4", 2.5e-4, 2);
   const Table table(record.trace);
   const auto total = [&](std::size_t row) { return table.at(row, "energy.kinetic") + table.at(row, "energy.potential"); };
   double energy = 0;

@@ -1,7 +1,7 @@
 // Bad input as a user meets it: the whole message, exit code 2, nothing written; and a run that diverges.
 #include <regex>
 
-#include "core/trace/h5.h"
+#include "core/recording/h5.h"
 #include "fixture.h"
 
 namespace gaitlab::test {

@@ -18,7 +18,7 @@ Scenario published(const std::string& name, const std::vector<std::string>& sets
 }
 
 TEST(Published, ExudynKinematicTree) {
-  const RunRecord record = run(published("exudyn_kinematic_tree.yaml"));
+  const Recording record = run(published("exudyn_kinematic_tree.yaml"));
   const Table table(record.trace);
   double sum = 0;
   for (int j = 0; j < 5; ++j) sum += table.at(record.trace.rows() - 1, fmt::format("joint.{}.angle", j));
@@ -33,7 +33,7 @@ TEST(Published, ExudynKinematicTree) {
 std::vector<double> accelerations(const std::string& modules, const std::vector<double>& angles,
                                   const std::vector<double>& speeds, const std::string& gravity) {
   constexpr double kStep = 0.0009765625;
-  const RunRecord record = run(scenario(fmt::format(R"(
+  const Recording record = run(scenario(fmt::format(R"(
 gaitlab: 1
 robot: {{base: fixed, position: [0, 0, 0], modules: "{}"}}
 initial: {{angles: [{}], speeds: [{}]}}
@@ -83,7 +83,7 @@ TEST(Published, RbdlAccelerations) {
 }
 
 TEST(Published, MotionGenesisBabyboot) {
-  const RunRecord record = run(published("babyboot.yaml"));
+  const Recording record = run(published("babyboot.yaml"));
   const Table table(record.trace);
   const std::size_t last = record.trace.rows() - 1;
   const std::string source = "MotionGenesis 5.9 in Drake, benchmarks/chaotic_babyboot/MG/test";
@@ -165,7 +165,7 @@ TEST(Published, ChronoRevoluteAgainstAdams) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Scenario pendulum = published(fmt::format("chrono_revolute_{}.yaml", i + 1));
     const Robot& robot = *pendulum.robot;
-    const RunRecord record = run(pendulum);
+    const Recording record = run(pendulum);
     const Table table(record.trace);
     const std::string id = fmt::format("published.chrono_revolute.{}.", i + 1);
     const std::string source = fmt::format("ADAMS in Chrono, Revolute_Case0{}_ADAMS", i + 1);

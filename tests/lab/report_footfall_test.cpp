@@ -108,7 +108,7 @@ TEST(Footfall, CentralSpineJointIsThePapers) {
 struct Walked {
   explicit Walked(const std::string& name) : scenario(shipped(name, {"duration=4"})), record(run(scenario)) {}
   Scenario scenario;
-  RunRecord record;
+  Recording record;
 };
 
 const Walked& hexapod() {
@@ -118,19 +118,19 @@ const Walked& hexapod() {
 
 TEST(Footfall, LoadsAreTheSumsOfTheContactColumns) {
   const Robot& robot = *hexapod().scenario.robot;
-  const RunRecord& r = hexapod().record;
+  const Recording& r = hexapod().record;
   const Table table(r.trace);
   const auto contacts = contact_elements(robot, ContactSet::feet);
-  ASSERT_EQ(r.loads.size(), r.com_x.size() * robot.modules.size());
   double most = 0;
-  for (std::size_t tick = 0; tick < r.com_x.size(); ++tick) {
+  for (std::size_t tick = 0; tick < r.rows(); ++tick) {
     std::vector<double> sum(robot.modules.size(), 0.0);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       sum[robot.bodies[contacts[c].body].module] += table.at(tick, fmt::format("contact.{}.fn", c));
     }
     for (std::size_t m = 0; m < sum.size(); ++m) {
       most = std::max(most, sum[m]);
-      ASSERT_EQ(r.loads[tick * sum.size() + m], sum[m]) << tick << " m" << m;
+      const Series load = r.series(fmt::format("load.{}", m));
+      ASSERT_EQ(load.empty() ? 0.0 : load[tick], sum[m]) << tick << " m" << m;
     }
   }
   EXPECT_GT(most, 5);
@@ -159,11 +159,8 @@ TEST(Footfall, LongPeriodsAreCutAndEarlyEndsDrawn) {
   const std::string svg = run_figure(scenario, record, summary);
   for (const std::string part : {">0 s<", ">0.8 s<", ">3.2 s<", "side view over the last 4 s"})
     EXPECT_NE(svg.find(part), std::string::npos) << part;
-  RunRecord first = record;  // a run that ended at its first row
-  first.com_x.resize(1);
-  first.poses.resize(7);
-  for (auto* series : {&first.angles, &first.setpoints, &first.torques}) series->resize(scenario.robot->joints.size());
-  first.loads.resize(scenario.robot->modules.size());
+  Recording first = record;  // a run that ended at its first row
+  for (Trace* table : {&first.trace, &first.rest}) table->values.resize(table->columns.size());
   summary.simulated = 0;
   summary.limit_cycle = {};
   EXPECT_EQ(count(run_figure(scenario, first, summary), "paint-order"), 33U);

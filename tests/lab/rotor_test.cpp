@@ -7,7 +7,7 @@ namespace {
 // Kt = 0: motors that only carry their rotors.
 TEST(RotorInertia, OfARodsOwnSizeMakesThePendulumSlowerByTheRootOfTwo) {
   const auto downward_crossing = [](double rotor) {
-    const RunRecord record = run(shipped(
+    const Recording record = run(shipped(
         "pendulum.yaml", {fmt::format("actuator={{type: dc_motor, Kt: 0, gear: 100, rotor_inertia: {}}}", rotor),
                           "physics.step=5e-4", "controller.period=0.005", "duration=1", "trace.columns=[joint.0.angle]"}));
     const Table table(record.trace);
@@ -23,7 +23,7 @@ TEST(RotorInertia, OfARodsOwnSizeMakesThePendulumSlowerByTheRootOfTwo) {
 }
 
 TEST(RotorInertia, KeepsMomentumAndEnergyOfAFreeChain) {
-  const RunRecord record = run(scenario(R"(
+  const Recording record = run(scenario(R"(
 gaitlab: 1
 robot: {modules: mtran, build: robots/caterpillar-8.dat, position: [0, 0, 1], orientation: [0.3, 0.2, 0.1]}
 initial: {speeds: {default: 1, m2/passive: -2, m5/active: 1.5}, base_velocity: [0.1, -0.2, 0.3], base_angular_velocity: [0.5, -0.4, 0.3]}

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct End {
-  RunRecord record;
+  Recording record;
   std::vector<double> state;  ///< all that the simulation goes by
 };
 
@@ -21,20 +21,20 @@ End simulate(const Scenario& s) {
   Simulation simulation({&s, 1});
   simulation.run();
   const Out state = simulation.state();
-  return {simulation.take_record(0), {state.begin(), state.end()}};
+  return {simulation.take_recording(0), {state.begin(), state.end()}};
 }
 
 /// Text that shows every bit of what no row may change.
-std::string bits(const RunRecord& r) {
+std::string bits(const Recording& r) {
   std::string text = fmt::format("{} steps, {:a} s, {:a} solves, {:a} off, {:a} coarse, ledger", r.steps, r.simulated,
                                  r.tally.solves, r.tally.off, r.tally.coarse);
   for (const double x : {r.ledger.electrical, r.ledger.copper, r.ledger.gear, r.ledger.stored, r.ledger.contact,
                          r.ledger.friction, r.ledger.stops}) {
     text += fmt::format(" {:a}", x);
   }
-  for (const JointFigures& joint : r.joints) {
+  for (const JointStatistics& joint : r.joints) {
     text += "\njoint";
-    for (const double x : std::bit_cast<std::array<double, kFigures>>(joint)) text += fmt::format(" {:a}", x);
+    for (const double x : std::bit_cast<std::array<double, kJointStatistics.size()>>(joint)) text += fmt::format(" {:a}", x);
   }
   text += "\nerrors";
   for (const double x : r.tally.torque_error) text += fmt::format(" {:a}", x);
@@ -48,18 +48,19 @@ std::vector<double> times(const Trace& trace) {
 }
 
 /// All that a row records whatever the columns are.
-std::vector<double> row(const RunRecord& r, std::size_t k) {
-  std::vector<double> all{r.com_x[k], r.com_y[k], r.com_z[k]};
-  for (const auto* series : {&r.poses, &r.angles, &r.setpoints, &r.torques, &r.loads}) {
-    const auto wide = static_cast<std::ptrdiff_t>(series->size() / r.com_x.size());
-    all.insert(all.end(), series->begin() + static_cast<std::ptrdiff_t>(k) * wide,
-               series->begin() + static_cast<std::ptrdiff_t>(k + 1) * wide);
+std::vector<double> row(const Recording& r, std::size_t k) {
+  std::vector<double> all;
+  for (const Trace* table : {&r.trace, &r.rest}) {
+    for (const Column& column : table->columns) {
+      const auto covers = [&](const std::string& pattern) { return glob(pattern, column.name); };
+      if (std::ranges::any_of(report_columns(), covers)) all.push_back(table->at(k, table->find(column.name)));
+    }
   }
   return all;
 }
 
 /// How many rows of two runs are of one time, exactly or but for rounding; those must be the same bits.
-int same_rows(const RunRecord& a, const RunRecord& b) {
+int same_rows(const Recording& a, const Recording& b) {
   int same = 0;
   const std::vector<double> ta = times(a.trace);
   const std::vector<double> tb = times(b.trace);
@@ -119,7 +120,7 @@ TEST(Rows, ChangeNothing) {
 
 TEST(Rows, OfOneTimeAreTheSameBits) {
   for (const auto& [file, sets] : kRuns) {
-    std::vector<RunRecord> runs;
+    std::vector<Recording> runs;
     for (const char* period : {"1e-3", "5e-3", "7e-3", "0.0113"}) {
       std::vector<std::string> all = with(sets);
       all.insert(all.end(), {"duration=0.36", fmt::format("trace.period={}", period)});
@@ -135,7 +136,7 @@ TEST(Rows, OfOneTimeAreTheSameBits) {
 TEST(Rows, ARunEndsWithARowAtItsDuration) {
   for (const double duration : {0.3127, 0.3, 0.0031, 0.005, 0.00501, 0.1999999, 0.2000001, 0.1130}) {
     for (const char* period : {"5e-3", "0.0113", "1"}) {
-      const RunRecord r =
+      const Recording r =
           run(shipped("hexapod.yaml", with({fmt::format("duration={}", duration), fmt::format("trace.period={}", period)})));
       const std::vector<double> t = times(r.trace);
       ASSERT_GE(t.size(), 2U);
@@ -152,9 +153,9 @@ TEST(Rows, ARunEndsWithARowAtItsDuration) {
 
 /// A shorter run is the beginning of a longer one, wherever it ends: its figures are those of the steps until then.
 TEST(Rows, AShortRunIsTheBeginningOfALongOne) {
-  const RunRecord whole = run(shipped("hexapod.yaml", with({"actuator.i_max=0.3", "duration=0.36", "trace.period=1e-4"})));
+  const Recording whole = run(shipped("hexapod.yaml", with({"actuator.i_max=0.3", "duration=0.36", "trace.period=1e-4"})));
   for (const double duration : {0.3127, 0.0031, 0.2}) {
-    const RunRecord part =
+    const Recording part =
         run(shipped("hexapod.yaml", with({"actuator.i_max=0.3", fmt::format("duration={}", duration), "trace.period=1e-4"})));
     EXPECT_EQ(same_rows(whole, part), std::lround(duration * 1e4) + 1);
   }
@@ -177,7 +178,7 @@ const std::vector<std::vector<std::string>> kOwn{
     {"actuator.u_max=2", "duration=0.2112"},
 };
 
-std::string bits(const RunRecord& record, const std::string& outcome) {
+std::string bits(const Recording& record, const std::string& outcome) {
   return fmt::format("{}: {} rows {}\n{}", outcome, record.trace.rows(), hash(record.trace), bits(record));
 }
 
@@ -189,7 +190,7 @@ std::string alone(const Scenario& scenario) {
   } catch (const SimulationError& error) {
     outcome = error.what();
   }
-  return bits(simulation.take_record(0), outcome);
+  return bits(simulation.take_recording(0), outcome);
 }
 
 TEST(Rows, AreTheSameBesideOthers) {
@@ -207,9 +208,9 @@ TEST(Rows, AreTheSameBesideOthers) {
       for (const int threads : {1, 2}) {
         std::mutex lock;
         std::vector<std::string> ends(all.size());
-        run_batch(all, {threads, lanes}, [&](std::size_t i, RolloutEnd&& end) {
+        run_batch(all, {threads, lanes}, [&](std::size_t i, Recording&& end) {
           const std::lock_guard hold(lock);
-          ends[i] = bits(end.record, end.outcome);
+          ends[i] = bits(end, end.outcome);
         });
         for (std::size_t i = 0; i < all.size(); ++i) {
           EXPECT_EQ(ends[i], expected[i]) << file << ", rollout " << i << ", " << lanes << " lanes, " << threads << " threads";
@@ -228,7 +229,7 @@ TEST(Rows, ChangeNothingOfARunThatDiverges) {
                               "initial.base_velocity=[9999, 0, 0]", "duration=0.3", fmt::format("trace.period={}", period)}));
     Simulation simulation({&s, 1});
     EXPECT_THROW(simulation.run(), SimulationError);
-    ends.push_back(bits(simulation.take_record(0)));
+    ends.push_back(bits(simulation.take_recording(0)));
     EXPECT_EQ(ends.back(), ends.front()) << period;
   }
 }

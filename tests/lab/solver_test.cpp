@@ -11,12 +11,16 @@ namespace {
 const std::vector<std::string> kSolver{"contact.law=bullet"};
 
 /// Largest difference of any torque over the largest torque.
-double torques_apart(const RunRecord& a, const RunRecord& b) {
+double torques_apart(const Recording& a, const Recording& b) {
   double most = 0;
   double apart = 0;
-  for (std::size_t i = 0; i < a.torques.size(); ++i) {
-    most = std::max(most, std::abs(a.torques[i]));
-    apart = std::max(apart, std::abs(a.torques[i] - b.torques[i]));
+  for (std::size_t j = 0; j < a.joints.size(); ++j) {
+    const Series one = a.joint(j, "torque");
+    const Series other = b.joint(j, "torque");
+    for (std::size_t row = 0; row < one.size(); ++row) {
+      most = std::max(most, std::abs(one[row]));
+      apart = std::max(apart, std::abs(one[row] - other[row]));
+    }
   }
   return apart / most;
 }
@@ -37,8 +41,8 @@ duration: 1
 )",
                                     physics, law)));
   };
-  const RunRecord a = waved("engine: articulated, integrator: implicit", "penalty");
-  const RunRecord b = waved("engine: bullet", "bullet");
+  const Recording a = waved("engine: articulated, integrator: implicit", "penalty");
+  const Recording b = waved("engine: bullet", "bullet");
   EXPECT_LT(torques_apart(a, b), 1e-3) << "the matrices are those of the step's start there and of its end here: of the order "
                                           "of the step, 1e-3 s * 2 pi 0.5 Hz * 0.3 rad";
   EXPECT_NEAR(b.ledger.residual(), a.ledger.residual(), 1e-3 * a.ledger.copper) << "the same";
@@ -49,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(At, SolverStep, testing::Values(2.5e-4, 1e-3, 2.5e-3));
 
 TEST_P(SolverStep, DoesNotChatterAtTheCurrentLimit) {
   for (const std::string_view model : {"paper", "directional"}) {
-    const RunRecord record = run(scenario(fmt::format(R"(
+    const Recording record = run(scenario(fmt::format(R"(
 gaitlab: 1
 robot: {{modules: mtran, build: robots/caterpillar-8.dat, base: fixed, on_ground: false, position: [0, 0, 1]}}
 ground: {{type: none}}
@@ -84,7 +88,7 @@ trace: {{period: {}, columns: [joint.*]}}
 }
 
 TEST(Solver, StopsAreTheSameSpringAsElsewhere) {
-  const RunRecord record = run(scenario(R"(
+  const Recording record = run(scenario(R"(
 gaitlab: 1
 robot: {modules: mtran, base: fixed, position: [0, 0, 1]}
 physics: {gravity: [0, 0, 0]}
@@ -105,7 +109,7 @@ duration: 2
 }
 
 /// A module that slides 0.5 m/s along its own axis, which points that way.
-RunRecord sliding(double yaw) {
+Recording sliding(double yaw) {
   return run(scenario(fmt::format(R"(
 gaitlab: 1
 robot: {{modules: mtran, orientation: [0, 0, {}]}}
@@ -120,8 +124,8 @@ duration: 0.4
 TEST(Solver, FrictionIsCoulombsWhicheverWay) {
   const double expected = 0.5 * 0.5 / (2 * 0.3 * 9.81);  // v^2 / (2 f g)
   for (const double yaw : {0.0, M_PI / 8, M_PI / 4}) {
-    const RunRecord r = sliding(yaw);
-    const double way = std::hypot(r.com_x.back() - r.com_x.front(), r.com_y.back() - r.com_y.front());
+    const Recording r = sliding(yaw);
+    const double way = r.travel().head<2>().norm();
     EXPECT_NEAR(way, expected, 0.02 * expected)
         << yaw << ": v h / 2 is 0.6 % of it; a pyramid would be off by 30 % at 45 degrees";
     const double heat = 0.4 * 0.5 * 0.5 / 2;
@@ -131,7 +135,7 @@ TEST(Solver, FrictionIsCoulombsWhicheverWay) {
 
 TEST(Solver, FeetCarryTheWeight) {
   const Scenario s = shipped("hexapod.yaml", {"contact.law=bullet", "cpg.amplitude=0", "duration=1"});
-  const RunRecord record = run(s);
+  const Recording record = run(s);
   const Table table(record.trace);
   double weight = 0;
   int touching = 0;
@@ -150,8 +154,8 @@ TEST(Solver, WalksAsThePenaltyLawDoes) {
     const auto walk = [&](const std::vector<std::string>& sets) {
       std::vector<std::string> all{"duration=4"};
       all.insert(all.end(), sets.begin(), sets.end());
-      const RunRecord r = run(shipped(file, all));
-      return r.com_x.back() - r.com_x.front();
+      const Recording r = run(shipped(file, all));
+      return r.travel().x();
     };
     const double penalty = walk({"physics.engine=articulated"});
     const double solver = walk(kSolver);
@@ -161,10 +165,10 @@ TEST(Solver, WalksAsThePenaltyLawDoes) {
 }
 
 /// Smallest distance between hinge axes of blocks of modules that are not docked to each other.
-double closest(const RunRecord& record, const Scenario& s) {
+double closest(const Recording& record, const Scenario& s) {
   double least = std::numeric_limits<double>::infinity();
   Kinematics k(*s.robot);
-  k.update(*s.robot, record.state(*s.robot, record.com_x.size() - 1));
+  k.update(*s.robot, record.state(*s.robot, record.rows() - 1));
   for (const Body& a : s.robot->bodies) {
     for (const Body& b : s.robot->bodies) {
       if (!a.name.ends_with("/passive") || !b.name.ends_with("/passive") || a.module + 2 > b.module) continue;
@@ -220,7 +224,7 @@ TEST(Solver, ABoxThatIsDroppedComesToRest) {
       module_and_boxes("0.5", "-5", "{center: [0, 0, 0.07], size: [0.2, 0.1, 0.1], rpy: [0, 0.1, 0.3], mass: 0.5}");
   Scenario longer = s;
   longer.duration = 1;
-  const RunRecord record = run(longer);
+  const Recording record = run(longer);
   const Table table(record.trace);
   const std::size_t last = record.trace.rows() - 1;
   EXPECT_NEAR(table.at(last, "box.0.z"), 0.05, 2e-4) << "half its height; Bullet lets bodies sink by what a step of weight is";
@@ -233,7 +237,7 @@ TEST(Solver, ARobotPushesABox) {
   // 0.4 kg against 0.4 kg, no friction: momentum stays, and the box is the faster one afterwards.
   Scenario s = module_and_boxes("0", "-0.2", "{center: [0, 0, 0.05], size: [0.1, 0.1, 0.1], mass: 0.4}");
   s.trace.period = 1e-3;  // every step: the impact is one
-  const RunRecord record = run(s);
+  const Recording record = run(s);
   const Table table(record.trace);
   const std::size_t last = record.trace.rows() - 1;
   const double box = 0.4 * table.at(last, "box.0.vx");
@@ -257,7 +261,7 @@ TEST(Solver, ABoxSlidesDownARampByCoulomb) {
   const std::string box =
       fmt::format("{{center: [{}, 0, {}], size: [0.2, 0.2, 0.1], rpy: [0, {}, 0], friction: 0.3, mass: 1}}",
                   0.15 * std::sin(slope) - up * std::cos(slope), -0.5 + 0.15 * std::cos(slope) + up * std::sin(slope), slope);
-  const RunRecord record = run(module_and_boxes("0.5", "-5", ramp + ", " + box));
+  const Recording record = run(module_and_boxes("0.5", "-5", ramp + ", " + box));
   const Table table(record.trace);
   const std::size_t last = record.trace.rows() - 1;
   const double way =

@@ -1,7 +1,7 @@
 // What may be asked of the steps: physics.step, integrator and accuracy, as read, printed and halved.
 #include <regex>
 
-#include "core/trace/convergence.h"
+#include "core/recording/convergence.h"
 #include "fixture.h"
 
 namespace gaitlab::test {

@@ -15,7 +15,7 @@ TEST(Top, TurnsFreelyAsTheEllipticFunctionsSay) {
   const Mat3 in_body = rpy({0.4, -0.3, 0.7});  // principal axes
   const Mat3 inertia = in_body * Vec3(0.02, 0.03, 0.04).asDiagonal() * in_body.transpose();
   const Vec3 omega = rpy({0.3, 0.2, 0.1}) * in_body * Vec3(2.2, 0, 4);
-  const RunRecord record = run(scenario(fmt::format(R"(
+  const Recording record = run(scenario(fmt::format(R"(
 gaitlab: 1
 robot:
   position: [0, 0, 1]
@@ -103,7 +103,7 @@ TEST(Top, PrecessesSteadily) {
   const double lean = 0.5;
   const double rate = 7;
   const double spin = kTop.spin_for(rate, lean) - rate * std::cos(lean);
-  const RunRecord record = run(heavy_top({rate, 0, spin}, lean, 1, 0.01));
+  const Recording record = run(heavy_top({rate, 0, spin}, lean, 1, 0.01));
   const Table table(record.trace);
   double nutation = 0;
   for (std::size_t row = 0; row < record.trace.rows(); ++row)
@@ -120,7 +120,7 @@ TEST(Top, PrecessesSteadily) {
 TEST(Top, NutatesBetweenItsLimits) {
   const double lean = 0.5;
   const double spin = 120;
-  const RunRecord record = run(heavy_top({0, 0, spin}, lean, 1, 5e-4));
+  const Recording record = run(heavy_top({0, 0, spin}, lean, 1, 5e-4));
   const Table table(record.trace);
   double most = 0;
   double least = lean;

@@ -12,7 +12,7 @@ namespace {
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 nlohmann::json summary_of(const Scenario& s) {
-  const RunRecord r = run(s);
+  const Recording r = run(s);
   return nlohmann::json::parse(to_json(summarise(s, r, 1), s, r));
 }
 
@@ -34,7 +34,7 @@ struct Doubts : testing::Test {
     return warnings.size() == 1 ? warnings[0] : fmt::format("{} warnings", warnings.size());
   }
   Scenario s = hexapod({"physics.engine=articulated"});
-  RunRecord r;
+  Recording r;
 };
 
 TEST_F(Doubts, AreNoneWhereNothingIsWrong) { EXPECT_EQ(only(), "0 warnings"); }
@@ -139,7 +139,7 @@ TEST(Trust, NothingIsSaidOfShippedScenarios) {
       std::vector<std::string> sets{std::string("physics.engine=") + engine};
       if (sets[0] == "physics.engine=bullet") sets.emplace_back("duration=0.6");
       const Scenario s = shipped(file.path().filename(), sets);
-      const RunRecord r = run(s);
+      const Recording r = run(s);
       for (const std::string& warning : trust_warnings(s, r)) ADD_FAILURE() << engine << ", " << s.name << ": " << warning;
       EXPECT_EQ(r.tally.off, 0) << s.name;
       EXPECT_EQ(r.tally.estimated, s.actuator.entry != nullptr) << s.name;
@@ -176,7 +176,7 @@ TEST(Trust, TheSummarySaysHowItWasStepped) {
 TEST(Trust, ColumnsGrowIntoTheSummary) {
   const Scenario s = shipped("hexapod.yaml", {"physics.engine=articulated", "physics.step=5e-3", "duration=0.6",
                                               "trace.columns=['torque_error.*', 'steps.*']"});
-  const RunRecord r = run(s);
+  const Recording r = run(s);
   const Table table(r.trace);
   const std::size_t last = r.trace.rows() - 1;
   EXPECT_EQ(table.at(last, "steps.solves"), r.tally.solves);
@@ -190,7 +190,7 @@ TEST(Trust, ColumnsGrowIntoTheSummary) {
 
 /// A motor that jumps to its limit at the start gives a peak that no later torque comes near: the error is not relative to it.
 TEST(Trust, AnErrorIsRelativeToTheTorquesOfTheWholeRun) {
-  const RunRecord r = run(scenario(
+  const Recording r = run(scenario(
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]], base: fixed, on_ground: false}\nground: {type: none}\n"
       "contact: {on: none}\nphysics: {engine: articulated, gravity: [0, 0, 0]}\ninitial: {angles: 0.02}\n"
       "cpg: {type: sine, frequency: 0, amplitude: 0}\nduration: 0.3\n"));
@@ -207,7 +207,7 @@ TEST(Trust, NothingIsEstimatedOfTorqueSources) {
       "controller: {type: pid, unit: N m, Kp: 5, Kd: 0.05}\ncpg: {type: sine, frequency: 0.5, amplitude: 0.4}\nduration: 0.6\n";
   for (const char* engine : {"articulated", "bullet"}) {
     const Scenario s = scenario(text, {std::string("physics.engine=") + engine});
-    const RunRecord r = run(s);
+    const Recording r = run(s);
     EXPECT_TRUE(contains(steps_text(s, r), "; torque error not estimated")) << steps_text(s, r);
     EXPECT_TRUE(nlohmann::json::parse(to_json(summarise(s, r, 1), s, r)).at("torque_error").is_null());
   }

@@ -33,12 +33,10 @@ TEST(Versus, ErrorIsTheRmsOverTheJointsPeakBehindAMoment) {
 }
 
 TEST(Versus, CourseIsTravelAndMeanContactForceBehindAMoment) {
-  RunRecord record;
-  record.trace.columns.resize(1);  // t
-  record.trace.values = {0, 1, 2, 3};
-  record.com_x = {9, 1, 2, 4};
-  record.com_y = {9, 1, 0, 5};
-  record.loads = {50, 50, 10, 20, 20, 10, 30, 30};  // of two modules
+  Recording record;
+  record.trace = {{{"t", "s", ""}}, {0, 1, 2, 3}};
+  record.rest.columns = {{"com.x", "m", ""}, {"com.y", "m", ""}, {"com.z", "m", ""}, {"load.0", "N", ""}, {"load.1", "N", ""}};
+  record.rest.values = {9, 9, 0, 50, 50, 1, 1, 0, 10, 20, 2, 0, 0, 20, 10, 4, 5, 0, 30, 30};
   const versus::Course course = versus::course(record, 0.5);
   EXPECT_EQ(course.travel, 5);  // 3, 4, 5
   EXPECT_EQ(course.force, 40);

@@ -1,0 +1,183 @@
+#include "core/recording/csv.h"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <unordered_set>
+
+#include "core/errors.h"
+#include "core/recording/atomic_file.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr std::size_t kPiece = std::size_t{1} << 20;  // bytes; keeps the number of system calls small and memory bounded
+
+std::string header_cell(const std::string& name, const std::filesystem::path& path) {
+  if (name.empty() || name.find_first_of("\r\n") != std::string::npos)
+    throw RunError(fmt::format("{}: column name \"{}\" cannot stand in a CSV file", path.string(), name));
+  if (name.find_first_of(",\"") == std::string::npos) return name;
+  std::string quoted = "\"";
+  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+// Cuts a text into lines and lines into cells, and knows where it is.
+class Reader {
+ public:
+  Reader(std::string file, std::string_view text) : file_(std::move(file)), rest_(text) {}
+
+  // False at the end of the text. A file cut off in a number would otherwise read as another number.
+  bool next_line() {
+    if (rest_.empty()) return false;
+    ++line_number_;
+    const std::size_t end = rest_.find('\n');
+    if (end == std::string_view::npos) throw error(rest_.size(), "the last line does not end: the file is truncated");
+    line_ = rest_.substr(0, end);
+    rest_.remove_prefix(end + 1);
+    if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
+    return true;
+  }
+
+  [[nodiscard]] InputError error(std::size_t offset, std::string text) const {
+    return {Place{file_, line_number_, static_cast<int>(offset) + 1}, std::move(text)};
+  }
+
+  [[nodiscard]] std::string_view line() const { return line_; }
+
+ private:
+  std::string file_;
+  std::string_view rest_;
+  std::string_view line_ = {};
+  int line_number_ = 0;
+};
+
+// The number that starts the cell at `first`; ec is not std::errc() if there is none, ptr is the cell's end if it is whole.
+std::from_chars_result parse(const char* first, const char* last, double& value) {
+  return std::from_chars(first, last, value, std::chars_format::general);
+}
+
+std::string_view cell_at(std::string_view line, std::size_t offset) {
+  return line.substr(offset, line.find(',', offset) - offset);
+}
+
+// One header name from `offset` on, which it moves to the following comma or the end.
+std::string read_name(const Reader& reader, std::size_t& offset) {
+  const std::string_view line = reader.line();
+  if (offset == line.size() || line[offset] != '"') {
+    const std::string_view cell = cell_at(line, offset);
+    offset += cell.size();
+    return std::string(cell);
+  }
+  const std::size_t start = offset++;
+  std::string name;
+  while (true) {
+    const std::size_t quote = line.find('"', offset);
+    if (quote == std::string_view::npos) throw reader.error(start, "the quoted column name does not end");
+    name += line.substr(offset, quote - offset);
+    offset = quote + 1;
+    if (offset == line.size() || line[offset] != '"') break;
+    name += '"';
+    ++offset;
+  }
+  if (offset < line.size() && line[offset] != ',') throw reader.error(offset, "expected a comma after the quoted column name");
+  return name;
+}
+
+bool is_number(std::string_view cell) {
+  double value = 0;
+  const char* last = cell.data() + cell.size();
+  const auto [end, code] = parse(cell.data(), last, value);
+  return code != std::errc::invalid_argument && end == last;
+}
+
+std::vector<Column> read_header(const Reader& reader) {
+  std::vector<Column> columns;
+  std::unordered_set<std::string> seen;
+  bool numbers = true;
+  std::optional<InputError> repeated;  // told only if this is a header at all
+  for (std::size_t offset = 0;; ++offset) {
+    const std::size_t start = offset;
+    std::string name = read_name(reader, offset);
+    if (name.empty()) throw reader.error(start, "empty column name");
+    numbers = numbers && is_number(name);
+    if (!seen.insert(name).second && !repeated)
+      repeated = reader.error(start, fmt::format("column \"{}\" is there twice", name));
+    columns.push_back({std::move(name), {}, {}});
+    if (offset == reader.line().size()) break;
+  }
+  if (numbers) throw reader.error(0, "the header row of column names is missing");
+  if (repeated) throw *repeated;
+  return columns;
+}
+
+[[noreturn]] void refuse_cell(const Reader& reader, std::size_t offset, std::errc code) {
+  const std::string_view cell = cell_at(reader.line(), offset);
+  if (code == std::errc::result_out_of_range && is_number(cell))
+    throw reader.error(offset, fmt::format("{} is outside the range of a double", cell));
+  throw reader.error(offset, fmt::format("\"{}\" is not a number", cell.substr(0, 40)));
+}
+
+void read_row(const Reader& reader, std::size_t columns, std::vector<double>& values) {
+  const char* const first = reader.line().data();
+  const char* const last = first + reader.line().size();
+  const char* at = first;
+  for (std::size_t cell = 0;; ++cell, ++at) {
+    if (cell == columns) throw reader.error(static_cast<std::size_t>(at - first), fmt::format("more than {} cells", columns));
+    const auto [end, code] = parse(at, last, values.emplace_back());
+    if (code != std::errc() || (end != last && *end != ',')) refuse_cell(reader, static_cast<std::size_t>(at - first), code);
+    at = end;
+    if (at == last) {
+      if (cell + 1 < columns) throw reader.error(reader.line().size(), fmt::format("{} cells, expected {}", cell + 1, columns));
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+void write_csv(const Trace& trace, const std::filesystem::path& path) {
+  AtomicFile file(path);
+  fmt::memory_buffer buffer;
+  const auto flush_above = [&](std::size_t size) {
+    if (buffer.size() <= size) return;
+    file.write({buffer.data(), buffer.size()});
+    buffer.clear();
+  };
+  const char* separator = "";
+  for (const Column& column : trace.columns) {
+    fmt::format_to(std::back_inserter(buffer), "{}{}", separator, header_cell(column.name, path));
+    separator = ",";
+  }
+  buffer.push_back('\n');
+  for (std::size_t row = 0; row < trace.rows(); ++row) {
+    for (const double value : trace.row(row)) {
+      fmt::format_to(std::back_inserter(buffer), FMT_COMPILE("{}"), value);
+      buffer.push_back(',');
+    }
+    buffer[buffer.size() - 1] = '\n';
+    flush_above(kPiece);
+  }
+  flush_above(0);
+  file.commit();
+}
+
+Trace read_csv(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  if (text.empty()) throw InputError({path.string(), 1, 1}, "the file is empty: a header row of column names is missing");
+  Reader reader(path.string(), text);
+  reader.next_line();
+  Trace trace;
+  trace.columns = read_header(reader);
+  while (reader.next_line()) read_row(reader, trace.columns.size(), trace.values);
+  return trace;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,307 @@
+#include "core/recording/h5_image.h"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <unordered_set>
+#include <utility>
+
+namespace gaitlab {
+
+namespace {
+
+// In memory only; a path that no file can have, because HDF5 looks for one first.
+constexpr const char* kNowhere = "/dev/null/gaitlab";
+constexpr std::size_t kGrowth = std::size_t{1} << 20;  // bytes
+constexpr hsize_t kChunkRows = 4096;                   // of one column: 32 kB, and neighbours in time compress best
+constexpr unsigned kGzip = 1;                          // more takes three times as long for a few per cent
+
+// A negative return is a failure, of every function of HDF5.
+template <class Result>
+Result checked(Result result, const char* what) {
+  if (result < 0) throw ImageError(fmt::format("HDF5: {} failed", what));
+  return result;
+}
+
+// One thread at a time (Debian's HDF5 is built without locks), and no report of HDF5's own on stderr.
+class Library {
+ public:
+  Library() : lock_(mutex()) {
+    H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Library() { H5Eset_auto2(H5E_DEFAULT, report_, data_); }
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex only;
+    return only;
+  }
+  std::lock_guard<std::mutex> lock_;
+  H5E_auto2_t report_ = nullptr;
+  void* data_ = nullptr;
+};
+
+// Owns one identifier of HDF5. close() says whether it went well; the destructor cannot.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle(hid_t id, Close close, const char* what) : id_(checked(id, what)), close_(close) {}
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  Handle& operator=(Handle&&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): it stands for the identifier
+  void close(const char* what) { checked(close_(std::exchange(id_, -1)), what); }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+Handle file_access() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
+  checked(H5Pset_fapl_core(access, kGrowth, 0), "file in memory");
+  // Fixed, so that a newer library writes the same format; the oldest, which every reader knows.
+  checked(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), "format bounds");
+  return access;
+}
+
+// Texts of so many bytes, or (format 1) of any length.
+Handle string_type(std::size_t size) {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "string type");
+  checked(H5Tset_size(type, size), "string type");
+  checked(H5Tset_cset(type, H5T_CSET_UTF8), "string type");
+  checked(H5Tset_strpad(type, H5T_STR_NULLPAD), "string type");
+  return type;
+}
+
+Handle scalar() { return {H5Screate(H5S_SCALAR), H5Sclose, "scalar"}; }
+
+// --- writing ----------------------------------------------------------------------------------------------------------
+
+void write_attribute(hid_t owner, const char* name, hid_t stored, hid_t memory, hid_t space, const void* data) {
+  Handle attribute(H5Acreate2(owner, name, stored, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  checked(H5Awrite(attribute, memory, data), name);
+  attribute.close(name);
+}
+
+void write_number(hid_t owner, const char* name, std::int64_t number) {
+  write_attribute(owner, name, H5T_STD_I64LE, H5T_NATIVE_INT64, scalar(), &number);
+}
+
+// One after the other, each filled up with NULs to the length of the longest.
+std::string padded(const std::vector<std::string_view>& texts, std::size_t& size) {
+  size = 1;
+  for (const std::string_view text : texts) {
+    if (text.find('\0') != std::string::npos) throw ImageError("a text with a NUL cannot be stored");
+    size = std::max(size, text.size());
+  }
+  std::string all;
+  for (const std::string_view text : texts) {
+    all += text;
+    all.append(size - text.size(), '\0');
+  }
+  return all;
+}
+
+void write_text(hid_t owner, const char* name, const std::string& text) {
+  std::size_t size = 0;
+  const std::string bytes = padded({text}, size);
+  const Handle type = string_type(size);
+  write_attribute(owner, name, type, type, scalar(), bytes.data());
+}
+
+void write_texts(hid_t owner, const char* name, const Trace& trace, std::string Column::*part) {
+  std::vector<std::string_view> texts;
+  for (const Column& column : trace.columns) texts.emplace_back(column.*part);
+  std::size_t size = 0;
+  const std::string bytes = padded(texts, size);
+  const hsize_t count = texts.size();
+  const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, name);
+  const Handle type = string_type(size);
+  write_attribute(owner, name, type, type, space, bytes.data());
+}
+
+// No times, and a kind of header that may hold attributes above 64 kB.
+void plain(hid_t properties) {
+  checked(H5Pset_obj_track_times(properties, 0), "properties");
+  checked(H5Pset_attr_creation_order(properties, H5P_CRT_ORDER_TRACKED), "properties");
+}
+
+Handle dataset_properties(const std::array<hsize_t, 2>& shape) {
+  Handle made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "dataset properties");
+  plain(made);
+  if (shape[0] == 0 || shape[1] == 0) return made;
+  const std::array<hsize_t, 2> chunk{std::min(shape[0], kChunkRows), 1};
+  checked(H5Pset_chunk(made, 2, chunk.data()), "chunks");
+  checked(H5Pset_shuffle(made), "shuffle filter");
+  checked(H5Pset_deflate(made, kGzip), "gzip filter");
+  return made;
+}
+
+void write_dataset(hid_t owner, const char* name, const Trace& trace) {
+  const std::array<hsize_t, 2> shape{trace.rows(), trace.columns.size()};
+  const Handle space(H5Screate_simple(2, shape.data(), nullptr), H5Sclose, "shape");
+  const Handle properties = dataset_properties(shape);
+  Handle data(H5Dcreate2(owner, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, "dataset");
+  if (!trace.values.empty())
+    checked(H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, trace.values.data()), "writing the values");
+  write_texts(data, "columns", trace, &Column::name);
+  write_texts(data, "units", trace, &Column::unit);
+  write_texts(data, "definitions", trace, &Column::definition);
+  data.close("closing the dataset");
+}
+
+std::string image(hid_t file) {
+  checked(H5Fflush(file, H5F_SCOPE_GLOBAL), "flush");
+  std::string bytes(static_cast<std::size_t>(checked(H5Fget_file_image(file, nullptr, 0), "size of the file")), '\0');
+  checked(H5Fget_file_image(file, bytes.data(), bytes.size()), "bytes of the file");
+  return bytes;
+}
+
+// --- reading ----------------------------------------------------------------------------------------------------------
+
+std::array<hsize_t, 2> shape_of(hid_t space, int rank, const char* what) {
+  std::array<hsize_t, 2> shape{1, 1};
+  if (checked(H5Sget_simple_extent_ndims(space), what) != rank) throw ImageError(fmt::format("{} has another shape", what));
+  checked(H5Sget_simple_extent_dims(space, shape.data(), nullptr), what);
+  return shape;
+}
+
+std::int64_t read_number(hid_t owner, const char* name) {
+  const Handle attribute(H5Aopen(owner, name, H5P_DEFAULT), H5Aclose, name);
+  const Handle type(H5Aget_type(attribute), H5Tclose, name);
+  if (H5Tget_class(type) != H5T_INTEGER) throw ImageError(fmt::format("{} is not an integer", name));
+  shape_of(Handle(H5Aget_space(attribute), H5Sclose, name), 0, name);
+  std::int64_t number = 0;
+  checked(H5Aread(attribute, H5T_NATIVE_INT64, &number), name);
+  return number;
+}
+
+// The texts of an attribute with `rank` dimensions.
+std::vector<std::string> read_texts(hid_t owner, const char* name, int rank, std::size_t file_size) {
+  const Handle attribute(H5Aopen(owner, name, H5P_DEFAULT), H5Aclose, name);
+  const Handle stored(H5Aget_type(attribute), H5Tclose, name);
+  if (H5Tget_class(stored) != H5T_STRING) throw ImageError(fmt::format("{} is not a text", name));
+  const Handle space(H5Aget_space(attribute), H5Sclose, name);
+  const std::size_t count = shape_of(space, rank, name)[0];
+  std::vector<std::string> found;
+  if (checked(H5Tis_variable_str(stored), name) != 0) {  // format 1
+    std::vector<char*> texts(count + 1, nullptr);
+    const Handle type = string_type(H5T_VARIABLE);
+    checked(H5Aread(attribute, type, texts.data()), name);
+    for (std::size_t i = 0; i < count; ++i) found.emplace_back(texts[i] == nullptr ? "" : texts[i]);
+    checked(H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data()), name);
+    return found;
+  }
+  const std::size_t size = H5Tget_size(stored);
+  if (size == 0 || count > file_size / size) throw ImageError(fmt::format("{} is larger than it can be", name));
+  std::string bytes(count * size + 1, '\0');  // so that there is an address without columns, too
+  checked(H5Aread(attribute, string_type(size), bytes.data()), name);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string_view text = std::string_view(bytes).substr(i * size, size);
+    found.emplace_back(text.substr(0, text.find('\0')));
+  }
+  return found;
+}
+
+std::vector<Column> read_columns(hid_t data, std::size_t count, std::size_t file_size) {
+  const std::vector<std::string> names = read_texts(data, "columns", 1, file_size);
+  const std::vector<std::string> units = read_texts(data, "units", 1, file_size);
+  const std::vector<std::string> definitions = read_texts(data, "definitions", 1, file_size);
+  if (names.size() != count || units.size() != count || definitions.size() != count) {
+    throw ImageError(
+        fmt::format("{} names, {} units, {} definitions of {} columns", names.size(), units.size(), definitions.size(), count));
+  }
+  std::vector<Column> columns;
+  std::unordered_set<std::string> seen;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!seen.insert(names[i]).second) throw ImageError(fmt::format("column \"{}\" is there twice", names[i]));
+    columns.push_back({names[i], units[i], definitions[i]});
+  }
+  return columns;
+}
+
+Trace read_dataset(hid_t owner, const char* name, std::size_t file_size) {
+  const Handle data(H5Dopen2(owner, name, H5P_DEFAULT), H5Dclose, name);
+  const Handle type(H5Dget_type(data), H5Tclose, name);
+  if (H5Tget_class(type) != H5T_FLOAT || H5Tget_size(type) != sizeof(double)) {
+    throw ImageError(fmt::format("/{} is not float64", name));
+  }
+  const Handle space(H5Dget_space(data), H5Sclose, name);
+  const auto [rows, columns] = shape_of(space, 2, name);
+  // gzip makes nothing smaller than a 1032nd: more is a lie that would only exhaust the memory.
+  if (columns != 0 && rows > 1040 * file_size / sizeof(double) / columns) {
+    throw ImageError(fmt::format("/{} is larger than it can be", name));
+  }
+  Trace trace;
+  trace.columns = read_columns(data, columns, file_size);
+  trace.values.resize(rows * columns);
+  if (!trace.values.empty())
+    checked(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, trace.values.data()), "reading the values");
+  return trace;
+}
+
+}  // namespace
+
+std::string to_image(const Trace& trace, const Origin& origin, std::span<const Beside> beside) {
+  const Library library;
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file creation");
+  checked(H5Pset_userblock(creation, kUserBlock), "user block");
+  plain(creation);
+  const Handle access = file_access();
+  Handle file(H5Fcreate(kNowhere, H5F_ACC_TRUNC, creation, access), H5Fclose, "file");
+  write_text(file, "format", std::string(std::end(kTraceFormats)[-1]));
+  write_text(file, "scenario", origin.scenario);
+  write_text(file, "outcome", origin.outcome);
+  write_number(file, "seed", origin.seed);
+  write_text(file, "build", origin.build);
+  write_number(file, "rows", static_cast<std::int64_t>(trace.rows()));
+  write_text(file, "checksum", hash(trace));
+  write_dataset(file, "trace", trace);
+  if (!beside.empty()) {
+    const Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "group");
+    plain(properties);
+    const Handle group(H5Gcreate2(file, "recording", H5P_DEFAULT, properties, H5P_DEFAULT), H5Gclose, "group");
+    for (const Beside& one : beside) write_dataset(group, one.name.c_str(), one.table);
+  }
+  std::string bytes = image(file);
+  file.close("closing the file");
+  return bytes;
+}
+
+StoredTrace from_image(const std::string& file_bytes) {
+  const Library library;
+  const Handle access = file_access();
+  // HDF5 copies the image; it takes a pointer that is not const only for callbacks that are not set.
+  checked(H5Pset_file_image(access, const_cast<char*>(file_bytes.data()), file_bytes.size()), "image");
+  const Handle file(H5Fopen(kNowhere, H5F_ACC_RDONLY, access), H5Fclose, "opening the file");
+  const auto text = [&](const char* name) { return read_texts(file, name, 0, file_bytes.size()).front(); };
+  const std::string format = text("format");
+  if (!file_bytes.starts_with(format + "\n")) throw ImageError("the attribute `format` is not that of the first line");
+  const bool first = format == kTraceFormats[0];
+  StoredTrace stored;
+  stored.origin = {text("scenario"), read_number(file, "seed"), text("build"), first ? "" : text("outcome")};
+  stored.trace = read_dataset(file, "trace", file_bytes.size());
+  if (read_number(file, "rows") != static_cast<std::int64_t>(stored.trace.rows()))
+    throw ImageError(fmt::format("{} rows, of which not all were written", stored.trace.rows()));
+  if (text("checksum") != hash(stored.trace)) throw ImageError("the trace does not match its checksum");
+  if (first || checked(H5Lexists(file, "recording", H5P_DEFAULT), "recording") == 0) return stored;
+  const Handle group(H5Gopen2(file, "recording", H5P_DEFAULT), H5Gclose, "recording");
+  for (const char* name : kBeside) {
+    if (checked(H5Lexists(group, name, H5P_DEFAULT), name) == 0) continue;
+    stored.beside.push_back({name, read_dataset(group, name, file_bytes.size())});
+  }
+  return stored;
+}
+
+}  // namespace gaitlab

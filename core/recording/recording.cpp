@@ -1,0 +1,67 @@
+#include "core/recording/recording.h"
+
+#include <fmt/format.h>
+
+namespace gaitlab {
+
+std::vector<double> Series::values() const {
+  std::vector<double> all(size_);
+  for (std::size_t row = 0; row < size_; ++row) all[row] = (*this)[row];
+  return all;
+}
+
+const std::vector<std::string>& report_columns() {
+  static const std::vector<std::string> kPatterns{"joint.*.setpoint", "joint.*.angle", "joint.*.torque", "base.?",
+                                                  "base.q?",          "com.?",         "load.*"};
+  return kPatterns;
+}
+
+Series Recording::series(const std::string& column) const {
+  for (const Trace* table : {&trace, &rest}) {
+    const std::size_t at = table->find(column);
+    if (at < table->columns.size()) return {*table, at};
+  }
+  return {};
+}
+
+Series Recording::joint(std::size_t number, const char* quantity) const {
+  return series(fmt::format("joint.{}.{}", number, quantity));
+}
+
+Vec3 Recording::com(std::size_t row) const { return {series("com.x")[row], series("com.y")[row], series("com.z")[row]}; }
+
+bool Recording::has_states(const Robot& robot) const {
+  for (const char* column : {"base.x", "base.y", "base.z", "base.qw", "base.qx", "base.qy", "base.qz"}) {
+    if (series(column).empty()) return false;
+  }
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    if (joint(j, "angle").empty()) return false;
+  }
+  return true;
+}
+
+RobotState Recording::state(const Robot& robot, std::size_t row) const {
+  const auto at = [&](const char* column) { return series(column)[row]; };
+  RobotState s;
+  s.position = Vec3(at("base.x"), at("base.y"), at("base.z"));
+  s.orientation = Quat(at("base.qw"), at("base.qx"), at("base.qy"), at("base.qz"));
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) s.q.push_back(joint(j, "angle")[row]);
+  s.qd.assign(robot.joints.size(), 0.0);
+  return s;
+}
+
+std::vector<Column> tick_columns(std::size_t joints) {
+  std::vector<Column> columns{{"t", "s", "time"}};
+  for (std::size_t j = 0; j < joints; ++j) {
+    const auto add = [&](const char* name, const char* unit, const char* definition) {
+      columns.push_back({fmt::format("joint.{}.{}", j, name), unit, definition});
+    };
+    add("torque_peak", "N m", "largest magnitude of the motor torque since the row before, over all steps");
+    add("torque_square", "N^2 m^2 s", "integral of the motor torque squared from t = 0, over all steps");
+    add("voltage_limited", "s", "time at the voltage limit from t = 0, over all steps");
+    add("current_limited", "s", "time at the current limit from t = 0, over all steps");
+  }
+  return columns;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,73 @@
+// A run as a value: its rows, and what is known of all its steps. Summary, figures, goldens and every page read this, whether
+// the run has just ended or lies in a folder.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/model/kinematics.h"
+#include "core/recording/ledger.h"
+#include "core/recording/statistics.h"
+#include "core/recording/trace.h"
+
+namespace gaitlab {
+
+/// One column of a table, row by row; valid as long as the table is not changed.
+class Series {
+ public:
+  Series() = default;
+  Series(const Trace& table, std::size_t column)
+      : first_(table.values.data() + column), stride_(table.columns.size()), size_(table.rows()) {}
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  double operator[](std::size_t row) const { return first_[row * stride_]; }
+  [[nodiscard]] double front() const { return (*this)[0]; }
+  [[nodiscard]] double back() const { return (*this)[size_ - 1]; }
+  [[nodiscard]] std::vector<double> values() const;
+
+ private:
+  const double* first_ = nullptr;
+  std::size_t stride_ = 0, size_ = 0;
+};
+
+/// Patterns of the columns that summary, figures and warnings read; recorded whatever `trace.columns` says.
+const std::vector<std::string>& report_columns();
+
+/// How one rollout ran.
+struct Recording {
+  /// At every trace tick, and at the end: the columns that `trace.columns` names; then those of report_columns() that it leaves
+  /// out.
+  Trace trace, rest;
+  /// At control ticks at least 2 ms apart, and at the end: for each joint the largest |torque| since the row before, and from
+  /// t = 0 the integral of torque^2 and the time at each limit. Over all steps, so that a peak or an RMS of any part of the run
+  /// does not depend on trace.period.
+  Trace ticks;
+  std::vector<JointStatistics> joints;  ///< none: the robot has no joint, or the run is of a format that did not keep them
+  Ledger ledger;                        ///< at the end
+  StepTally tally;                      ///< of the engine's steps
+  double simulated = 0;                 ///< s
+  Stability worst;                      ///< the largest rate seen at a control tick
+  double worst_time = 0;                ///< s
+  std::int64_t control_ticks = 0, control_ticks_above_1 = 0;
+  std::int64_t steps = 0;
+  std::string outcome = "done";  ///< or why it ended early
+
+  [[nodiscard]] std::size_t rows() const { return trace.rows(); }
+  /// A column of `trace` or `rest` by name; empty where neither has it.
+  [[nodiscard]] Series series(const std::string& column) const;
+  /// `joint.N.QUANTITY`: angle, setpoint, torque.
+  [[nodiscard]] Series joint(std::size_t number, const char* quantity) const;
+  /// Centre of mass at a row.
+  [[nodiscard]] Vec3 com(std::size_t row) const;
+  /// Of the centre of mass, from the first row to the last.
+  [[nodiscard]] Vec3 travel() const { return rows() == 0 ? Vec3(Vec3::Zero()) : Vec3(com(rows() - 1) - com(0)); }
+  /// Whether `state` finds what it needs: always but in a folder of an older format.
+  [[nodiscard]] bool has_states(const Robot& robot) const;
+  /// Angles and pose at a row; speeds 0.
+  [[nodiscard]] RobotState state(const Robot& robot, std::size_t row) const;
+};
+
+/// The columns of Recording::ticks for so many joints.
+std::vector<Column> tick_columns(std::size_t joints);
+
+}  // namespace gaitlab

@@ -1,0 +1,152 @@
+#include "core/recording/recording_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "core/errors.h"
+#include "core/recording/csv.h"
+#include "core/recording/run_files.h"
+
+namespace gaitlab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every number of a recording that is not one of a row or of a joint: visit(name, unit, definition, number).
+template <class OfRecording, class Visit>
+void each_number(OfRecording& r, Visit visit) {
+  visit("simulated", "s", "simulated time", r.simulated);
+  visit("steps", "", "steps of the simulation", r.steps);
+  visit("control_ticks", "", "control ticks", r.control_ticks);
+  visit("control_ticks_above_1", "", "control ticks at which h lambda exceeded 1", r.control_ticks_above_1);
+  visit("stability.rate", "1/s", "largest lambda seen at a control tick", r.worst.rate);
+  visit("stability.source", "", "0 motor, 1 stop, 2 contact: what has it", r.worst.source);
+  visit("stability.index", "", "number of that joint or contact element", r.worst.index);
+  visit("stability.time", "s", "when it was seen", r.worst_time);
+  visit("energy.electrical", "J", "drawn by the motors", r.ledger.electrical);
+  visit("energy.copper", "J", "lost in the motors' windings", r.ledger.copper);
+  visit("energy.gear", "J", "lost in the gears, less what they created", r.ledger.gear);
+  visit("energy.contact", "J", "given to the ground along its normal", r.ledger.contact);
+  visit("energy.friction", "J", "given to the ground along it", r.ledger.friction);
+  visit("energy.stops", "J", "given to the hinge stops", r.ledger.stops);
+  visit("energy.stored", "J", "kinetic and potential, less those at the start", r.ledger.stored);
+  visit("solves", "", "solves of the equations of motion", r.tally.solves);
+  visit("off_law", "", "joint-steps that ended off the law of their motor or stop", r.tally.off);
+  visit("coarse_time", "s", "time in which the steps did not reach the accuracy", r.tally.coarse);
+  visit("torque_error.estimated", "", "1: there is an estimate of the torque error", r.tally.estimated);
+}
+
+/// The same of joint `j`.
+template <class OfRecording, class Visit>
+void each_number_of(OfRecording& r, std::size_t j, Visit visit) {
+  for (const JointStatistic& one : kJointStatistics) visit(one.name, one.unit, one.definition, r.joints[j].*one.member);
+  visit("torque_error", "N m", "estimate of the motor torque's error, RMS", r.tally.torque_error[j]);
+  visit("torque_error_peak", "N m", "largest motor torque where that error is asked for", r.tally.torque_peak[j]);
+}
+
+std::vector<Beside> tables(const Recording& r, const Trace& rest) {
+  Trace run;
+  each_number(r, [&](const char* name, const char* unit, const char* definition, const auto& number) {
+    run.columns.push_back({name, unit, definition});
+    run.values.push_back(static_cast<double>(number));
+  });
+  Trace joints;
+  for (std::size_t j = 0; j < r.joints.size(); ++j) {
+    each_number_of(r, j, [&](const char* name, const char* unit, const char* definition, double number) {
+      if (j == 0) joints.columns.push_back({name, unit, definition});
+      joints.values.push_back(number);
+    });
+  }
+  return {{"rest", rest}, {"ticks", r.ticks}, {"joints", joints}, {"run", run}};
+}
+
+InputError unfit(const fs::path& file, const std::string& what) { return {Place{file.string()}, "is corrupt: " + what}; }
+
+/// What tables() made, back into the recording.
+void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r) {
+  const auto take = [&](const char* name) -> Trace {
+    const auto found = std::ranges::find(beside, name, &Beside::name);
+    if (found == beside.end()) throw unfit(file, fmt::format("there is no table /recording/{}", name));
+    return std::move(found->table);
+  };
+  const auto value = [&](const Trace& table, std::size_t row, const char* name) {
+    const std::size_t column = table.find(name);
+    if (column == table.columns.size() || row >= table.rows()) throw unfit(file, fmt::format("there is no number {}", name));
+    return table.at(row, column);
+  };
+  r.rest = take("rest");
+  r.ticks = take("ticks");
+  const Trace joints = take("joints");
+  const Trace run = take("run");
+  r.joints.resize(joints.rows());
+  r.tally.torque_error.resize(joints.rows());
+  r.tally.torque_peak.resize(joints.rows());
+  for (std::size_t j = 0; j < joints.rows(); ++j) {
+    each_number_of(r, j, [&](const char* name, const char*, const char*, double& number) { number = value(joints, j, name); });
+  }
+  each_number(r, [&](const char* name, const char*, const char*, auto& number) {
+    using Number = std::remove_reference_t<decltype(number)>;
+    const double read = value(run, 0, name);
+    // Every number but those of the energies and times is a count, which a double holds to 2^53.
+    if (!std::is_floating_point_v<Number> && !(read >= 0 && read <= 0x1p53))
+      throw unfit(file, fmt::format("{} is {}", name, read));
+    number = static_cast<Number>(read);
+  });
+  if (r.worst.source > Stability::Source::contact) throw unfit(file, "stability.source is none of 0, 1, 2");
+  if (!r.rest.columns.empty() && r.rest.rows() != r.trace.rows() && r.trace.rows() > 0) {
+    throw unfit(file, fmt::format("{} rows in /recording/rest, {} in the trace", r.rest.rows(), r.trace.rows()));
+  }
+}
+
+}  // namespace
+
+void write_recording(const Recording& r, const Origin& origin, const std::string& format, const fs::path& folder) {
+  const std::vector<Beside> beside = tables(r, r.rest);
+  if (format == "csv") {
+    write_csv(r.trace, folder / "trace.csv");
+    write_h5({}, origin, folder / "recording.h5", beside);
+  } else {
+    write_h5(r.trace, origin, folder / "trace.h5", beside);
+  }
+}
+
+StoredRecording read_recording(const fs::path& folder) {
+  const fs::path file = trace_file(folder);
+  const fs::path beside = file.parent_path() / "recording.h5";
+  const bool csv = file.extension() == ".csv";
+  StoredRecording read;
+  StoredTrace stored;
+  if (csv) {
+    read.recording.trace = read_csv(file);
+    std::error_code none;
+    if (fs::exists(beside, none)) stored = read_h5(beside);
+  } else {
+    stored = read_h5(file);
+    read.recording.trace = std::move(stored.trace);
+  }
+  read.origin = std::move(stored.origin);
+  if (!stored.beside.empty()) {
+    take_tables(csv ? beside : file, stored.beside, read.recording);
+    read.recording.outcome = read.origin.outcome;
+    return read;
+  }
+  const Trace& trace = read.recording.trace;
+  if (trace.rows() > 0) read.recording.simulated = trace.at(trace.rows() - 1, 0);
+  read.missing.push_back(
+      fmt::format("{} holds rows only: peaks, shares of time, energies and the torque error, which are of all "
+                  "steps, are not known",
+                  file.string()));
+  std::vector<std::string> absent;
+  for (const std::string& pattern : report_columns()) {
+    const auto covers = [&](const Column& column) { return glob(pattern, column.name); };
+    if (std::ranges::none_of(trace.columns, covers)) absent.push_back(pattern);
+  }
+  if (!absent.empty()) read.missing.push_back(fmt::format("the trace has no column {}", fmt::join(absent, ", ")));
+  return read;
+}
+
+}  // namespace gaitlab

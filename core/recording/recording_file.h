@@ -1,0 +1,29 @@
+// A recording in its run folder, written and read back.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/recording/h5.h"
+#include "core/recording/recording.h"
+
+namespace gaitlab {
+
+/// Writes trace.h5, or, for `format` csv, trace.csv and recording.h5, which has what the CSV file cannot hold. Tables of
+/// `/recording`: `rest` and `ticks` (see Recording); `joints`, a row for each joint: its statistics and its torque error;
+/// `run`, one row: what is known of the whole run. RunError: a file cannot be written.
+void write_recording(const Recording& recording, const Origin& origin, const std::string& format,
+                     const std::filesystem::path& folder);
+
+/// A recording read back.
+struct StoredRecording {
+  Recording recording;
+  Origin origin;
+  std::vector<std::string> missing;  ///< what the folder does not hold, a sentence each; none: everything is as it was written
+};
+
+/// Reads the recording of a run folder. A folder of an older format, or a CSV file alone, is read as far as it goes.
+/// InputError: see trace_file, read_h5, read_csv; tables that do not fit together.
+StoredRecording read_recording(const std::filesystem::path& folder);
+
+}  // namespace gaitlab

@@ -1,0 +1,64 @@
+#include "core/recording/run_files.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "core/errors.h"
+#include "core/recording/atomic_file.h"
+#include "core/recording/csv.h"
+#include "core/recording/h5.h"
+
+namespace gaitlab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Of a byte counted from 1, as nlohmann's parser does.
+Place place_of(const fs::path& file, std::string_view text, std::size_t byte) {
+  const std::string_view before = text.substr(0, std::min(byte == 0 ? 0 : byte - 1, text.size()));
+  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
+  return {file.string(), 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+          1 + static_cast<int>(before.size() - line_start)};
+}
+
+}  // namespace
+
+fs::path trace_file(const fs::path& run) {
+  const Place place{run.string()};
+  std::error_code error;
+  const fs::file_status status = fs::status(run, error);
+  if (!fs::exists(status)) throw InputError(place, "there is no such run folder or trace file");
+  if (!fs::is_directory(status)) {
+    if (run.extension() == ".h5" || run.extension() == ".csv") return run;
+    throw InputError(place, "is neither a run folder nor a trace file (.h5, .csv)");
+  }
+  for (const char* name : {"trace.h5", "trace.csv"}) {
+    if (fs::exists(run / name, error)) return run / name;
+  }
+  throw InputError(place, "holds neither trace.h5 nor trace.csv: it is not a run folder");
+}
+
+Trace read_trace(const fs::path& run) {
+  const fs::path file = trace_file(run);
+  return file.extension() == ".h5" ? read_h5(file).trace : read_csv(file);
+}
+
+nlohmann::json read_summary(const fs::path& folder) {
+  const fs::path file = folder / "summary.json";
+  const std::string text = read_file(file);
+  try {
+    nlohmann::json summary = nlohmann::json::parse(text);
+    if (!summary.is_object()) throw InputError(Place{file.string(), 1, 1}, "holds no JSON object: it is not a summary");
+    return summary;
+  } catch (const nlohmann::json::parse_error& error) {
+    throw InputError(place_of(file, text, error.byte), "is not JSON from here on: it is truncated or damaged");
+  } catch (const nlohmann::json::exception&) {  // a number beyond a double
+    throw InputError(Place{file.string()}, "holds a number that is outside the range of a double");
+  }
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,70 @@
+// What is known of a run beside its rows: sums and peaks over ALL steps, which rows are too sparse for.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace gaitlab {
+
+/// Of one joint, over the steps so far. SI.
+struct JointStatistics {
+  double torque_peak = 0, torque_rms = 0;                  ///< N m, motor torque
+  double speed_peak = 0;                                   ///< rad/s
+  double current_peak = 0, current_rms = 0;                ///< A
+  double error_rms = 0, error_peak = 0;                    ///< rad, set point - angle
+  double error_peak_time = 0;                              ///< s: start of the step in which error_peak was reached
+  double saturated_voltage = 0, saturated_current = 0;     ///< share of time
+  double range_share = 0, range_worst = 0;                 ///< share of time outside [lo, hi]; worst excess, rad
+  double setpoint_outside = 0;                             ///< share of time the set point is outside [lo, hi]
+  double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost, lost, given to the joint
+  double shaft_positive = 0;                               ///< J: shaft power where it is positive
+  double created = 0;                                      ///< J: what the gear gave instead of losing (eq. 2, back-driven)
+};
+
+/// A member of JointStatistics as a column of a table.
+struct JointStatistic {
+  double JointStatistics::*member;
+  const char *name, *unit, *definition;
+};
+
+/// All of them.
+inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(double)> kJointStatistics{{
+    {&JointStatistics::torque_peak, "torque_peak", "N m", "largest magnitude of the motor torque"},
+    {&JointStatistics::torque_rms, "torque_rms", "N m", "RMS of the motor torque"},
+    {&JointStatistics::speed_peak, "speed_peak", "rad/s", "largest magnitude of the speed"},
+    {&JointStatistics::current_peak, "current_peak", "A", "largest magnitude of the current"},
+    {&JointStatistics::current_rms, "current_rms", "A", "RMS of the current"},
+    {&JointStatistics::error_rms, "error_rms", "rad", "RMS of set point minus angle"},
+    {&JointStatistics::error_peak, "error_peak", "rad", "largest magnitude of set point minus angle"},
+    {&JointStatistics::error_peak_time, "error_peak_time", "s", "start of the step in which error_peak was reached"},
+    {&JointStatistics::saturated_voltage, "saturated_voltage", "", "share of the time at the voltage limit"},
+    {&JointStatistics::saturated_current, "saturated_current", "", "share of the time at the current limit"},
+    {&JointStatistics::range_share, "range_share", "", "share of the time outside the range of the hinge"},
+    {&JointStatistics::range_worst, "range_worst", "rad", "largest excess over the range of the hinge"},
+    {&JointStatistics::setpoint_outside, "setpoint_outside", "", "share of the time with the set point outside that range"},
+    {&JointStatistics::electrical, "electrical", "J", "energy drawn by the motor"},
+    {&JointStatistics::copper, "copper", "J", "heat in the winding"},
+    {&JointStatistics::gear, "gear", "J", "loss in the gear, less what it created"},
+    {&JointStatistics::shaft, "shaft", "J", "energy given to the joint"},
+    {&JointStatistics::shaft_positive, "shaft_positive", "J", "energy given to the joint where that power is positive"},
+    {&JointStatistics::created, "created", "J", "what the gear gave instead of losing"},
+}};
+
+/// What is known of a rollout's steps since the start.
+struct StepTally {
+  double solves = 0;                 ///< of the equations of motion; 0: not counted
+  double off = 0;                    ///< joint-steps that ended off the law of their motor or stop
+  double coarse = 0;                 ///< s in which the shortest steps that an integrator takes did not reach the accuracy
+  bool estimated = false;            ///< whether there is an estimate of the torque error yet (core/simulation/step_error.h)
+  std::vector<double> torque_error;  ///< of each joint, RMS, N m
+  std::vector<double> torque_peak;   ///< of each joint, largest torque where that error is asked for, N m
+};
+
+/// Largest rate lambda of M^-1 (B + sum J^T G J), 1/s, and what it comes from. A step h is stable for h lambda <= 1 (explicit).
+struct Stability {
+  double rate = 0;
+  enum class Source { motor, stop, contact } source = Source::motor;
+  std::size_t index = 0;  ///< joint, or contact element
+};
+
+}  // namespace gaitlab

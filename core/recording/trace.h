@@ -1,0 +1,44 @@
+// A trace: named columns with unit and definition, a row every trace period.
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gaitlab {
+
+struct Column {
+  std::string name;        ///< `joint.m3/passive.torque` is written with the joint's number: `joint.7.torque`
+  std::string unit;        ///< "N m", "rad", "" ...
+  std::string definition;  ///< one sentence: what, which sign, which axes
+};
+
+/// Row-major table; the first column is `t`.
+struct Trace {
+  std::vector<Column> columns;
+  std::vector<double> values;  ///< rows() * columns.size()
+
+  [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
+  [[nodiscard]] double at(std::size_t row, std::size_t column) const { return values[row * columns.size() + column]; }
+  [[nodiscard]] std::span<const double> row(std::size_t index) const {
+    return {values.data() + index * columns.size(), columns.size()};
+  }
+  /// Index of the column, or columns.size().
+  [[nodiscard]] std::size_t find(const std::string& name) const;
+};
+
+/// FNV-1a (64 bit) over the names and the bytes of all values: the same trace, the same hash. 16 hex digits.
+std::string hash(const Trace& trace);
+
+/// FNV-1a (64 bit) of the bytes alone. 16 hex digits.
+std::string hash(std::string_view bytes);
+
+/// Of files, eight bytes at a time and so several times as fast: h = (h ^ word) * prime, h ^= h >> 32, words little-endian, the
+/// last one filled up with zeros; prime and start are those of FNV-1a (64 bit), the length is the first word. 16 hex digits.
+std::string hash_words(std::string_view bytes);
+
+/// `*` stands for any run of characters, `?` for one.
+bool glob(const std::string& pattern, const std::string& text);
+
+}  // namespace gaitlab

@@ -1,0 +1,106 @@
+#include "golden/bands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kOfTheLargest = 1e-3;  // range, among columns of one unit
+constexpr double kOfTheUnit = 1e-6;     // um, urad, uN m, uA: below what the model means
+constexpr double kEnsembleFactor = 10, kHalvingFactor = 3;
+constexpr double kLeastOfRange = 1e-6;  // other compilers' rounding, grown over a run, stays below
+
+struct Extent {
+  std::string unit;
+  double size = 0;
+};
+
+std::vector<double> scales(const std::vector<Extent>& extents) {
+  std::map<std::string, double> largest;
+  for (const Extent& extent : extents) largest[extent.unit] = std::max(largest[extent.unit], extent.size);
+  std::vector<double> found;
+  found.reserve(extents.size());
+  for (const Extent& extent : extents)
+    found.push_back(std::max({extent.size, kOfTheLargest * largest[extent.unit], kOfTheUnit}));
+  return found;
+}
+
+double range_of(const Trace& trace, std::size_t column) {
+  double low = INFINITY;
+  double high = -INFINITY;
+  for (std::size_t k = 0; k < trace.rows(); ++k) {
+    low = std::min(low, trace.at(k, column));
+    high = std::max(high, trace.at(k, column));
+  }
+  return trace.rows() == 0 ? 0 : high - low;
+}
+
+const Number& number(const GoldenRun& run, const std::string& name) {
+  const auto named = [&](const Number& n) { return n.name == name; };
+  const auto found = std::find_if(run.numbers.begin(), run.numbers.end(), named);
+  if (found == run.numbers.end()) throw std::invalid_argument("a run to calibrate with has no number " + name);
+  return *found;
+}
+
+}  // namespace
+
+std::vector<double> scales(const Trace& trace) {
+  std::vector<Extent> extents;
+  for (std::size_t i = 0; i < trace.columns.size(); ++i) extents.push_back({trace.columns[i].unit, range_of(trace, i)});
+  return scales(extents);
+}
+
+std::vector<double> scales(const std::vector<Number>& numbers) {
+  std::vector<Extent> extents;
+  extents.reserve(numbers.size());
+  for (const Number& number : numbers) extents.push_back({number.unit, std::abs(number.value)});
+  return scales(extents);
+}
+
+double mean_square(const Trace& a, const Trace& b, std::size_t column) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.rows(); ++k) {
+    const double d = b.at(k, column) - a.at(k, column);
+    sum += d * d;
+  }
+  return a.rows() == 0 ? 0 : sum / static_cast<double>(a.rows());
+}
+
+std::vector<double> mean_squares(const Trace& a, const Trace& b) {
+  std::vector<double> squares(a.columns.size());
+  for (std::size_t i = 0; i < squares.size(); ++i) squares[i] = mean_square(a, b, i);
+  return squares;
+}
+
+Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, const GoldenRun& halved) {
+  Bands bands;
+  bands.columns.resize(1);
+  const std::vector<double> scale = scales(base.trace);
+  for (std::size_t i = 1; i < base.trace.columns.size(); ++i) {
+    Band band;
+    for (const GoldenRun& run : ensemble)
+      band.ensemble = std::max(band.ensemble, kEnsembleFactor * std::sqrt(mean_square(base.trace, run.trace, i)) / scale[i]);
+    band.halving = kHalvingFactor * std::sqrt(mean_square(base.trace, halved.trace, i)) / scale[i];
+    band.floor = kLeastOfRange;
+    bands.columns.push_back(band);
+  }
+  const std::vector<double> size = scales(base.numbers);
+  for (std::size_t i = 0; i < base.numbers.size(); ++i) {
+    const auto change = [&](const GoldenRun& run) {
+      return std::abs(number(run, base.numbers[i].name).value - base.numbers[i].value) / size[i];
+    };
+    Band band;
+    for (const GoldenRun& run : ensemble) band.ensemble = std::max(band.ensemble, kEnsembleFactor * change(run));
+    band.halving = kHalvingFactor * change(halved);
+    band.floor = kLeastOfRange;
+    bands.numbers.push_back(band);
+  }
+  return bands;
+}
+
+}  // namespace gaitlab

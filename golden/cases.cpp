@@ -1,0 +1,234 @@
+#include "golden/cases.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "core/errors.h"
+#include "core/recording/atomic_file.h"
+
+namespace gaitlab::golden {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_scenario(const fs::path& file) { return file.extension() == ".yaml" || file.extension() == ".yml"; }
+
+/// A link to nothing is there, too; what cannot be looked at is not, and reading it says why.
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(path, error));
+}
+
+/// Scenarios, and goldens that have none: one of them may be gone unseen.
+struct Found {
+  std::vector<fs::path> scenarios, orphans;
+};
+
+/// The scenario that a golden belongs to, or nothing.
+fs::path scenario_of(const fs::path& golden) {
+  for (const char* extension : {".yaml", ".yml"}) {
+    fs::path file = fs::path(golden).replace_extension(extension);
+    if (is_there(file)) return file;
+  }
+  return {};
+}
+
+/// All scenarios of the folder, and in its subfolders those that have a golden (other YAML there may be anything).
+void find_in(const fs::path& folder, bool top, Found& found) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const fs::path& path = entry.path();
+    std::error_code unknown;  // a loop of links is not a folder: its own case tells
+    const bool is_folder = fs::is_directory(path, unknown);
+    if (top && is_scenario(path) && !is_folder) found.scenarios.push_back(path);
+    if (!is_folder) continue;
+    if (path.extension() != ".golden") {
+      if (!entry.is_symlink()) find_in(path, false, found);
+      continue;
+    }
+    const fs::path scenario = scenario_of(path);
+    if (scenario.empty()) found.orphans.push_back(path);
+    if (!scenario.empty() && !top) found.scenarios.push_back(scenario);
+  }
+  if (error) throw InputError(Place{folder.string()}, "cannot be read: " + error.message());
+}
+
+Found found_in(const fs::path& folder) {
+  Found found;
+  find_in(folder, true, found);
+  if (found.scenarios.empty()) throw InputError(Place{folder.string()}, "holds no scenario (*.yaml, *.yml)");
+  std::sort(found.scenarios.begin(), found.scenarios.end());
+  std::sort(found.orphans.begin(), found.orphans.end());
+  return found;
+}
+
+GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golden, bool must) {
+  GoldenCase c{file.string()};
+  try {
+    c.folder = golden ? fs::path(*golden) : own_golden(file);
+    c.given_golden = golden.has_value();
+    if (kind_of(file) == fs::file_type::not_found) throw InputError(Place{c.file}, "is a link to nothing");
+    if (golden || is_there(c.folder)) {
+      c.golden = read_golden(c.folder);
+    } else if (!must) {
+      c.verdict = Verdict::skipped;
+    } else {
+      throw InputError(Place{c.file},
+                       fmt::format("has no golden ({} does not exist); make it: gaitlab approve {} --reason TEXT",
+                                   c.folder.string(), c.file));
+    }
+  } catch (const InputError& error) {
+    c.fail(Verdict::bad_input, error.what());
+  }
+  return c;
+}
+
+GoldenCase orphan(const fs::path& golden) {
+  GoldenCase c{golden.string()};
+  c.fail(Verdict::bad_input,
+         fmt::format("{}: error: has no scenario ({} does not exist); was it renamed or removed? Do the same with its golden",
+                     c.file, fs::path(golden).replace_extension(".yaml").string()));
+  return c;
+}
+
+// Another engine takes the golden's step, for which the bands were measured, and its integrator of second order if it has one:
+// its own error is then far below them.
+Scenario with_engine(const std::string& file, const Scenario& scenario, const std::string& name, double step,
+                     Catalog& catalog) {
+  if (scenario.physics.engine->name == name) return scenario;
+  const Engine* engine = catalog.engine(name);
+  if (engine == nullptr) {
+    const std::string near = nearest(name, catalog.engines());
+    throw InputError(Place{"--engine"},
+                     fmt::format("engine '{}' is unknown; {}", name,
+                                 near.empty() ? fmt::format("there are: {}", fmt::join(catalog.engines(), ", "))
+                                              : "did you mean '" + near + "'?"));
+  }
+  const bool extrapolated = engine->integrator("extrapolated") != nullptr;
+  return read_scenario(file,
+                       {"physics.engine=" + name, fmt::format("physics.step={}", step),
+                        "physics.integrator=" + (extrapolated ? "extrapolated" : engine->fixed().name)},
+                       catalog);
+}
+
+void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog& catalog) {
+  try {
+    Scenario scenario = read_scenario(c.file, {}, catalog);
+    if (engine) scenario = with_engine(c.file, scenario, *engine, c.golden->origin.step, catalog);
+    c.other_engine = scenario.physics.engine->name != c.golden->origin.engine;
+    c.scenario = std::move(scenario);
+  } catch (const InputError& error) {
+    if (error.problems().front().place.file == "--engine") throw;  // no fault of the scenario
+    c.fail(Verdict::bad_input, error.what());
+  }
+}
+
+void judge(GoldenCase& c, Outcome& outcome) {
+  try {
+    if (outcome.error) std::rethrow_exception(outcome.error);
+  } catch (const InputError& error) {
+    c.fail(Verdict::bad_input, error.what());
+    return;
+  } catch (const RunError& error) {
+    c.fail(Verdict::run_failed, fmt::format("{}: error: {}", c.file, error.what()));
+    return;
+  }
+  c.run = std::move(outcome.run);
+  c.difference = compare(*c.golden, c.run, c.other_engine);
+  if (!c.difference.passed()) c.verdict = Verdict::regression;
+  try {
+    // With the same columns it may as well be a scenario that was renamed and changed: a regression, which names both.
+    const std::size_t columns = c.golden->run.trace.columns.size();
+    if (!c.given_golden && (c.run.trace.columns.size() != columns || c.difference.columns.size() + 1 != columns))
+      check_own(*c.golden, c.folder, *c.scenario, c.difference);
+  } catch (const InputError& error) {
+    c.fail(Verdict::bad_input, error.what());
+  }
+}
+
+}  // namespace
+
+void GoldenCase::fail(Verdict as, std::string text) {
+  verdict = as;
+  problem = std::move(text);
+}
+
+fs::path own_golden(const fs::path& scenario) {
+  for (const char* extension : {".yaml", ".yml"}) {
+    const fs::path other = fs::path(scenario).replace_extension(extension);
+    if (other.extension() == scenario.extension() || !is_there(other)) continue;
+    throw InputError(Place{scenario.string()}, fmt::format("would share its golden, {}, with {}; rename one of them",
+                                                           golden_folder(scenario).string(), other.filename().string()));
+  }
+  return golden_folder(scenario);
+}
+
+void check_own(const Golden& golden, const fs::path& folder, const Scenario& scenario, const GoldenDifference& difference) {
+  if (golden.origin.name == scenario.name || difference.passed()) return;
+  throw InputError(Place{folder.string()},
+                   fmt::format("is the golden of '{}', and {} ('{}') is another run; gaitlab approve --replace makes its own",
+                               golden.origin.name, scenario.file, scenario.name));
+}
+
+std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& catalog) {
+  std::vector<std::string> given = arguments.scenarios;
+  if (given.empty()) given.emplace_back("scenarios");
+  if (arguments.golden && (given.size() != 1 || kind_of(given.front()) == fs::file_type::directory))
+    throw InputError(Place{"--golden"}, "is the golden of one scenario; name exactly one scenario with it");
+  std::vector<GoldenCase> cases;
+  std::set<std::string> seen;
+  const auto add = [&](const fs::path& file, bool must) {
+    // A link is a scenario of its own, with its own golden; so only its folder is made canonical.
+    const fs::path name = fs::weakly_canonical(fs::absolute(file).parent_path()) / file.filename();
+    if (seen.insert(name.string()).second) cases.push_back(case_of(file, arguments.golden, must));
+  };
+  for (const std::string& path : given) {  // those named by their file first: they must have a golden
+    const fs::file_type kind = kind_of(path);
+    if (kind == fs::file_type::not_found) throw InputError(Place{path}, "there is no such scenario or folder");
+    if (kind != fs::file_type::directory) add(path, true);
+  }
+  for (const std::string& path : given) {
+    if (kind_of(path) != fs::file_type::directory) continue;
+    const Found found = found_in(path);
+    for (const fs::path& file : found.scenarios) add(file, arguments.strict);
+    for (const fs::path& golden : found.orphans) cases.push_back(orphan(golden));
+  }
+  for (GoldenCase& c : cases) {
+    if (c.golden) read_case(c, arguments.engine, catalog);
+  }
+  return cases;
+}
+
+void run_cases(std::vector<GoldenCase>& cases, int jobs, const std::function<void(double)>& progress) {
+  std::vector<Scenario> scenarios;
+  for (const GoldenCase& c : cases) {
+    if (c.scenario) scenarios.push_back(*c.scenario);
+  }
+  std::vector<Outcome> outcomes = golden_runs(scenarios, jobs, progress);
+  auto outcome = outcomes.begin();
+  for (GoldenCase& c : cases) {
+    if (c.scenario) judge(c, *outcome++);
+  }
+}
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::passed:
+      return "passed";
+    case Verdict::skipped:
+      return "skipped: no golden";
+    case Verdict::bad_input:
+      return "NOT TESTED";
+    case Verdict::run_failed:
+      return "RUN FAILED";
+    case Verdict::regression:
+      break;
+  }
+  return "FAILED";
+}
+
+}  // namespace gaitlab::golden

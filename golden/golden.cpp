@@ -1,0 +1,244 @@
+#include "golden/golden.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "core/errors.h"
+#include "core/recording/atomic_file.h"
+
+namespace gaitlab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kVersion = 1;
+constexpr const char* kVersionKey = "gaitlab_golden";
+constexpr std::string_view kChecksum = ",\n  \"checksum\": \"";  // the last key, of the text before this
+constexpr const char* kJsonFile = "golden.json";
+constexpr const char* kTraceFile = "trace.golden";
+// A new trace waits under this name until golden.json, which names it by its hash, has replaced the old one.
+constexpr const char* kNextTraceFile = "trace.golden.next";
+
+std::string checksum_line(std::string_view content) { return fmt::format("{}{}\"\n}}\n", kChecksum, hash(content)); }
+
+// ---- golden.json as text: one line a column, so that a version control system shows what changed
+
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+Json to_json(const Band& band) {
+  return {{"band", band.width()}, {"ensemble", band.ensemble}, {"halving", band.halving}, {"floor", band.floor}};
+}
+
+std::string lines_of(const std::vector<std::pair<std::string, Json>>& entries) {
+  std::string text = "{";
+  for (const auto& [name, json] : entries)
+    text += fmt::format("{}\n    {}: {}", text.size() == 1 ? "" : ",", text_of(name), text_of(json));
+  return text + "\n  }";
+}
+
+std::string columns_text(const Golden& golden) {
+  std::vector<std::pair<std::string, Json>> entries;
+  for (std::size_t i = 1; i < golden.bands.size(); ++i) {
+    Json json = to_json(golden.bands[i]);
+    json["precision"] = golden.run.precision[i];
+    json["rounding"] = golden.rounding[i];
+    json["unit"] = golden.run.trace.columns[i].unit;
+    entries.emplace_back(golden.run.trace.columns[i].name, std::move(json));
+  }
+  return lines_of(entries);
+}
+
+std::string numbers_text(const Golden& golden) {
+  std::vector<std::pair<std::string, Json>> entries;
+  for (std::size_t i = 0; i < golden.numbers.size(); ++i) {
+    Json json = {{"value", golden.numbers[i].value}, {"unit", golden.numbers[i].unit}};
+    json.update(to_json(golden.number_bands[i]));
+    entries.emplace_back(golden.numbers[i].name, std::move(json));
+  }
+  return lines_of(entries);
+}
+
+std::string history_text(const Golden& golden) {
+  std::string text = "[";
+  for (const Approval& approval : golden.history) {
+    const Json json = {{"number", approval.number}, {"reason", approval.reason}, {"build", approval.build}};
+    text += fmt::format("{}\n    {}", text.size() == 1 ? "" : ",", text_of(json));
+  }
+  return text + "\n  ]";
+}
+
+std::string json_text(const Golden& golden, std::string_view trace_bytes) {
+  const GoldenOrigin& o = golden.origin;
+  const Trace& trace = golden.run.trace;
+  std::string text = fmt::format("{{\n  \"{}\": {}", kVersionKey, kVersion);
+  const auto add = [&](const char* key, const std::string& value) { text += fmt::format(",\n  \"{}\": {}", key, value); };
+  add("name", text_of(o.name));
+  add("engine", text_of(o.engine));
+  add("integrator", text_of(o.integrator));
+  add("step", text_of(o.step));
+  add("build", text_of(o.build));
+  add("compiler", text_of(o.compiler));
+  add("scenario", text_of(o.scenario));
+  add("reason", text_of(golden.history.empty() ? "" : golden.history.back().reason));
+  add("history", history_text(golden));
+  add("rows", text_of(trace.rows()));
+  add("trace", text_of(hash(trace_bytes)));
+  add("columns", columns_text(golden));
+  add("numbers", numbers_text(golden));
+  return text + checksum_line(text);
+}
+
+// ---- and back
+
+InputError wrong(const fs::path& file, std::string text) { return {Place{file.string()}, std::move(text)}; }
+
+// The document, its version and checksum seen to.
+Json checked(const fs::path& file, const std::string& text) {
+  if (text.empty()) throw wrong(file, "is truncated: 0 bytes");
+  const std::string start = fmt::format("{{\n  \"{}\": ", kVersionKey);
+  const bool ours = text.starts_with(start);
+  Json json = Json::parse(text, nullptr, false);
+  if (!ours && !start.starts_with(text) && (json.is_discarded() || !json.is_object() || !json.contains(kVersionKey)))
+    throw wrong(file, "is not a golden of gaitlab");
+  if (json.is_discarded()) {
+    const bool whole = text.ends_with("\"\n}\n");
+    throw wrong(file, whole ? "is corrupt: it is not JSON" : fmt::format("is truncated: it ends after {} bytes", text.size()));
+  }
+  const Json& version = json[kVersionKey];
+  if (version.is_number_integer() && version != kVersion) {
+    throw wrong(file, fmt::format("has golden format {}; this gaitlab reads {}: take the gaitlab that wrote it",
+                                  text_of(version), kVersion));
+  }
+  const std::size_t end = text.rfind(kChecksum);
+  const std::string_view content = std::string_view(text).substr(0, end);
+  if (text.find('\r') != std::string::npos)
+    throw wrong(file, "has other line ends than it was written with; `*.golden/** -text` in .gitattributes keeps them");
+  if (end == std::string::npos || text.substr(end) != checksum_line(content))
+    throw wrong(file, "is corrupt or was changed by hand: its checksum is another; bands are made by gaitlab approve");
+  return json;
+}
+
+Band band_of(const Json& json) { return {json.at("ensemble"), json.at("halving"), json.at("floor")}; }
+
+Golden from_json(const Json& json) {
+  Golden golden;
+  golden.origin = {json.at("name"),  json.at("engine"),   json.at("integrator"), json.at("step"),
+                   json.at("build"), json.at("compiler"), json.at("scenario")};
+  for (const Json& entry : json.at("history"))
+    golden.history.push_back({entry.at("number"), entry.at("reason"), entry.at("build")});
+  for (const auto& [name, entry] : json.at("numbers").items()) {
+    golden.numbers.push_back({name, entry.at("unit"), entry.at("value")});
+    golden.number_bands.push_back(band_of(entry));
+  }
+  return golden;
+}
+
+// The trace that golden.json was written with: under its own name, or where a kill left it.
+RoundedTrace matching_trace(const fs::path& folder, const std::string& wanted) {
+  std::error_code error;
+  const bool missing = !fs::exists(folder / kTraceFile, error);
+  for (const char* name : {kTraceFile, kNextTraceFile}) {
+    if (!fs::exists(folder / name, error)) continue;
+    const std::string bytes = read_file(folder / name);
+    if (hash(bytes) == wanted) return unpack(bytes, folder / name);
+  }
+  const fs::path file = folder / kTraceFile;
+  if (missing) throw wrong(file, "is missing: the golden is only half there");
+  (void)unpack(read_file(file), file);  // says what is wrong with it, where something is
+  throw wrong(file, "belongs to another approval than golden.json");
+}
+
+void take_bands(const Json& columns, Golden& golden) {
+  const std::vector<Column>& in_trace = golden.run.trace.columns;
+  golden.bands.assign(1, {});
+  golden.rounding.assign(1, 0.0);
+  for (const auto& [name, entry] : columns.items()) {
+    const std::size_t i = golden.bands.size();
+    if (i >= in_trace.size() || in_trace[i].name != name) throw std::runtime_error("its columns are not those of the trace");
+    golden.bands.push_back(band_of(entry));
+    golden.rounding.push_back(entry.at("rounding"));
+  }
+  if (golden.bands.size() != in_trace.size()) throw std::runtime_error("its columns are not those of the trace");
+}
+
+/// A kill between the two renames of write_golden left the trace that golden.json names under its other name.
+void finish_rename(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder / kNextTraceFile, error) || !fs::exists(folder / kJsonFile, error)) return;
+  const Json json = Json::parse(read_file(folder / kJsonFile), nullptr, false);
+  if (!json.is_object() || !json.contains("trace") || json["trace"] != hash(read_file(folder / kNextTraceFile))) return;
+  fs::rename(folder / kNextTraceFile, folder / kTraceFile, error);
+}
+
+/// One at a time: the files' temporary names are the same for all.
+class Lock {
+ public:
+  explicit Lock(const fs::path& folder) : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(descriptor_);
+      throw InputError(Place{folder.string()}, "is being written by another process; call again");
+    }
+  }
+  ~Lock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace
+
+double Band::width() const { return std::max({ensemble, halving, floor}); }
+
+fs::path golden_folder(const fs::path& scenario) { return fs::path(scenario).replace_extension(".golden"); }
+
+void write_golden(const Golden& golden, const fs::path& folder) {
+  std::error_code error;
+  fs::create_directory(folder, error);
+  if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  const Lock lock(folder);
+  finish_rename(folder);
+  const std::string bytes = pack(golden.run.trace);
+  write_file(folder / kNextTraceFile, bytes);
+  write_file(folder / kJsonFile, json_text(golden, bytes));  // from here on the new one holds
+  fs::rename(folder / kNextTraceFile, folder / kTraceFile, error);
+  if (error) throw RunError(fmt::format("{}: cannot be written: {}", (folder / kTraceFile).string(), error.message()));
+}
+
+Golden read_golden(const fs::path& folder) {
+  const fs::path file = folder / kJsonFile;
+  const fs::file_type kind = kind_of(folder);
+  if (kind == fs::file_type::not_found) throw wrong(folder, "there is no such golden; gaitlab approve makes it");
+  if (kind != fs::file_type::directory) throw wrong(folder, "is not a golden: a golden is a folder");
+  if (kind_of(file) == fs::file_type::not_found) throw wrong(file, "is missing: the golden is only half there");
+  const Json json = checked(file, read_file(file));
+  try {
+    Golden golden = from_json(json);
+    golden.run = matching_trace(folder, json.at("trace"));
+    take_bands(json.at("columns"), golden);
+    return golden;
+  } catch (const InputError&) {
+    throw;
+  } catch (const Json::exception&) {  // whose text names no place
+    throw wrong(file, "is corrupt: an entry is missing or of another type");
+  } catch (const std::runtime_error& damage) {
+    throw wrong(file, fmt::format("is corrupt: {}", damage.what()));
+  }
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,153 @@
+#include "golden/runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "core/parallel.h"
+#include "core/simulation/simulation.h"
+#include "report/build_id.h"
+#include "report/numbers.h"
+
+namespace gaitlab::golden {
+
+namespace {
+
+constexpr double kRowEvery = 0.02;      // s; a gait has 0.5 Hz, and the contacts' spikes are not what drifts
+constexpr double kLeastTravel = 0.01;   // m: the work of a robot that stays is divided by noise
+constexpr double kPerturbation = 1e-7;  // rad: above the rounding of another compiler, far below what a torque shows
+
+std::vector<std::string> columns(const Scenario& scenario) {
+  std::vector<std::string> names;
+  if (has_motors(scenario)) names = {"joint.*.torque", "joint.*.current"};
+  if (!scenario.robot->joints.empty()) names.emplace_back("joint.*.angle");
+  for (const char* part : {"x", "y", "z", "qw", "qx", "qy", "qz"}) names.push_back(std::string("base.") + part);
+  return names;
+}
+
+// Every stride-th row; the last one where it is not a trace tick is left out.
+Trace thinned(const Trace& trace, double period) {
+  const auto stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(kRowEvery / period * (1 + 1e-9)));
+  Trace thin{trace.columns, {}};
+  for (std::size_t k = 0; k < trace.rows(); k += static_cast<std::size_t>(stride)) {
+    if (std::abs(trace.at(k, 0) - static_cast<double>(k) * period) > 1e-6 * period) break;
+    thin.values.insert(thin.values.end(), trace.row(k).begin(), trace.row(k).end());
+  }
+  return thin;
+}
+
+std::vector<Number> numbers(const Scenario& scenario, const Recording& record) {
+  const Summary summary = summarise(scenario, record, 0);
+  std::vector<const SummaryNumber*> kept = placed(&SummaryNumber::golden);
+  if (!has_motors(scenario)) std::erase_if(kept, [](const SummaryNumber* number) { return number->golden.needs_motor; });
+  std::vector<Number> all;
+  for (const SummaryNumber* number : kept) {
+    if (number->of_joint == nullptr) all.push_back({number->name(), number->unit, number->value({scenario, record, summary})});
+  }
+  for (std::size_t j = 0; j < record.joints.size(); ++j) {
+    for (const SummaryNumber* number : kept) {
+      if (number->of_joint == nullptr) continue;
+      all.push_back({number->name(scenario.robot->joints[j].name), number->unit, record.joints[j].*number->of_joint});
+    }
+  }
+  return all;
+}
+
+// Steele, Lea, Flood 2014, the output function of SplittableRandom: every counter is a stream of its own.
+std::uint64_t splitmix64(std::uint64_t counter) {
+  std::uint64_t z = counter * 0x9E3779B97F4A7C15ULL;
+  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
+  return z ^ (z >> 31U);
+}
+
+// In [-1, 1).
+double symmetric(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-52 - 1; }
+
+GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>& progress) {
+  Scenario ours = scenario;
+  ours.trace.columns = columns(scenario);
+  Simulation simulation({&ours, 1});
+  simulation.run(progress);
+  const Recording record = simulation.take_recording(0);
+  return {thinned(record.trace, scenario.trace.period), numbers(scenario, record)};
+}
+
+double steps(const Scenario& scenario) { return scenario.duration / scenario.physics.step; }
+
+// One progress for all runs, in steps.
+class Bar {
+ public:
+  Bar(const std::vector<Scenario>& scenarios, const std::function<void(double)>& progress) : progress_(progress) {
+    for (const Scenario& scenario : scenarios) all_ += steps(scenario);
+  }
+  void add(double more) {
+    const std::lock_guard lock(mutex_);
+    done_ += more;
+    if (progress_) progress_(std::min(1.0, done_ / all_));
+  }
+
+ private:
+  std::mutex mutex_;
+  double all_ = 0, done_ = 0;
+  const std::function<void(double)>& progress_;
+};
+
+}  // namespace
+
+std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs,
+                                 const std::function<void(double)>& progress) {
+  std::vector<Outcome> outcomes(scenarios.size());
+  Bar bar(scenarios, progress);
+  parallel(scenarios.size(), jobs, [&](std::size_t i) {
+    try {
+      double before = 0;
+      outcomes[i].run = golden_run(scenarios[i], [&](double share) {
+        bar.add((share - before) * steps(scenarios[i]));
+        before = share;
+      });
+    } catch (...) {
+      outcomes[i].error = std::current_exception();
+    }
+  });
+  return outcomes;
+}
+
+std::vector<Number> golden_numbers(const GoldenRun& run) {
+  const auto distance =
+      std::find_if(run.numbers.begin(), run.numbers.end(), [](const Number& n) { return n.name == "distance"; });
+  std::vector<Number> kept = run.numbers;
+  if (distance->value > kLeastTravel) return kept;
+  for (const SummaryNumber& entry : summary_numbers()) {
+    if (entry.golden.needs_travel) std::erase_if(kept, [&](const Number& number) { return number.name == entry.name(); });
+  }
+  return kept;
+}
+
+GoldenOrigin golden_origin(const Scenario& scenario) {
+  const Engine& engine = *scenario.physics.engine;
+  const std::string build = build_id();
+  // `VERSION (COMPILER; LIBRARIES)`
+  const std::size_t from = std::min(build.find('('), build.size() - 1) + 1;
+  return {scenario.name,           engine.name, scenario.physics.integrator->name,
+          scenario.physics.step,   build,       build.substr(from, build.find_first_of(";)", from) - from),
+          hash(resolved(scenario))};
+}
+
+Scenario perturbed(const Scenario& scenario, int member) {
+  Scenario moved = scenario;
+  const std::size_t joints = scenario.robot->joints.size();
+  PerJoint& angles = moved.initial.angles;
+  angles.each.resize(joints);
+  for (std::size_t j = 0; j < joints; ++j) {
+    const std::uint64_t counter = static_cast<std::uint64_t>(member) * joints + j + 1;
+    const std::uint64_t seed = splitmix64(static_cast<std::uint64_t>(scenario.seed) + 1);
+    angles.each[j] = scenario.initial.angles[j] + kPerturbation * symmetric(splitmix64(seed + counter));
+  }
+  return moved;
+}
+
+}  // namespace gaitlab::golden
