@@ -6,7 +6,7 @@ set -euo pipefail
 program=$(readlink -f -- "$1")
 moments=${2:-50}
 seed=${KILL_SEED:-1}
-shipped=$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")/../scenarios")
+shipped=$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")/../../scenarios")
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
 failed=0

@@ -4,7 +4,7 @@
 set -euo pipefail
 
 program=$(readlink -f -- "$1")
-scenario=$(readlink -f -- "${2:-$(dirname -- "${BASH_SOURCE[0]}")/../scenarios/caterpillar.yaml}")
+scenario=$(readlink -f -- "${2:-$(dirname -- "${BASH_SOURCE[0]}")/../../scenarios/caterpillar.yaml}")
 arguments=(run "$scenario" --set duration=0.6)
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT

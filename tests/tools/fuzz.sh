@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Fuzzes what users write: scenarios (s), build files (b), module types (m), equations (e), from those that are shipped.
-# usage: tests/fuzz.sh [SECONDS]      (600; builds build/fuzz with clang++ first)
+# usage: tests/tools/fuzz.sh [SECONDS]      (600; builds build/fuzz with clang++ first)
 set -euo pipefail
 
-cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
+cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../.."
 seconds=${1:-600}
 cmake --preset fuzz >/dev/null
 cmake --build build/fuzz --target input_fuzz --parallel "$(nproc)"

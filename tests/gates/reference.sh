@@ -5,7 +5,7 @@ set -euo pipefail
 
 program=$(readlink -f -- "$1")/bin/gaitlab
 renew=${2:-}
-cd -- "$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")")/.."
+cd -- "$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")")/../.."
 now=$(mktemp)
 trap 'rm -f -- "$now"' EXIT
 stale=0
@@ -20,7 +20,7 @@ page() {
     printf 'ok       %s\n' "$file"
   else
     stale=1
-    printf 'stale    %s: renew it with tests/reference.sh build/release --renew\n' "$file"
+    printf 'stale    %s: renew it with tests/gates/reference.sh build/release --renew\n' "$file"
   fi
 }
 

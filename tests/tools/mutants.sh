@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What the goldens notice: a table effect/band of small changes to the shipped scenarios, each of which must fail with at least
 # twice a band, and of changes that mean nothing, which must stay below half of every band.
-# usage: tests/mutants.sh PROGRAM [OTHER_PROGRAM...]   (OTHER_PROGRAM: from another compiler or with other flags; innocent)
+# usage: tests/tools/mutants.sh PROGRAM [OTHER_PROGRAM...]   (OTHER_PROGRAM: from another compiler or with other flags; innocent)
 # Minutes. JOBS=N: simulations at once (default: all cores). ROBOTS="caterpillar hexapod": which scenarios.
 set -euo pipefail
 
@@ -9,7 +9,7 @@ set -euo pipefail
 program=$(readlink -f -- "$1")
 shift
 others=("$@")
-scenarios=$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")/../scenarios")
+scenarios=$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")/../../scenarios")
 jobs=${JOBS:-$(nproc)}
 read -r -a robots <<<"${ROBOTS:-caterpillar hexapod}"
 least=2 most=0.5

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Writes docs/validation.md: runs every test that validates a row and sets measured beside required.
-# usage: tests/validation.sh PROGRAM_BUILD_DIR [PAGE]     (needs jq; the same build writes the same page)
+# usage: tests/tools/validation.sh PROGRAM_BUILD_DIR [PAGE]     (needs jq; the same build writes the same page)
 set -euo pipefail
 
-root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd)
-build=$(readlink -f -- "${1:?usage: tests/validation.sh PROGRAM_BUILD_DIR [PAGE]}")
+root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../.." && pwd)
+build=$(readlink -f -- "${1:?usage: tests/tools/validation.sh PROGRAM_BUILD_DIR [PAGE]}")
 page=${2:-$root/docs/validation.md}
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Whether the tests notice wrong physics: nineteen defects, one at a time, put into a copy of the tree; each must turn a test red.
-# usage: tests/code_mutants.sh [CLONE]     (CLONE: a scratch clone with a finished build/release, which is edited and put back;
+# usage: tests/tools/code_mutants.sh [CLONE]     (CLONE: a scratch clone with a finished build/release, which is edited and put back;
 # default: a copy of this tree, which takes a full build more)
 set -euo pipefail
 
-root=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/..
+root=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../..
 work=${1:-}
 if [[ -z $work ]]; then
   work=$(mktemp -d)

@@ -4,7 +4,7 @@
 set -euo pipefail
 
 program=$(readlink -f -- "$1")
-root=$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")/..")
+root=$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")/../..")
 for python in /usr/bin/python3 python3; do
   "$python" -c 'import h5py' 2>/dev/null && break
   python=

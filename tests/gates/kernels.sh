@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# tests/kernels.sh BUILD_FOLDER: the files that are compiled for AVX2 and AVX-512 define nothing that another file may define, too:
-# of two copies the linker keeps either, and one with wide registers would end the program on a processor without them.
+# The files that are compiled for AVX2 and AVX-512 define nothing that another file may define, too: of two copies the linker
+# keeps either, and one with wide registers would end the program on a processor without them.
+# usage: kernels.sh PROGRAM_BUILD_DIR
 set -euo pipefail
 folder=$1
 bad=0

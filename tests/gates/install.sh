@@ -5,7 +5,7 @@
 set -euo pipefail
 
 build=$(readlink -f -- "$1")
-here=$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")")
+root=$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")/../..")
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
 prefix=$work/prefix user=$work/user
@@ -29,7 +29,7 @@ expect() {
 # The user's project: a scenario with its own robot file, a plugin, a CMakeLists.txt as in docs/ci.md.
 write_project() {
   mkdir -p "$user/scenarios/robots" "$user/plugin"
-  cp -- "$here/plugin_example/wave.cpp" "$user/plugin/"
+  cp -- "$root/tests/plugin_example/wave.cpp" "$user/plugin/"
   cp -- "$prefix/share/gaitlab/scenarios/robots/caterpillar-8.dat" "$user/scenarios/robots/"
   cat >"$user/$scenario" <<'YAML'
 gaitlab: 1
@@ -150,7 +150,7 @@ new_plugins() {
 # tutorial PAGE: writes and runs the page's blocks in an empty folder, exactly as they stand. ```LANGUAGE FILE: a file;
 # ```sh: commands; ```sh exit=N: commands of which the last exits with N; ```text: what these commands said.
 tutorial() {
-  local page=$here/../docs/tutorials/$1 name=${1%.md}
+  local page=$root/docs/tutorials/$1 name=${1%.md}
   mkdir -p "$work/$name"
   awk '
     /^```sh exit=/ { sub(/.*=/, ""); code = $0; print "("; inside = 1; next }
