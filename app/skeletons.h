@@ -1,4 +1,4 @@
-// The texts that `gaitlab new plugin` writes: @NAME@ is the plugin's name, @CLASS@ its class. tests/install.sh builds and tests
+// The texts that `gaitlab new plugin` writes: @NAME@ is the plugin's name, @CLASS@ its class. tests/gates/install.sh builds and tests
 // them.
 #pragma once
 #include <array>

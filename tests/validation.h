@@ -5,7 +5,7 @@
 namespace gaitlab::test {
 
 /// `id` is SUBJECT.NAME and sorts the page; subjects: closed, cpg, published, order, property, format, ledger, limits
-/// (tests/validation.sh).
+/// (tests/tools/validation.sh).
 struct Row {
   std::string id;
   std::string what;    ///< the claim, a few words

@@ -15,7 +15,7 @@ namespace gaitlab {
 namespace {
 
 constexpr const char* kRenewed =
-    "<!-- Written by `tests/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n";
+    "<!-- Written by `tests/gates/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n";
 
 std::vector<KeyRow> scenario_keys(const Catalog& catalog) {
   Explainer explainer;

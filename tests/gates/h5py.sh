@@ -1,21 +1,18 @@
 #!/usr/bin/env bash
 # A trace read by h5py with the lines of docs/conventions.md as they stand there, against the same trace as CSV.
 # usage: h5py.sh PROGRAM     (exit code 77: no h5py here)
-set -euo pipefail
-
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
 program=$(readlink -f -- "$1")
-root=$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")/..")
 for python in /usr/bin/python3 python3; do
   "$python" -c 'import h5py' 2>/dev/null && break
   python=
 done
-[[ -n $python ]] || { printf 'h5py.sh: no python3 with h5py (Debian: python3-h5py)\n' >&2; exit 77; }
+[[ -n $python ]] || { skip "a trace in h5py" "no python3 with h5py (Debian: python3-h5py)"; exit 77; }
 
-work=$(mktemp -d)
-trap 'rm -rf -- "$work"' EXIT
 cd -- "$work"
-"$program" run "$root/scenarios/caterpillar.yaml" --set duration=0.2 --seed 7 --out runs/walk --quiet
-"$program" export runs/walk --to csv trace.csv
+expect 0 "$program" run "$root/scenarios/caterpillar.yaml" --set duration=0.2 --seed 7 --out runs/walk --quiet
+expect 0 "$program" export runs/walk --to csv trace.csv
 
 # The indented block that imports h5py.
 awk '/^    import h5py/ { inside = 1 } inside && /^[^ ]/ { exit } inside { print substr($0, 5) }' "$root/docs/conventions.md" >recipe.py
@@ -33,4 +30,4 @@ assert seed == 7 and build.startswith("0.") and scenario.startswith("gaitlab: 1\
 assert torque.min() < 0 and len(torque) == len(t)
 TEXT
 "$python" recipe.py
-printf 'ok       h5py reads names, units, definitions, origin and every bit\n'
+ok "h5py reads names, units, definitions, origin and every bit"

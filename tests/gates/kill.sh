@@ -1,28 +1,19 @@
 #!/usr/bin/env bash
 # kill -9 at random moments: no half file under a final name, an existing golden as it was.
 # usage: kill.sh PROGRAM [N] (N moments a command, 50; KILL_SEED, 1: another choice of moments)
-set -euo pipefail
-
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
 program=$(readlink -f -- "$1")
 moments=${2:-50}
-seed=${KILL_SEED:-1}
-shipped=$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")/../scenarios")
-work=$(mktemp -d)
-trap 'rm -rf -- "$work"' EXIT
-failed=0
-RANDOM=$seed
+RANDOM=${KILL_SEED:-1}
 
-bad() {
-  failed=$((failed + 1))
-  printf 'BAD      %s\n' "$*"
-}
 now() { date +%s%N; }
 
 # Milliseconds that a command takes, left alone.
 duration() {
   local start
   start=$(now)
-  "$@" >"$work/log" 2>&1 || { cat -- "$work/log"; exit 1; }
+  expect 0 "$@"
   printf '%d' $((($(now) - start) / 1000000))
 }
 
@@ -41,18 +32,19 @@ kill_after() {
 draw_moment() { moment=$((RANDOM * ($1 + $1 / 10 + 1) / 32768)); }
 
 # Every file under a final name must be readable by what reads it.
+read_it() {
+  case $1 in
+    *.h5 | *.csv) "$program" compare "$1" "$1" ;;
+    *.json) python3 -m json.tool "$1" ;;
+    *.yaml) "$program" check "$1" ;;
+    *.svg) [[ $(tail -c 7 -- "$1") == "</svg>" ]] ;; # $(...) takes off the line end
+    *.part | *.golden | *.golden.next) true ;; # a golden is read as a whole, by gaitlab test
+    *) printf 'an unknown kind of file\n' && false ;;
+  esac
+}
 readable() {
   local file
-  while IFS= read -r -d '' file; do
-    case $file in
-      *.h5 | *.csv) "$program" compare "$file" "$file" ;;
-      *.json) python3 -m json.tool "$file" ;;
-      *.yaml) "$program" check "$file" ;;
-      *.svg) [[ $(tail -c 7 -- "$file") == "</svg>" ]] ;; # $(...) takes off the line end
-      *.part | *.golden | *.golden.next) true ;; # a golden is read as a whole, by gaitlab test
-      *) bad "an unknown file: $file" ;;
-    esac >"$work/log" 2>&1 || { bad "unreadable: $file"; cat -- "$work/log"; }
-  done < <(find "$1" -type f -print0)
+  while IFS= read -r -d '' file; do quietly read_it "$file" || bad "unreadable: $file"; done < <(find "$1" -type f -print0)
 }
 
 # And as they are in a run that nobody killed (the summary holds times).
@@ -84,7 +76,7 @@ tell_states() {
 kill_runs() {
   local i format time out
   declare -A states=()
-  local arguments=(run "$shipped/caterpillar.yaml" --quiet --set duration=0.2 --set trace.period=2.5e-4)
+  local arguments=(run "$root/scenarios/caterpillar.yaml" --quiet --set duration=0.2 --set trace.period=2.5e-4)
   for format in csv h5; do
     time=$(duration "$program" "${arguments[@]}" --format "$format" --out "$work/whole-$format")
   done
@@ -104,8 +96,8 @@ kill_runs() {
 make_golden() {
   mkdir -p "$work/golden"
   mv -- "$work/whole-h5/scenario.resolved.yaml" "$work/golden/s.yaml"
-  "$program" approve "$work/golden/s.yaml" --reason "kill.sh: the first" >"$work/log" 2>&1 ||
-    { cat -- "$work/log"; bad "approve failed, so killing it and test was not tested"; return 1; }
+  quietly "$program" approve "$work/golden/s.yaml" --reason "kill.sh: the first" ||
+    { bad "approve failed, so killing it and test was not tested"; return 1; }
   cp -r -- "$work/golden" "$work/old"
   sed 's/amplitude: 0.6$/amplitude: 0.5/' "$work/golden/s.yaml" >"$work/changed.yaml"
   ! cmp -s -- "$work/golden/s.yaml" "$work/changed.yaml" || { bad "kill.sh cannot change the scenario"; return 1; }
@@ -136,7 +128,7 @@ kill_approvals() {
   cp -- "$work/changed.yaml" "$work/golden/s.yaml"
   time=$(duration "${approve[@]}")
   cp -r -- "$work/golden" "$work/new"
-  duration "${approve[@]}" >"$work/log"
+  expect 0 "${approve[@]}"
   cp -r -- "$work/golden" "$work/newer"
   for ((i = 0; i < moments; ++i)); do
     # Every other kill meets what the last one left.
@@ -154,8 +146,8 @@ kill_approvals() {
     else bad "approve, killed, left a golden that is neither the old nor the new one"; continue
     fi
     diff -rq "$work/$of/s.golden" "$golden" >/dev/null || half=$((half + 1))
-    "$program" test "$work/$of/s.yaml" --golden "$golden" --out "$work/out-$i" >"$work/log" 2>&1 ||
-      { bad "approve, killed, left a golden ($of) that fails with its own scenario"; cat -- "$work/log"; }
+    quietly "$program" test "$work/$of/s.yaml" --golden "$golden" --out "$work/out-$i" ||
+      bad "approve, killed, left a golden ($of) that fails with its own scenario"
   done
   printf '%-8s killed %d times within %d ms: %d left the old golden, %d the new one; %d of them with files in between\n' \
     approve "$moments" "$time" "$old" "$new" "$half"
@@ -166,5 +158,4 @@ if make_golden; then
   kill_tests
   kill_approvals
 fi
-printf '%d bad\n' "$failed"
-((failed == 0))
+verdict

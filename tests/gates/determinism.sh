@@ -1,31 +1,19 @@
 #!/usr/bin/env bash
 # The gate of docs/determinism.md: the same bytes (trace and resolved scenario) whatever surrounds the program.
 # usage: determinism.sh PROGRAM [SCENARIO]; exit code 0: all cases equal or skipped (said loudly), 1: one differs.
-set -euo pipefail
-
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
 program=$(readlink -f -- "$1")
-scenario=$(readlink -f -- "${2:-$(dirname -- "${BASH_SOURCE[0]}")/../scenarios/caterpillar.yaml}")
+scenario=$(readlink -f -- "${2:-$root/scenarios/caterpillar.yaml}")
 arguments=(run "$scenario" --set duration=0.6)
-work=$(mktemp -d)
-trap 'rm -rf -- "$work"' EXIT
-failed=0 skipped=0
-
-skip() {
-  skipped=$((skipped + 1))
-  printf 'SKIPPED  %s: NOT TESTED: %s\n' "$1" "$2" >&2
-}
-differs() {
-  failed=$((failed + 1))
-  printf 'DIFFERS  %s\n' "$1"
-}
 
 # same CASE FOLDER: compares that run with the reference.
 same() {
   local file
   for file in trace.h5 scenario.resolved.yaml; do
-    cmp -- "$work/reference/$file" "$2/$file" || { differs "$1: $file"; return 0; }
+    cmp -- "$work/reference/$file" "$2/$file" || { bad "$1: $file differs"; return 0; }
   done
-  printf 'same     %s\n' "$1"
+  ok "$1"
 }
 
 # once CASE COMMAND...: runs `COMMAND... program run ... --out FOLDER` and compares.
@@ -33,12 +21,7 @@ once() {
   local name=$1 out
   shift
   out=$(mktemp -d "$work/run-XXXX")
-  if "$@" "$program" "${arguments[@]}" --quiet --out "$out" >"$work/log" 2>&1; then
-    same "$name" "$out"
-  else
-    cat -- "$work/log"
-    differs "$name: the run failed"
-  fi
+  if quietly "$@" "$program" "${arguments[@]}" --quiet --out "$out"; then same "$name" "$out"; else bad "$name: the run failed"; fi
 }
 
 other_folder() {
@@ -71,7 +54,7 @@ terminal() {
   fi
   printf -v command '%q ' "$program" "${arguments[@]}" --out "$out"
   script -qec "$command" /dev/null </dev/null >"$work/screen"
-  grep -q '\[#' "$work/screen" || differs "on a terminal: it showed no bar, so it saw no terminal"
+  grep -q '\[#' "$work/screen" || bad "on a terminal: it showed no bar, so it saw no terminal"
   same "on a terminal" "$out"
 }
 
@@ -92,9 +75,9 @@ rerun() {
   same "rerun from the run folder" "$work/again"
   if ! text=$("$program" rerun "$work/reference" --verify) || [[ $text != *bit-equal* ]]; then
     printf '%s\n' "$text"
-    differs "rerun --verify: not bit-equal"
+    bad "rerun --verify: not bit-equal"
   else
-    printf 'same     rerun --verify\n'
+    ok "rerun --verify"
   fi
 }
 
@@ -106,21 +89,20 @@ jobs() {
     mkdir -p "$goldens"
     for name in a b; do
       sed "s/^name: .*/name: $name/; s/^duration: .*/duration: 0.2/" "$work/reference/scenario.resolved.yaml" >"$goldens/$name.yaml"
-      "$program" approve "$goldens/$name.yaml" -j "$j" --reason "determinism.sh" >"$work/log" 2>&1 ||
-        { cat -- "$work/log"; differs "approve failed"; return 0; }
+      quietly "$program" approve "$goldens/$name.yaml" -j "$j" --reason "determinism.sh" || { bad "approve failed"; return 0; }
     done
     sed -i 's/amplitude: 0.6$/amplitude: 0.5/' "$goldens/b.yaml"
-    (cd -- "$work/jobs-$j" && "$program" test goldens -j "$j" --junit junit.xml >out 2>err) && differs "test -j $j: b should fail"
+    (cd -- "$work/jobs-$j" && "$program" test goldens -j "$j" --junit junit.xml >out 2>err) && bad "test -j $j: b should fail"
   done
-  [[ -d $work/jobs-1/runs ]] || differs "test: no figure of what failed"
+  [[ -d $work/jobs-1/runs ]] || bad "test: no figure of what failed"
   if diff -r "$work/jobs-1" "$work/jobs-2"; then
-    printf 'same     gaitlab approve and test -j 1 and -j 2 (goldens, table, figure, XML)\n'
+    ok "gaitlab approve and test -j 1 and -j 2 (goldens, table, figure, XML)"
   else
-    differs "gaitlab approve or test -j 1 and -j 2"
+    bad "gaitlab approve or test differ with -j 1 and -j 2"
   fi
 }
 
-"$program" "${arguments[@]}" --quiet --out "$work/reference" >/dev/null
+expect 0 "$program" "${arguments[@]}" --quiet --out "$work/reference"
 once "run twice"
 once "an almost empty environment" env -i
 once "another umask and open files" bash -c 'umask 077; exec 7</dev/null 8</dev/null; exec "$@"' bash
@@ -130,5 +112,4 @@ terminal
 address_space
 rerun
 jobs
-printf '%d differ, %d skipped\n' "$failed" "$skipped"
-((failed == 0))
+verdict

@@ -1,21 +1,18 @@
 #!/usr/bin/env bash
 # What the goldens notice: a table effect/band of small changes to the shipped scenarios, each of which must fail with at least
 # twice a band, and of changes that mean nothing, which must stay below half of every band.
-# usage: tests/mutants.sh PROGRAM [OTHER_PROGRAM...]   (OTHER_PROGRAM: from another compiler or with other flags; innocent)
+# usage: tests/tools/mutants.sh PROGRAM [OTHER_PROGRAM...]   (OTHER_PROGRAM: from another compiler or with other flags; innocent)
 # Minutes. JOBS=N: simulations at once (default: all cores). ROBOTS="caterpillar hexapod": which scenarios.
-set -euo pipefail
-
-(($# > 0)) || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
 program=$(readlink -f -- "$1")
 shift
 others=("$@")
-scenarios=$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")/../scenarios")
+scenarios=$root/scenarios
 jobs=${JOBS:-$(nproc)}
 read -r -a robots <<<"${ROBOTS:-caterpillar hexapod}"
 least=2 most=0.5
 
-work=$(mktemp -d)
-trap 'rm -rf -- "$work"' EXIT
 cp -r -- "$scenarios/modules" "$scenarios/robots" "$work/"
 
 # --- cases: a number, robot, kind (mutant, innocent, told), name and program each; what they are run with is $work/NUMBER.yaml
@@ -39,13 +36,13 @@ key() {
   elif grep -qE "^$1:" "$file"; then sed -i -E "s|^$1:.*|&\n  $2: $3|" "$file"
   else printf '\n%s: {%s: %s}\n' "$1" "$2" "$3" >>"$file"
   fi
-  [[ $(cat -- "$file") != "$before" ]] || { printf 'mutants.sh: %s: nothing to edit for %s.%s\n' "$file" "$1" "$2" >&2; exit 2; }
+  [[ $(cat -- "$file") != "$before" ]] || fail "$file: nothing to edit for $1.$2"
 }
 
 # turned BUILD ROW TURNED_ROW: another build file, with one dock turned by a quarter.
 turned() {
   sed "s/^$2\$/$3/" "$work/robots/$1" >"$work/robots/turned-$1"
-  ! cmp -s "$work/robots/$1" "$work/robots/turned-$1" || { printf 'mutants.sh: no row %s in %s\n' "$2" "$1" >&2; exit 2; }
+  ! cmp -s "$work/robots/$1" "$work/robots/turned-$1" || fail "no row $2 in $1"
   key robot build "robots/turned-$1"
 }
 
@@ -122,7 +119,6 @@ wait
 
 # --- the table
 
-bad=0
 printf '%-12s %-9s %-40s %4s  %-18s %9s  %-30s %9s  %s\n' robot kind change exit "worst column" RMS/band "worst number" chg/band is
 for ((i = 1; i <= count; ++i)); do
   code=$(cat -- "$work/$i.code")
@@ -135,9 +131,9 @@ for ((i = 1; i <= count; ++i)); do
       else if (kind == "innocent") print code == 0 && r <= most && c <= most ? "innocent" : "BAD: not innocent"
       else print code == 4 ? "seen" : "not seen" }')
   fi
-  [[ $verdict != BAD* ]] || bad=1
+  [[ $verdict != BAD* ]] || failed=1
   printf '%-12s %-9s %-40s %4s  %-18s %9s  %-30s %9s  %s\n' "${robot_of[i]}" "${kind_of[i]}" "${name_of[i]}" "$code" \
     "$column" "$ratio" "$number" "$change" "$verdict"
 done
 ((${#notes[@]} == 0)) || printf '%s\n' "" "${notes[@]}"
-exit "$bad"
+((failed == 0))

@@ -7,9 +7,9 @@ Shipped scenarios and some at their limits are run on both engines. For every eq
 reason for that tolerance are printed; so are the situations that must have occurred (feet that slid, motors at their limits ...).
 Then the gate is tested itself: MUTANTS changes one constant, rule or cell at a time, and each must turn its line red.
 
-The parts: tests/paper/robot.py (docks, kinematics, Newton and Euler), laws.py (eq. 1-6, 12, stops), gaits.py (eq. 7-10, gaits),
-checks.py (columns against these; LINES lists the tolerances), steps.py (integrators and ledger). Eq. 11 and 13 to 15 are missing
-from the paper's text as the project has it; 16 to 19 are the caterpillar's couplings, a part of eq. 7."""
+The parts are beside this file, in paper/: robot.py (docks, kinematics, Newton and Euler), laws.py (eq. 1-6, 12, stops), gaits.py
+(eq. 7-10, gaits), checks.py (columns against these; LINES lists the tolerances), steps.py (integrators and ledger). Eq. 11 and 13
+to 15 are missing from the paper's text as the project has it; 16 to 19 are the caterpillar's couplings, a part of eq. 7."""
 import pathlib
 import subprocess
 import sys

@@ -2,34 +2,17 @@
 # What docs/ci.md and docs/tutorials promise to users: installs the build into an empty prefix, then works from that alone: a
 # user's project with find_package(gaitlab), golden tests and a plugin, the shell recipe, a new plugin of every kind, the tutorial.
 # usage: install.sh PROGRAM_BUILD_DIR (a finished build)
-set -euo pipefail
-
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
 build=$(readlink -f -- "$1")
-here=$(readlink -f -- "$(dirname -- "${BASH_SOURCE[0]}")")
-work=$(mktemp -d)
-trap 'rm -rf -- "$work"' EXIT
 prefix=$work/prefix user=$work/user
 program=$prefix/bin/gaitlab
 scenario=scenarios/walk.yaml
 
-fail() {
-  printf 'install.sh: %s\n' "$*"
-  [[ ! -e $work/log ]] || tail -n 40 -- "$work/log"
-  exit 1
-}
-quietly() { "$@" >"$work/log" 2>&1 || fail "failed: $*"; }
-# expect CODE COMMAND...
-expect() {
-  local code=0 expected=$1
-  shift
-  "$@" >"$work/log" 2>&1 || code=$?
-  ((code == expected)) || fail "exit code $code, expected $expected: $*"
-}
-
 # The user's project: a scenario with its own robot file, a plugin, a CMakeLists.txt as in docs/ci.md.
 write_project() {
   mkdir -p "$user/scenarios/robots" "$user/plugin"
-  cp -- "$here/plugin_example/wave.cpp" "$user/plugin/"
+  cp -- "$root/tests/plugin_example/wave.cpp" "$user/plugin/"
   cp -- "$prefix/share/gaitlab/scenarios/robots/caterpillar-8.dat" "$user/scenarios/robots/"
   cat >"$user/$scenario" <<'YAML'
 gaitlab: 1
@@ -58,9 +41,9 @@ compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
 
 # ctest_says CODE [ctest options]: configures, builds and tests the project.
 ctest_says() {
-  quietly cmake -S "$user" -B "$work/user-build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+  expect 0 cmake -S "$user" -B "$work/user-build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_COMPILER="$compiler"
-  quietly cmake --build "$work/user-build"
+  expect 0 cmake --build "$work/user-build"
   expect "$1" ctest --test-dir "$work/user-build" --output-on-failure --no-tests=error "${@:2}"
 }
 
@@ -75,7 +58,7 @@ use_plugin() {
   printf 'gaitlab: 1\nplugins: [%s]\nrobot: {modules: mtran}\nduration: 0.1\ncpg: {type: wave}\n' \
     "$work/user-build/wave.so" >"$work/with_plugin.yaml"
   expect 0 "$program" run "$work/with_plugin.yaml" --quiet --out "$work/with-plugin"
-  printf 'ok       a plugin built against the installed headers runs\n'
+  ok "a plugin built against the installed headers runs"
 }
 
 # A gait that was changed must fail, and so must a golden that is not there.
@@ -85,13 +68,13 @@ cmake_way() {
   mkdir "$user/goldens"
   cp -r -- "$user/scenarios/walk.golden" "$user/goldens/walk"
   ctest_says 0
-  grep -q '3 tests passed\|tests passed, 0 tests failed out of 3' "$work/log" || fail "expected three tests"
+  said '3 tests passed\|tests passed, 0 tests failed out of 3'
   sed -i 's/amplitude: 0.6/amplitude: 0.63/' "$user/$scenario"
   ctest_says 8 -L golden
-  grep -q '2 tests failed out of 2' "$work/log" || fail "expected two failures of label golden"
-  compgen -G "$work/user-build/walk.golden-test/runs/*/*.svg" >"$work/log" || fail "no figure of what failed"
+  said '2 tests failed out of 2'
+  compgen -G "$work/user-build/walk.golden-test/runs/*/*.svg" >/dev/null || fail "no figure of what failed"
   sed -i 's/amplitude: 0.63/amplitude: 0.6/' "$user/$scenario"
-  printf 'ok       gaitlab_add_golden_test: passes, fails for a changed gait, fails without a golden\n'
+  ok "gaitlab_add_golden_test: passes, fails for a changed gait, fails without a golden"
 }
 
 # The shell recipes of docs/ci.md, in the user's project.
@@ -101,12 +84,12 @@ shell_recipe() {
   expect 0 "$program" rerun reference --verify
   sed -i 's/amplitude: 0.6$/amplitude: 0.63/' reference/scenario.resolved.yaml
   expect 4 "$program" rerun reference --verify
-  printf 'ok       shell: rerun --verify passes, and fails (4) for a changed gait\n'
+  ok "shell: rerun --verify passes, and fails (4) for a changed gait"
   expect 0 "$program" test scenarios --strict --junit golden.xml
   [[ -s golden.xml ]] || fail "no golden.xml"
   sed -i 's/amplitude: 0.6,/amplitude: 0.63,/' "$scenario"
   expect 4 "$program" test scenarios --strict --junit golden.xml
-  printf 'ok       shell: test passes, and fails (4) for a changed gait\n'
+  ok "shell: test passes, and fails (4) for a changed gait"
 }
 
 # Another compiler is refused when the project is configured, with the name of the right one.
@@ -116,12 +99,11 @@ other_compiler() {
     [[ $("$other" --version 2>/dev/null | head -n 1) != "$("$compiler" --version | head -n 1)" ]] || continue
     command -v "$other" >/dev/null || continue
     expect 1 cmake -S "$user" -B "$work/other-build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$other"
-    tr -s '\n ' ' ' <"$work/log" | grep -q "gaitlab_add_plugin(wave): this compiler is .* -DCMAKE_CXX_COMPILER=" ||
-      fail "no word about the compiler"
-    printf 'ok       gaitlab_add_plugin refuses %s\n' "$other"
+    said "gaitlab_add_plugin(wave): this compiler is .* -DCMAKE_CXX_COMPILER="
+    ok "gaitlab_add_plugin refuses $other"
     return
   done
-  printf 'left out gaitlab_add_plugin refuses another compiler: there is only one here\n'
+  skip "gaitlab_add_plugin refuses another compiler" "there is only one here"
 }
 
 # The three skeletons build without a warning, pass their tests, and fail them where the plugin does nothing.
@@ -130,9 +112,9 @@ new_plugins() {
   for kind in cpg controller actuator; do
     folder=$work/new/my_$kind
     expect 0 "$program" new plugin "$kind" "my_$kind" --out "$folder"
-    quietly cmake -S "$folder" -B "$folder/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
+    expect 0 cmake -S "$folder" -B "$folder/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
       -DCMAKE_CXX_FLAGS="-Wall -Wextra -Wpedantic -Wconversion -Werror"
-    quietly cmake --build "$folder/build"
+    expect 0 cmake --build "$folder/build"
     expect 0 ctest --test-dir "$folder/build" --output-on-failure --no-tests=error
     expect 0 "$program" run "$folder/scenario.yaml" --set duration=0.3 --quiet --out "$folder/run" # finds build/NAME.so
     case $kind in
@@ -140,17 +122,17 @@ new_plugins() {
       controller) sed -i 's/command\[j\] = .*/command[j] = 0 * (setpoint[j] - m.angle[j]);/' "$folder/my_$kind.cpp" ;;
       actuator) sed -i 's/torque\[i\] = .*/torque[i] = 0 * command[i] * speed[i];/' "$folder/my_$kind.cpp" ;;
     esac
-    quietly cmake --build "$folder/build"
+    expect 0 cmake --build "$folder/build"
     expect 8 ctest --test-dir "$folder/build" --output-on-failure
-    grep -q 'it does not' "$work/log" || fail "the test of my_$kind fails without saying what"
+    said 'it does not'
   done
-  printf 'ok       gaitlab new plugin: three kinds build, pass their tests, fail them when they do nothing\n'
+  ok "gaitlab new plugin: three kinds build, pass their tests, fail them when they do nothing"
 }
 
 # tutorial PAGE: writes and runs the page's blocks in an empty folder, exactly as they stand. ```LANGUAGE FILE: a file;
 # ```sh: commands; ```sh exit=N: commands of which the last exits with N; ```text: what these commands said.
 tutorial() {
-  local page=$here/../docs/tutorials/$1 name=${1%.md}
+  local page=$root/docs/tutorials/$1 name=${1%.md}
   mkdir -p "$work/$name"
   awk '
     /^```sh exit=/ { sub(/.*=/, ""); code = $0; print "("; inside = 1; next }
@@ -164,8 +146,8 @@ tutorial() {
       inside = 0; file = 0; said = 0; code = ""; next
     }
     inside { print }' "$page" >"$work/$name.sh"
-  (cd -- "$work/$name" && GAITLAB=$prefix CXX=$compiler quietly bash -e "$work/$name.sh") || exit 1
-  printf 'ok       docs/tutorials/%s, exactly as it stands\n' "$1"
+  (cd -- "$work/$name" && GAITLAB=$prefix CXX=$compiler expect 0 bash -e "$work/$name.sh") || exit 1
+  ok "docs/tutorials/$1, exactly as it stands"
 }
 at_most() {
   local lines
@@ -173,7 +155,7 @@ at_most() {
   ((lines <= $1)) || fail "$2 has $lines lines, more than $1"
 }
 
-quietly cmake --install "$build" --prefix "$prefix"
+expect 0 cmake --install "$build" --prefix "$prefix"
 check_installation
 write_project
 cmake_way

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Fuzzes what users write: scenarios (s), build files (b), module types (m), equations (e), from those that are shipped.
-# usage: tests/fuzz.sh [SECONDS]      (600; builds build/fuzz with clang++ first)
-set -euo pipefail
+# usage: tests/tools/fuzz.sh [SECONDS]      (600; builds build/fuzz with clang++ first)
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 
-cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
+cd -- "$root"
 seconds=${1:-600}
 cmake --preset fuzz >/dev/null
 cmake --build build/fuzz --target input_fuzz --parallel "$(nproc)"
@@ -25,5 +25,5 @@ for text in 'omega + sum(j in neighbours, w[i,j]*sin(phi[j] - phi[i] - psi[i,j])
   printf 'e%s' "$text" >"$corpus/e-${#text}"
 done
 
-exec build/fuzz/bin/input_fuzz -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=4096 -print_final_stats=1 \
+build/fuzz/bin/input_fuzz -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=4096 -print_final_stats=1 \
   -artifact_prefix=build/fuzz/found/ "$corpus"

@@ -1,13 +1,11 @@
 #!/usr/bin/env bash
 # Writes docs/validation.md: runs every test that validates a row and sets measured beside required.
-# usage: tests/validation.sh PROGRAM_BUILD_DIR [PAGE]     (needs jq; the same build writes the same page)
-set -euo pipefail
+# usage: tests/tools/validation.sh PROGRAM_BUILD_DIR [PAGE]     (needs jq; the same build writes the same page)
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
 
-root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd)
-build=$(readlink -f -- "${1:?usage: tests/validation.sh PROGRAM_BUILD_DIR [PAGE]}")
+build=$(readlink -f -- "$1")
 page=${2:-$root/docs/validation.md}
-work=$(mktemp -d)
-trap 'rm -rf -- "$work"' EXIT
 
 export GAITLAB_VALIDATION=$work/rows.json
 unset GAITLAB_TOL_SCALE
@@ -19,10 +17,8 @@ filter() {
   local folder=$1 program=$2 suite text=
   for suite in $(grep -l '"tests/validation.h"' "$root/tests/$folder"/*.cpp | grep -v '/validation_test[.]cpp$' |
     xargs -r grep -hoE '^(TEST|TEST_F|TEST_P|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\([A-Za-z0-9_]+' | sed 's/.*(//' | sort -u); do
-    if ! "$program" --gtest_list_tests --gtest_filter="$suite.*:*/$suite.*" | grep '^  ' >/dev/null; then
-      printf '%s: no test of suite %s of tests/%s\n' "$program" "$suite" "$folder" >&2
-      return 1
-    fi
+    "$program" --gtest_list_tests --gtest_filter="$suite.*:*/$suite.*" | grep '^  ' >/dev/null ||
+      fail "$program: no test of suite $suite of tests/$folder"
     text+="${text:+:}$suite.*:*/$suite.*"
   done
   printf '%s' "$text"
@@ -31,15 +27,9 @@ filter() {
 for tests in core lab; do
   chosen=$(filter "$tests" "$build/bin/${tests}_tests")
   [[ -n $chosen ]] || continue # no file there writes rows
-  if ! "$build/bin/${tests}_tests" --gtest_filter="$chosen" --gtest_brief=1 >"$work/$tests.log" 2>&1; then
-    cat -- "$work/$tests.log" >&2
-    exit 1
-  fi
+  expect 0 "$build/bin/${tests}_tests" --gtest_filter="$chosen" --gtest_brief=1
 done
-if [[ ! -s $GAITLAB_VALIDATION ]]; then
-  printf 'no test wrote a row\n' >&2
-  exit 1
-fi
+[[ -s $GAITLAB_VALIDATION ]] || fail "no test wrote a row"
 
 {
   cat -- "$root/tests/validation_head.md"
@@ -61,5 +51,5 @@ fi
   ' "$GAITLAB_VALIDATION"
 } >"$work/page.md"
 mkdir -p -- "$(dirname -- "$page")"
-mv -- "$work/page.md" "$page"
+replace "$page" "$work/page.md"
 printf '%s: %s rows\n' "$page" "$(jq -s 'group_by(.id) | length' "$GAITLAB_VALIDATION")"

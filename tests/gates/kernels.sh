@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# The files that are compiled for AVX2 and AVX-512 define nothing that another file may define, too: of two copies the linker
+# keeps either, and one with wide registers would end the program on a processor without them.
+# usage: kernels.sh PROGRAM_BUILD_DIR
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
+for object in pack_avx2 pack_avx512; do
+  file=$(find "$1" -name "$object.cpp.o" -print -quit)
+  [[ -n $file ]] || fail "no $object.cpp.o in $1"
+  own=$(nm --demangle --defined-only "$file" | grep -c ' [WV] .*Doubles<') || true
+  ((own > 5)) || bad "$object: only $own functions of its own lanes found: this test sees nothing"
+  # Shared: weak, not of the lane type. Data that names types (V typeinfo, DW.ref) has no code.
+  shared=$(nm --demangle --defined-only "$file" | grep -E ' [Wu] ' | grep -v 'Doubles<' || true)
+  [[ -z $shared ]] || bad "$object defines what others may define, too:"$'\n'"$shared"
+done
+verdict
