@@ -30,6 +30,9 @@ Result checked(Result result, const char* what) {
 class Library {
  public:
   Library() : lock_(mutex()) {
+    // Before its first use: what a damaged file leaves open would else make HDF5 complain when the program ends.
+    static const herr_t kNeverAtExit = H5dont_atexit();
+    static_cast<void>(kNeverAtExit);
     H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }

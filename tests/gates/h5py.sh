@@ -28,6 +28,20 @@ assert units["joint.3.torque"] == "N m" and units["t"] == "s" and units["base.z"
 assert all(definitions[name] for name in columns)
 assert seed == 7 and build.startswith("0.") and scenario.startswith("gaitlab: 1\nname: caterpillar")
 assert torque.min() < 0 and len(torque) == len(t)
+
+import struct
+whole = open("runs/walk/trace.h5", "rb").read()
+rest = whole[512:]
+state = 14695981039346656037
+for word in (len(rest), *struct.unpack(f"<{(len(rest) + 7) // 8}Q", rest + b"\0" * (-len(rest) % 8))):
+    state = (state ^ word) * 1099511628211 % 2**64
+    state ^= state >> 32
+assert whole[:512].decode().split("on: ")[1].startswith(f"{state:016x}\n"), "the hash of the file"
+
+with h5py.File("runs/walk/trace.h5") as file:
+    table = file["recording/ticks"]
+    ticks = dict(zip((name.decode() for name in table.attrs["columns"]), table[:].T))
+assert ticks["t"][-1] == t[-1] and max(ticks["joint.3.torque_peak"]) >= max(abs(torque))
 TEXT
 "$python" recipe.py
-ok "h5py reads names, units, definitions, origin and every bit"
+ok "h5py reads names, units, definitions, origin, tables and every bit; the hash is that of docs/conventions.md"

@@ -27,8 +27,9 @@ const std::vector<std::vector<std::string>> kOwn{
 
 /// All that a rollout gives, as text that shows every bit.
 std::string bits(const Recording& record, const std::string& outcome) {
-  std::string text = fmt::format("{} {} steps, {} rows {}, ledger {:a} {:a}", outcome, record.steps, record.trace.rows(),
-                                 hash(record.trace), record.ledger.electrical, record.ledger.residual());
+  std::string text = fmt::format("{} {} steps, {} rows {} {} {}, ledger {:a} {:a}", outcome, record.steps, record.trace.rows(),
+                                 hash(record.trace), hash(record.rest), hash(record.ticks), record.ledger.electrical,
+                                 record.ledger.residual());
   for (const JointStatistics& joint : record.joints) {
     text += fmt::format(", {:a} {:a} {:a}", joint.torque_rms, joint.speed_peak, joint.shaft);
   }
