@@ -31,8 +31,8 @@ class Run:
         self.scenario = yaml.load((folder / "scenario.resolved.yaml").read_text(), Loader)
         with h5py.File(folder / "trace.h5") as file:
             self.rows = file["trace"][:]
-            self.columns = [str(column) for column in file["trace"].attrs["columns"]]
-            self.definitions = dict(zip(self.columns, map(str, file["trace"].attrs["definitions"])))
+            self.columns = [column.decode() for column in file["trace"].attrs["columns"]]
+            self.definitions = dict(zip(self.columns, (text.decode() for text in file["trace"].attrs["definitions"])))
         self.index = {column: k for k, column in enumerate(self.columns)}
         self.robot = Robot(self.scenario)
         self.n, self.motion_ = len(self.robot.joint_names), None
