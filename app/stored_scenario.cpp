@@ -54,7 +54,9 @@ Scenario read_inside(const StoredScenario& stored, const std::vector<std::string
   try {
     Scenario scenario = read_scenario(copy.path(), sets, catalog);
     scenario.file = stored.shown;
-    for (auto& [key, place] : scenario.places) rename(place, copy.path(), stored.shown);
+    Scenario::Places places = *scenario.places;
+    for (auto& [key, place] : places) rename(place, copy.path(), stored.shown);
+    scenario.places = std::make_shared<const Scenario::Places>(std::move(places));
     return scenario;
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();

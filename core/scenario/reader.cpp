@@ -263,6 +263,10 @@ void Reader::read_named_numbers(const Node& node, const std::string& what, PerJo
 }
 
 void Reader::visit(const Field& field) {
+  if (!only_.empty() && std::ranges::find(only_, std::string_view(field.key)) == only_.end()) {
+    static_cast<void>(take(field.key));
+    return;
+  }
   std::visit([&](const auto& value) { on(field.key, value); }, field.value);
 }
 

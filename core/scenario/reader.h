@@ -30,6 +30,8 @@ class Reader final : public Fields {
   [[nodiscard]] bool has(const char* key) const { return map_->find(key) != nullptr; }
   /// A format version, of which this program reads 1; false with a problem where it is another one.
   bool version(const char* key);
+  /// From now on only these keys are read; the fields of others keep their values.
+  void only(std::vector<std::string> keys) { only_ = std::move(keys); }
   /// Reports the keys that are missing.
   void require(std::initializer_list<const char*> keys);
   /// Reports every key that was not asked for.
@@ -70,7 +72,7 @@ class Reader final : public Fields {
   Problems& problems_;
   JointNames joints_;
   std::string folder_;
-  std::vector<std::string> known_;
+  std::vector<std::string> known_, only_;
   bool tolerant_ = false;  ///< which keys are known is itself unknown
 };
 

@@ -22,7 +22,7 @@ Node plugins_node(const std::vector<PluginFile>& files) {
 
 Node robot_node(Scenario& scenario, const std::vector<std::string>& joints) {
   Writer writer(joints);
-  for (auto& [key, node] : robot_nodes(*scenario.robot, scenario.module_documents)) writer.add(key, std::move(node));
+  for (auto& [key, node] : robot_nodes(*scenario.robot, *scenario.module_documents)) writer.add(key, std::move(node));
   const bool placed = !scenario.on_ground || scenario.position != Vec3::Zero();
   BaseFields{scenario, placed}.fields(writer);
   return writer.take();

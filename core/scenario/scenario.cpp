@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
 
 #include "core/scenario/ground_section.h"
 #include "core/scenario/overlay.h"
@@ -15,6 +15,8 @@
 #include "core/scenario/plugin_instance.h"
 #include "core/scenario/reader.h"
 #include "core/scenario/robot_section.h"
+#include "core/scenario/scenario_checks.h"
+#include "core/scenario/scenario_template.h"
 #include "core/scenario/section_places.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/text_file.h"
@@ -46,6 +48,8 @@ TypeMotor motor_of(const std::vector<Node>& documents) {
   return motor;
 }
 
+const std::string kCpgNote = "cpg: ";
+
 class ScenarioReader {
  public:
   ScenarioReader(const std::string& path, Catalog& catalog) : path_(path), catalog_(catalog) {
@@ -54,7 +58,8 @@ class ScenarioReader {
     if (folder_.empty()) folder_ = ".";
   }
 
-  Scenario read(const std::vector<std::string>& sets) {
+  /// Reads the file; afterwards with() makes rollouts of it.
+  const Scenario& read(const std::vector<std::string>& sets) {
     const std::string text = read_text(path_);
     std::optional<Node> root = parse_yaml(text, path_, problems_);
     if (!root) raise();
@@ -71,13 +76,44 @@ class ScenarioReader {
     read_body();
     read_sections();
     raise();
-    note_places(root_, "", scenario_.places);
-    return std::move(scenario_);
+    Scenario::Places places;
+    note_places(root_, "", places);
+    scenario_.places = std::make_shared<const Scenario::Places>(std::move(places));
+    return scenario_;
+  }
+
+  /// The scenario with more settings, of sections other than the robot's; only what they touch is read anew.
+  [[nodiscard]] Scenario with(const std::vector<std::string>& sets) const {
+    if (sets.empty()) return scenario_;
+    ScenarioReader own = *this;
+    apply_sets(own.root_, sets, own.problems_);
+    own.raise();
+    for (const std::string& set : sets) own.touched_.push_back(set.substr(0, set.find_first_of(".=")));
+    own.follow_dependencies();
+    own.read_sections();
+    own.raise();
+    own.note_own_places();
+    return std::move(own.scenario_);
   }
 
  private:
   void raise() const {
     if (!problems_.empty()) throw InputError(in_order(problems_.list(), path_));
+  }
+
+  /// Where the touched keys are given, as far as that differs from the template's own.
+  void note_own_places() {
+    Node touched{Node::Kind::map};
+    for (std::size_t i = 0; i < root_.keys.size(); ++i) {
+      if (!reads(root_.keys[i].first)) continue;
+      touched.keys.push_back(root_.keys[i]);
+      touched.items.push_back(root_.items[i]);
+    }
+    note_places(touched, "", scenario_.own_places);
+    std::erase_if(scenario_.own_places, [&](const auto& own) {
+      const auto common = scenario_.places->find(own.first);
+      return common != scenario_.places->end() && to_string(common->second) == to_string(own.second);
+    });
   }
 
   void read_name(Reader& reader) {
@@ -107,8 +143,36 @@ class ScenarioReader {
     const Node* position = node->find("position");
     if (position != nullptr && counted) check_height(*position, base.numbers == 3, node->find("on_ground"));
     scenario_.robot = std::move(parts.robot);
-    scenario_.module_documents = std::move(parts.documents);
-    if (scenario_.robot) joints_ = joint_names(*scenario_.robot);
+    scenario_.module_documents = std::make_shared<const std::vector<Node>>(std::move(parts.documents));
+    if (scenario_.robot) joints_ = std::make_shared<const std::vector<std::string>>(joint_names(*scenario_.robot));
+  }
+
+  [[nodiscard]] bool reads(const std::string& section) const {
+    return touched_.empty() || std::ranges::find(touched_, section) != touched_.end();
+  }
+
+  /// Sections whose defaults or checks depend on what was touched; each starts from its defaults again.
+  void follow_dependencies() {
+    constexpr std::array<std::pair<const char*, const char*>, 4> kFollows{
+        {{"contact", "physics"}, {"contact", "ground"}, {"controller", "cpg"}, {"actuator", "controller"}}};
+    for (const auto& [first, second] : kFollows) {
+      if (reads(first)) touched_.emplace_back(second);
+    }
+    const Scenario fresh;
+    if (reads("initial")) scenario_.initial = fresh.initial;
+    if (reads("physics")) scenario_.physics = fresh.physics;
+    if (reads("ground")) scenario_.ground = fresh.ground;
+    if (reads("contact")) scenario_.contact = fresh.contact;
+    if (reads("trace")) scenario_.trace = fresh.trace;
+    if (reads("actuator")) scenario_.actuator = fresh.actuator;
+    if (reads("controller")) {
+      scenario_.controller = fresh.controller;
+      scenario_.control_period = fresh.control_period;
+    }
+    if (reads("cpg")) {
+      scenario_.cpg = fresh.cpg;
+      scenario_.cpg_step = fresh.cpg_step;
+    }
   }
 
   /// A height and on_ground exclude one another; whoever gives a height need not turn on_ground off.
@@ -123,12 +187,13 @@ class ScenarioReader {
   }
 
   void read_sections() {
-    const JointNames joints = scenario_.robot ? &joints_ : nullptr;
+    const JointNames joints = joints_.get();
     Reader reader(root_, "the scenario", problems_, joints, folder_);
+    if (!touched_.empty()) reader.only(touched_);
     for (const char* known : {"gaitlab", "name", "plugins", "robot", "controller", "cpg"}) reader.take(known);
     reader.require({"duration"});
     if (const Node* sensors = reader.take("sensors")) check_sensors(*sensors);
-    const TypeMotor motor = motor_of(scenario_.module_documents);
+    const TypeMotor motor = motor_of(*scenario_.module_documents);
     SectionFields sections(scenario_, &catalog_, &problems_, motor.type);
     sections.has_cpg = root_.find("cpg") != nullptr;
     sections.physics.solver = asks_for_solver();
@@ -140,16 +205,21 @@ class ScenarioReader {
       visit_settings(entry, settings, preset);
       preset.finish();
     };
+    sections.actuator.none = !reads("actuator") && scenario_.actuator.entry == nullptr;
     sections.fields(reader);
     reader.finish();
-    if (const Node* ground = root_.find("ground")) finish_ground(*ground, folder_, scenario_, problems_);
+    if (const Node* ground = root_.find("ground"); ground != nullptr && reads("ground"))
+      finish_ground(*ground, folder_, scenario_, problems_);
+    ScenarioChecks checks(root_, scenario_, catalog_, problems_);
     check_motors(motor);
-    check_law();
+    checks.law();
     if (sections.actuator.none) refuse_controller();
-    check_initial();
-    check_base_velocity();
+    checks.initial_angles();
+    checks.base_velocity();
     check_all_periods();
-    make_plugins(sections);
+    const auto concerns = [&](const char* section) { return reads(section); };
+    constexpr std::array kOfPlugins{"physics", "contact", "actuator", "controller", "cpg"};
+    if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
   }
 
   void check_sensors(const Node& node) {
@@ -165,35 +235,12 @@ class ScenarioReader {
     return law != nullptr && law->text == "bullet";
   }
 
-  /// What Bullet's own solver cannot do.
-  void check_law() {
-    const Engine* engine = scenario_.physics.engine;
-    if (!scenario_.contact.solver() || engine == nullptr) return;
-    if (!(engine->solver_step > 0)) {
-      std::vector<std::string> able;
-      for (const std::string& name : catalog_.engines()) {
-        if (catalog_.engine(name)->solver_step > 0) able.push_back(name);
-      }
-      problems_.add(place_of(root_, "contact", "law"),
-                    fmt::format("engine '{}' has no contact law 'bullet'; expected penalty{}", engine->name,
-                                able.empty() ? "" : fmt::format(", or engine: {}", fmt::join(able, " or "))));
-    }
-    if (scenario_.physics.integrator != &engine->integrators.front()) {
-      problems_.add(place_of(root_, "physics", "integrator"),
-                    fmt::format("contact law 'bullet' takes steps of its own; expected {}", engine->integrators.front().name));
-    }
-    if (scenario_.ground.kind == Ground::Kind::heightfield) {
-      problems_.add(place_of(root_, "ground", "type"),
-                    "contact law 'bullet' knows no heightfield; expected none, plane or boxes");
-    }
-  }
-
   void check_motors(const TypeMotor& motor) {
     if (motor.agreed || given(root_, "actuator")) return;
     Problem& problem =
         problems_.add(given(root_, "robot").value_or(root_.place),
                       "the module types have different actuators; say which one holds: add actuator: {type: ...}");
-    for (const Node& document : scenario_.module_documents) {
+    for (const Node& document : *scenario_.module_documents) {
       if (const Node* map = document.find("actuator")) problem.notes.emplace_back(map->place, "one is here");
     }
   }
@@ -205,60 +252,6 @@ class ScenarioReader {
     }
   }
 
-  /// Place of a joint's initial angle.
-  [[nodiscard]] Place angle_place(std::size_t joint) const {
-    const Node* initial = root_.find("initial");
-    const Node* angles = initial == nullptr ? nullptr : initial->find("angles");
-    if (angles == nullptr) return place_of(root_, "initial", "angles");
-    if (angles->kind == Node::Kind::list && joint < angles->items.size()) return angles->items[joint].place;
-    if (const Node* own = angles->find(joints_[joint])) return own->place;
-    if (const Node* common = angles->find("default")) return common->place;
-    return angles->place;
-  }
-
-  void check_initial() {
-    if (!scenario_.robot) return;
-    const std::vector<Joint>& joints = scenario_.robot->joints;
-    const PerJoint& angles = scenario_.initial.angles;
-    if (!angles.each.empty() && angles.each.size() != joints.size()) return;
-    struct Outside {
-      Place place;
-      std::string text;
-      int more = 0;
-    };
-    std::map<std::string, Outside> findings;  // one a place: a number may stand for all joints
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      const double angle = angles[j];
-      if (angle >= joints[j].lo - 1e-9 && angle <= joints[j].hi + 1e-9) continue;
-      const Place place = angle_place(j);
-      const auto [it, fresh] = findings.emplace(to_string(place), Outside{place, {}});
-      if (fresh) {
-        it->second.text = fmt::format("the initial angle of joint '{}' is {} rad; allowed are {} to {} rad", joints[j].name,
-                                      number_text(angle), number_text(joints[j].lo), number_text(joints[j].hi));
-      } else {
-        ++it->second.more;
-      }
-    }
-    for (const auto& [key, outside] : findings) {
-      const std::string others =
-          outside.more == 1 ? "; so has 1 more joint" : fmt::format("; so have {} more joints", outside.more);
-      problems_.add(outside.place, outside.text + (outside.more > 0 ? others : ""));
-    }
-  }
-
-  /// A base cannot start with a velocity that it cannot have.
-  void check_base_velocity() {
-    const Vec3& v = scenario_.initial.base_velocity;
-    const Vec3& w = scenario_.initial.base_angular_velocity;
-    const bool planar = scenario_.base == Base::planar;
-    if (scenario_.base == Base::floating) return;
-    const std::string allowed = planar ? "a planar base moves along x and z and turns about y" : "a fixed base does not move";
-    if (planar ? v.y() != 0 : v != Vec3::Zero()) problems_.add(place_of(root_, "initial", "base_velocity"), allowed);
-    if (planar ? w.x() != 0 || w.z() != 0 : w != Vec3::Zero()) {
-      problems_.add(place_of(root_, "initial", "base_angular_velocity"), allowed);
-    }
-  }
-
   void check_all_periods() {
     // Nothing is commanded: the control tick only watches the step.
     if (scenario_.actuator.entry == nullptr && root_.find("cpg") == nullptr) {
@@ -266,7 +259,8 @@ class ScenarioReader {
       scenario_.cpg_step = scenario_.control_period;
     }
     Physics& physics_ = scenario_.physics;
-    if (physics_.engine != nullptr && !physics_.adapts()) refuse_auto();
+    if (physics_.engine != nullptr && !physics_.adapts())
+      ScenarioChecks(root_, scenario_, catalog_, problems_).automatic_step();
     if (physics_.adaptive_step) {
       physics_.step = longest_step(scenario_.control_period);
       return check_cpg_period();
@@ -287,31 +281,6 @@ class ScenarioReader {
     const Period cpg{"CPG step", scenario_.cpg_step, given(root_, "cpg", "step")};
     check_periods({control}, cpg, place_of(root_, "cpg", "step"), problems_);
   }
-  /// What only integrators that choose their steps have.
-  void refuse_auto() {
-    const Node* physics = root_.find("physics");
-    const Node* step = physics == nullptr ? nullptr : physics->find("step");
-    const Node* accuracy = physics == nullptr ? nullptr : physics->find("accuracy");
-    std::vector<std::string> able;
-    for (const std::string& name : catalog_.engines()) {
-      const Engine& engine = *catalog_.engine(name);
-      if (engine.adaptive() != nullptr) {
-        able.push_back(fmt::format("engine: {}, integrator: {}", name, engine.adaptive()->name));
-      }
-    }
-    const std::string chosen =
-        fmt::format("integrator '{}' of engine '{}'", scenario_.physics.integrator->name, scenario_.physics.engine->name);
-    if (step != nullptr && step->text == "auto") {
-      problems_.add(step->place,
-                    fmt::format("{} chooses no steps; expected a number of seconds, or {}", chosen, fmt::join(able, " or ")));
-    }
-    if (accuracy != nullptr) {
-      problems_.add(accuracy->place,
-                    fmt::format("{} takes steps as given, so accuracy means nothing to it; remove it, or use {}", chosen,
-                                fmt::join(able, " or ")));
-    }
-  }
-
   /// Uses a plugin; what it throws is bad input like any other.
   template <class Use>
   void attempt(Use use) {
@@ -324,6 +293,7 @@ class ScenarioReader {
 
   void make_plugins(const SectionFields& sections) {
     if (!scenario_.robot) return;
+    std::erase_if(scenario_.notes, [](const std::string& note) { return note.starts_with(kCpgNote); });
     const RobotInfo robot = info(*scenario_.robot);
     std::unique_ptr<Actuator> actuator;
     std::unique_ptr<Controller> controller;
@@ -336,50 +306,14 @@ class ScenarioReader {
     attempt([&] {
       if (!sections.has_cpg || !sections.cpg.sound) return;
       const auto cpg = make_cpg(scenario_.cpg, robot);
-      if (cpg && !cpg->note().empty()) scenario_.notes.push_back("cpg: " + cpg->note());
+      if (cpg && !cpg->note().empty()) scenario_.notes.push_back(kCpgNote + cpg->note());
     });
     attempt([&] {
-      if (actuator && controller) check_units(*actuator, *controller);
+      if (actuator && controller) ScenarioChecks(root_, scenario_, catalog_, problems_).units(*actuator, *controller);
     });
     attempt([&] {
-      if (actuator) check_rotors(*actuator);
+      if (actuator) ScenarioChecks(root_, scenario_, catalog_, problems_).rotors(*actuator);
     });
-  }
-
-  void check_units(const Actuator& actuator, const Controller& controller) {
-    const std::string_view command = controller.command_unit();
-    if (command.empty() || command == actuator.command_unit()) return;
-    const std::string_view taker = scenario_.actuator.entry->name;
-    const std::string_view giver = scenario_.controller.entry->name;
-    const bool chosen = given(root_, "controller").has_value();
-    const std::string_view by_default = chosen ? "" : "the default ";
-    Problem& problem = problems_.add(place_of(root_, chosen ? "controller" : "actuator", "type"),
-                                     fmt::format("{}controller '{}' commands {}, but actuator '{}' takes {}", by_default, giver,
-                                                 command, taker, actuator.command_unit()));
-    if (!chosen) return;
-    problem.notes.emplace_back(place_of(root_, "actuator", "type"),
-                               fmt::format("actuator '{}' takes {}", taker, actuator.command_unit()));
-  }
-
-  /// An engine that cannot add rotor inertia refuses it and names the ones that can.
-  void check_rotors(const Actuator& actuator) {
-    const In inertia = actuator.reflected_inertia();
-    const Engine* engine = scenario_.physics.engine;
-    const bool some = std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; });
-    if (some && scenario_.contact.solver()) {
-      problems_.add(place_of(root_, "actuator", "rotor_inertia"),
-                    "contact law 'bullet' cannot add rotor inertia; expected 0, or contact.law: penalty");
-      return;
-    }
-    if (!some || engine == nullptr || engine->rotor_inertia) return;
-    std::vector<std::string> able;
-    for (const std::string& name : catalog_.engines()) {
-      if (catalog_.engine(name)->rotor_inertia) able.push_back(name);
-    }
-    problems_.add(place_of(root_, "actuator", "rotor_inertia"),
-                  fmt::format("engine '{}' cannot add rotor inertia; {}", engine->name,
-                              able.empty() ? "no engine of this build can: set it to 0"
-                                           : fmt::format("expected 0, or engine: {}", fmt::join(able, " or "))));
   }
 
   std::string path_, folder_;
@@ -387,13 +321,43 @@ class ScenarioReader {
   Problems problems_;
   Node root_;
   Scenario scenario_;
-  std::vector<std::string> joints_;
+  std::shared_ptr<const std::vector<std::string>> joints_;  ///< nullptr: there is no robot
+  std::vector<std::string> touched_;                        ///< sections to read; none: all
 };
 
 }  // namespace
 
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog) {
   return ScenarioReader(path, catalog).read(sets);
+}
+
+class ScenarioTemplate::Reader : public ScenarioReader {
+ public:
+  using ScenarioReader::ScenarioReader;
+};
+
+ScenarioTemplate::ScenarioTemplate(std::string path, std::vector<std::string> sets, Catalog& catalog)
+    : path_(std::move(path)), sets_(std::move(sets)), catalog_(catalog), reader_(std::make_unique<Reader>(path_, catalog)) {
+  reader_->read(sets_);
+}
+
+ScenarioTemplate::~ScenarioTemplate() = default;
+
+Scenario ScenarioTemplate::with(const std::vector<std::string>& own) const {
+  // What decides which keys there are, or needs the robot again.
+  const auto whole = [](const std::string& set) {
+    const std::string key = set.substr(0, set.find('='));
+    const std::string section = key.substr(0, key.find('.'));
+    return key.find('.') == std::string::npos
+               ? !default_type(key).empty() || key == "robot" || key == "name" || key == "plugins" || key == "gaitlab"
+               : section == "robot" || section == "plugins" || key.ends_with(".type");
+  };
+  if (std::ranges::any_of(own, whole)) {
+    std::vector<std::string> all = sets_;
+    all.insert(all.end(), own.begin(), own.end());
+    return read_scenario(path_, all, catalog_);
+  }
+  return reader_->with(own);
 }
 
 }  // namespace gaitlab

@@ -67,7 +67,8 @@ struct Scenario {
   std::string file, name;
   std::vector<PluginFile> plugins;
   std::shared_ptr<const Robot> robot;
-  std::vector<Node> module_documents;  ///< one a Robot::types entry, as read (for the resolved scenario)
+  /// One per entry of Robot::types, as read (for the resolved scenario).
+  std::shared_ptr<const std::vector<Node>> module_documents;
   Base base = Base::floating;
   bool on_ground = true;            ///< lowered onto the ground at x, y; false: at `position`
   Vec3 position = Vec3::Zero();     ///< of the base frame, m; z: 0 where on_ground
@@ -82,13 +83,18 @@ struct Scenario {
   double duration = 0;            ///< s
   TraceSettings trace;
   std::int64_t seed = 1;
-  std::vector<std::string> notes;       ///< one line each for stderr: what --set dropped, how the CPG was set up
-  std::map<std::string, Place> places;  ///< where the user gave a key: `physics.step`, `trace.columns` ...
+  std::vector<std::string> notes;  ///< one line each for stderr: what --set dropped, how the CPG was set up
+  /// Where the user gave a key: `physics.step`, `trace.columns` ...; of a rollout of a template first its own.
+  using Places = std::map<std::string, Place>;
+  Places own_places;
+  std::shared_ptr<const Places> places = std::make_shared<const Places>();
 
   /// For errors found later: where `key` was given, or else the file.
   [[nodiscard]] Place place(const std::string& key) const {
-    const auto at = places.find(key);
-    return at == places.end() ? Place{file} : at->second;
+    for (const Places* known : {&own_places, places.get()}) {
+      if (const auto at = known->find(key); at != known->end()) return at->second;
+    }
+    return Place{file};
   }
 };
 

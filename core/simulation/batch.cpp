@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "core/parallel.h"
+#include "core/scenario/scenario_template.h"
 
 namespace gaitlab {
 
@@ -100,13 +101,12 @@ void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings
 
 std::vector<Scenario> rollouts(const std::string& file, const std::vector<std::string>& sets,
                                std::span<const std::vector<std::string>> own, Catalog& catalog) {
+  const ScenarioTemplate common(file, sets, catalog);
   std::vector<Scenario> all;
   Problems problems;
   for (const std::vector<std::string>& overrides : own) {
-    std::vector<std::string> both = sets;
-    both.insert(both.end(), overrides.begin(), overrides.end());
     try {
-      all.push_back(read_scenario(file, both, catalog));
+      all.push_back(common.with(overrides));
     } catch (const InputError& error) {
       for (const Problem& problem : error.problems()) problems.add(problem.place, problem.text);
     }

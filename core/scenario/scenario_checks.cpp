@@ -1,0 +1,145 @@
+#include "core/scenario/scenario_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/scenario/section_places.h"
+#include "core/scenario/value.h"
+
+namespace gaitlab {
+
+void ScenarioChecks::law() {
+  const Engine* engine = scenario_.physics.engine;
+  if (!scenario_.contact.solver() || engine == nullptr) return;
+  if (!(engine->solver_step > 0)) {
+    std::vector<std::string> able;
+    for (const std::string& name : catalog_.engines()) {
+      if (catalog_.engine(name)->solver_step > 0) able.push_back(name);
+    }
+    problems_.add(place_of(root_, "contact", "law"),
+                  fmt::format("engine '{}' has no contact law 'bullet'; expected penalty{}", engine->name,
+                              able.empty() ? "" : fmt::format(", or engine: {}", fmt::join(able, " or "))));
+  }
+  if (scenario_.physics.integrator != &engine->integrators.front()) {
+    problems_.add(place_of(root_, "physics", "integrator"),
+                  fmt::format("contact law 'bullet' takes steps of its own; expected {}", engine->integrators.front().name));
+  }
+  if (scenario_.ground.kind == Ground::Kind::heightfield) {
+    problems_.add(place_of(root_, "ground", "type"),
+                  "contact law 'bullet' knows no heightfield; expected none, plane or boxes");
+  }
+}
+
+Place ScenarioChecks::angle_place(std::size_t joint) const {
+  const Node* initial = root_.find("initial");
+  const Node* angles = initial == nullptr ? nullptr : initial->find("angles");
+  if (angles == nullptr) return place_of(root_, "initial", "angles");
+  if (angles->kind == Node::Kind::list && joint < angles->items.size()) return angles->items[joint].place;
+  if (const Node* own = angles->find(scenario_.robot->joints[joint].name)) return own->place;
+  if (const Node* common = angles->find("default")) return common->place;
+  return angles->place;
+}
+
+void ScenarioChecks::initial_angles() {
+  if (!scenario_.robot) return;
+  const std::vector<Joint>& joints = scenario_.robot->joints;
+  const PerJoint& angles = scenario_.initial.angles;
+  if (!angles.each.empty() && angles.each.size() != joints.size()) return;
+  struct Outside {
+    Place place;
+    std::string text;
+    int more = 0;
+  };
+  std::map<std::string, Outside> findings;  // one a place: a number may stand for all joints
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const double angle = angles[j];
+    if (angle >= joints[j].lo - 1e-9 && angle <= joints[j].hi + 1e-9) continue;
+    const Place place = angle_place(j);
+    const auto [it, fresh] = findings.emplace(to_string(place), Outside{place, {}});
+    if (fresh) {
+      it->second.text = fmt::format("the initial angle of joint '{}' is {} rad; allowed are {} to {} rad", joints[j].name,
+                                    number_text(angle), number_text(joints[j].lo), number_text(joints[j].hi));
+    } else {
+      ++it->second.more;
+    }
+  }
+  for (const auto& [key, outside] : findings) {
+    const std::string others =
+        outside.more == 1 ? "; so has 1 more joint" : fmt::format("; so have {} more joints", outside.more);
+    problems_.add(outside.place, outside.text + (outside.more > 0 ? others : ""));
+  }
+}
+
+void ScenarioChecks::base_velocity() {
+  const Vec3& v = scenario_.initial.base_velocity;
+  const Vec3& w = scenario_.initial.base_angular_velocity;
+  const bool planar = scenario_.base == Base::planar;
+  if (scenario_.base == Base::floating) return;
+  const std::string allowed = planar ? "a planar base moves along x and z and turns about y" : "a fixed base does not move";
+  if (planar ? v.y() != 0 : v != Vec3::Zero()) problems_.add(place_of(root_, "initial", "base_velocity"), allowed);
+  if (planar ? w.x() != 0 || w.z() != 0 : w != Vec3::Zero()) {
+    problems_.add(place_of(root_, "initial", "base_angular_velocity"), allowed);
+  }
+}
+
+void ScenarioChecks::automatic_step() {
+  const Node* physics = root_.find("physics");
+  const Node* step = physics == nullptr ? nullptr : physics->find("step");
+  const Node* accuracy = physics == nullptr ? nullptr : physics->find("accuracy");
+  std::vector<std::string> able;
+  for (const std::string& name : catalog_.engines()) {
+    const Engine& engine = *catalog_.engine(name);
+    if (engine.adaptive() != nullptr) {
+      able.push_back(fmt::format("engine: {}, integrator: {}", name, engine.adaptive()->name));
+    }
+  }
+  const std::string chosen =
+      fmt::format("integrator '{}' of engine '{}'", scenario_.physics.integrator->name, scenario_.physics.engine->name);
+  if (step != nullptr && step->text == "auto") {
+    problems_.add(step->place,
+                  fmt::format("{} chooses no steps; expected a number of seconds, or {}", chosen, fmt::join(able, " or ")));
+  }
+  if (accuracy != nullptr) {
+    problems_.add(accuracy->place, fmt::format("{} takes steps as given, so accuracy means nothing to it; remove it, or use {}",
+                                               chosen, fmt::join(able, " or ")));
+  }
+}
+
+void ScenarioChecks::units(const Actuator& actuator, const Controller& controller) {
+  const std::string_view command = controller.command_unit();
+  if (command.empty() || command == actuator.command_unit()) return;
+  const std::string_view taker = scenario_.actuator.entry->name;
+  const std::string_view giver = scenario_.controller.entry->name;
+  const bool chosen = given(root_, "controller").has_value();
+  const std::string_view by_default = chosen ? "" : "the default ";
+  Problem& problem = problems_.add(place_of(root_, chosen ? "controller" : "actuator", "type"),
+                                   fmt::format("{}controller '{}' commands {}, but actuator '{}' takes {}", by_default, giver,
+                                               command, taker, actuator.command_unit()));
+  if (!chosen) return;
+  problem.notes.emplace_back(place_of(root_, "actuator", "type"),
+                             fmt::format("actuator '{}' takes {}", taker, actuator.command_unit()));
+}
+
+void ScenarioChecks::rotors(const Actuator& actuator) {
+  const In inertia = actuator.reflected_inertia();
+  const Engine* engine = scenario_.physics.engine;
+  const bool some = std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; });
+  if (some && scenario_.contact.solver()) {
+    problems_.add(place_of(root_, "actuator", "rotor_inertia"),
+                  "contact law 'bullet' cannot add rotor inertia; expected 0, or contact.law: penalty");
+    return;
+  }
+  if (!some || engine == nullptr || engine->rotor_inertia) return;
+  std::vector<std::string> able;
+  for (const std::string& name : catalog_.engines()) {
+    if (catalog_.engine(name)->rotor_inertia) able.push_back(name);
+  }
+  problems_.add(place_of(root_, "actuator", "rotor_inertia"),
+                fmt::format("engine '{}' cannot add rotor inertia; {}", engine->name,
+                            able.empty() ? "no engine of this build can: set it to 0"
+                                         : fmt::format("expected 0, or engine: {}", fmt::join(able, " or "))));
+}
+
+}  // namespace gaitlab
