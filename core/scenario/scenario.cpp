@@ -48,8 +48,6 @@ TypeMotor motor_of(const std::vector<Node>& documents) {
   return motor;
 }
 
-const std::string kCpgNote = "cpg: ";
-
 class ScenarioReader {
  public:
   ScenarioReader(const std::string& path, Catalog& catalog) : path_(path), catalog_(catalog) {
@@ -293,7 +291,7 @@ class ScenarioReader {
 
   void make_plugins(const SectionFields& sections) {
     if (!scenario_.robot) return;
-    std::erase_if(scenario_.notes, [](const std::string& note) { return note.starts_with(kCpgNote); });
+    if (!cpg_note_.empty()) std::erase(scenario_.notes, cpg_note_);  // that of the template's CPG
     const RobotInfo robot = info(*scenario_.robot);
     std::unique_ptr<Actuator> actuator;
     std::unique_ptr<Controller> controller;
@@ -306,7 +304,9 @@ class ScenarioReader {
     attempt([&] {
       if (!sections.has_cpg || !sections.cpg.sound) return;
       const auto cpg = make_cpg(scenario_.cpg, robot);
-      if (cpg && !cpg->note().empty()) scenario_.notes.push_back(kCpgNote + cpg->note());
+      if (!cpg || cpg->note().empty()) return;
+      cpg_note_ = "cpg: " + cpg->note();
+      scenario_.notes.push_back(cpg_note_);
     });
     attempt([&] {
       if (actuator && controller) ScenarioChecks(root_, scenario_, catalog_, problems_).units(*actuator, *controller);
@@ -322,7 +322,8 @@ class ScenarioReader {
   Node root_;
   Scenario scenario_;
   std::shared_ptr<const std::vector<std::string>> joints_;  ///< nullptr: there is no robot
-  std::vector<std::string> touched_;                        ///< sections to read; none: all
+  std::string cpg_note_;
+  std::vector<std::string> touched_;  ///< sections to read; none: all
 };
 
 }  // namespace

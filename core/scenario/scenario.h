@@ -68,7 +68,7 @@ struct Scenario {
   std::vector<PluginFile> plugins;
   std::shared_ptr<const Robot> robot;
   /// One per entry of Robot::types, as read (for the resolved scenario).
-  std::shared_ptr<const std::vector<Node>> module_documents;
+  std::shared_ptr<const std::vector<Node>> module_documents = std::make_shared<const std::vector<Node>>();
   Base base = Base::floating;
   bool on_ground = true;            ///< lowered onto the ground at x, y; false: at `position`
   Vec3 position = Vec3::Zero();     ///< of the base frame, m; z: 0 where on_ground
