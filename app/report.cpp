@@ -1,9 +1,9 @@
 // `gaitlab report`: what a run came to, from its folder alone.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <system_error>
 
 #include "app/commands.h"
 #include "app/stored_scenario.h"
@@ -27,42 +27,75 @@ struct ReportArguments {
   std::optional<std::string> out;  ///< folder for summary.json and figure.svg
 };
 
-/// How long the simulation took, which only its summary knows; 0 where there is none.
-double wall_time(const fs::path& run) {
-  std::error_code none;
-  if (!fs::exists(run / "summary.json", none)) return 0;
-  const nlohmann::json summary = read_summary(run);
-  const auto found = summary.find("wall_time");
-  return found != summary.end() && found->is_number() ? found->get<double>() : 0;
+/// A value of the run's summary; null where there is none, or no summary that can be read.
+nlohmann::json summarised(const fs::path& folder, const char* key) try {
+  const nlohmann::json summary = read_summary(folder);
+  const auto found = summary.find(key);
+  return found != summary.end() ? *found : nlohmann::json();
+} catch (const InputError&) {
+  return {};
+}
+
+/// How long the simulation took, which only its summary knows; 0 where it does not.
+double wall_time(const fs::path& folder) {
+  const nlohmann::json value = summarised(folder, "wall_time");
+  const double seconds = value.is_number() ? value.get<double>() : 0;
+  return std::isfinite(seconds) && seconds >= 0 ? seconds : 0;
+}
+
+/// The scenario that the recording holds; where it holds none, as a CSV file alone, the resolved one of the folder.
+StoredScenario scenario_of(const std::string& run, const StoredRecording& read) {
+  if (read.origin.scenario.empty()) return stored_scenario(run);
+  return {"", trace_file(run).string() + " (its scenario)", read.origin.scenario};
+}
+
+/// InputError where the recording cannot be one of the scenario: only of files that somebody made up.
+void check_fit(const std::string& run, const Scenario& scenario, const Recording& recording) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(Place{run}, "its recording does not fit its scenario: " + what);
+  };
+  const std::size_t joints = scenario.robot->joints.size();
+  if (recording.joints.size() != joints) refuse(fmt::format("{} joints, {} in the scenario", recording.joints.size(), joints));
+  const std::size_t places = recording.worst.source == Stability::Source::contact
+                                 ? contact_elements(*scenario.robot, scenario.contact.on).size()
+                                 : joints;
+  if (recording.worst.rate > 0 && recording.worst.index >= places) refuse("stability.index is beyond its joints and contacts");
+  bool whole = recording.has_states(*scenario.robot);
+  for (const char* column : {"com.x", "com.y", "com.z"}) whole = whole && !recording.series(column).empty();
+  for (std::size_t j = 0; j < joints && scenario.actuator.entry != nullptr; ++j) {
+    for (const char* quantity : {"setpoint", "torque"}) whole = whole && !recording.joint(j, quantity).empty();
+  }
+  if (!whole && recording.rows() > 0) refuse("columns that every recording has are not there");
 }
 
 int report(const ReportArguments& arguments) {
-  const StoredScenario stored = stored_scenario(arguments.run);
-  Catalog catalog = standard_catalog();
-  const Scenario scenario = read_stored(stored, catalog, OtherPlugins::taken);
   const StoredRecording read = read_recording(arguments.run);
   const Recording& recording = read.recording;
-  const std::size_t joints = scenario.robot->joints.size();
-  if (read.missing.empty() && recording.joints.size() != joints) {
-    throw InputError(Place{arguments.run},
-                     fmt::format("the recording is of {} joints, the scenario has {}", recording.joints.size(), joints));
-  }
-  Summary summary = summarise(scenario, recording, wall_time(arguments.run));
-  summary.build = read.origin.build;
+  const StoredScenario stored = scenario_of(arguments.run, read);
+  Catalog catalog = standard_catalog();
+  const Scenario scenario = read_stored(stored, catalog, OtherPlugins::taken);
+  if (read.missing.empty()) check_fit(arguments.run, scenario, recording);
   if (arguments.out && !read.missing.empty()) {
     throw InputError(Place{arguments.run},
                      fmt::format("summary and figure cannot be made anew: {}; simulate it again: gaitlab rerun {}",
                                  fmt::join(read.missing, "; "), arguments.run));
   }
+  const fs::path folder = trace_file(arguments.run).parent_path();
+  Summary summary = summarise(scenario, recording, wall_time(folder));
+  summary.build = read.origin.build;
   if (arguments.out) {
-    RunFolder folder(*arguments.out, scenario.name);
-    write_file(folder.path() / "figure.svg", run_figure(scenario, recording, summary));
-    write_file(folder.path() / "summary.json", to_json(summary, scenario, recording));
-    folder.keep();
+    RunFolder out(*arguments.out, scenario.name);
+    write_file(out.path() / "figure.svg", run_figure(scenario, recording, summary));
+    write_file(out.path() / "summary.json", to_json(summary, scenario, recording));
+    out.keep();
   }
   fmt::print("{}", to_text(summary, scenario, recording));
   if (arguments.out) fmt::print("  {:<13} {}: summary.json, figure.svg\n", "files", *arguments.out);
   for (const std::string& missing : read.missing) fmt::print(stderr, "{}: note: {}\n", arguments.run, missing);
+  const nlohmann::json told = read.origin.outcome.empty() ? summarised(folder, "outcome") : nlohmann::json(recording.outcome);
+  if (told.is_string() && told != "done") {
+    fmt::print(stderr, "{}: note: this run ended early: {}\n", arguments.run, told.get<std::string>());
+  }
   warn_of_run(scenario, recording, summary);
   return 0;
 }

@@ -16,6 +16,8 @@ struct Origin {
   std::int64_t seed = 0;
   std::string build;    ///< build id
   std::string outcome;  ///< `done`, or why the run ended early; empty in a file of format 1
+  /// In recording.h5: hash() of the trace in the CSV file beside it.
+  std::string csv_hash = {};
 };
 
 /// A table beside the trace: one of kBeside (recording_file.h says what each holds).
@@ -32,10 +34,10 @@ struct StoredTrace {
 
 /// Writes format gaitlab-trace-2. Dataset `/trace`: float64 [rows, columns] (MATLAB shows [columns, rows]), lossless (shuffle,
 /// gzip), with attributes `columns`, `units`, `definitions`, one UTF-8 text of fixed length for each column, filled up with
-/// NULs; the same for each table of `beside` as `/recording/NAME`; root attributes `format`, `scenario`, `outcome`, `seed`,
-/// `build`, `rows`, `checksum` (hash() of the trace). The file's first 512 bytes, which HDF5 leaves to the user, hold format,
-/// size and hash_words() of the rest. No times: the same trace, the same bytes. The file appears whole or not at all; it is
-/// built in memory (about twice its size on top of the trace). RunError: cannot be written (see AtomicFile).
+/// NULs; the same for each table of `beside` as `/recording/NAME`; root attributes `format`, `scenario`, `outcome`, `csv_hash`,
+/// `seed`, `build`, `rows`, `checksum` (hash() of the trace). The file's first 512 bytes, which HDF5 leaves to the user, hold
+/// format, size and hash_words() of the rest. No times: the same trace, the same bytes. The file appears whole or not at all;
+/// it is built in memory (about twice its size on top of the trace). RunError: cannot be written (see AtomicFile).
 void write_h5(const Trace& trace, const Origin& origin, const std::filesystem::path& path, std::span<const Beside> beside = {});
 
 /// What write_h5 wrote, every bit of it, or a file of format gaitlab-trace-1 (the same without `/recording`, texts of variable

@@ -191,14 +191,15 @@ std::int64_t read_number(hid_t owner, const char* name) {
 }
 
 // The texts of an attribute with `rank` dimensions.
-std::vector<std::string> read_texts(hid_t owner, const char* name, int rank, std::size_t file_size) {
+std::vector<std::string> read_texts(hid_t owner, const char* name, int rank, const std::string& bytes) {
   const Handle attribute(H5Aopen(owner, name, H5P_DEFAULT), H5Aclose, name);
   const Handle stored(H5Aget_type(attribute), H5Tclose, name);
   if (H5Tget_class(stored) != H5T_STRING) throw ImageError(fmt::format("{} is not a text", name));
   const Handle space(H5Aget_space(attribute), H5Sclose, name);
   const std::size_t count = shape_of(space, rank, name)[0];
   std::vector<std::string> found;
-  if (checked(H5Tis_variable_str(stored), name) != 0) {  // format 1
+  if (checked(H5Tis_variable_str(stored), name) != 0) {
+    if (!bytes.starts_with(kTraceFormats[0])) throw ImageError(fmt::format("{} is not a text of fixed length", name));
     std::vector<char*> texts(count + 1, nullptr);
     const Handle type = string_type(H5T_VARIABLE);
     checked(H5Aread(attribute, type, texts.data()), name);
@@ -207,20 +208,20 @@ std::vector<std::string> read_texts(hid_t owner, const char* name, int rank, std
     return found;
   }
   const std::size_t size = H5Tget_size(stored);
-  if (size == 0 || count > file_size / size) throw ImageError(fmt::format("{} is larger than it can be", name));
-  std::string bytes(count * size + 1, '\0');  // so that there is an address without columns, too
-  checked(H5Aread(attribute, string_type(size), bytes.data()), name);
+  if (size == 0 || count > bytes.size() / size) throw ImageError(fmt::format("{} is larger than it can be", name));
+  std::string all(count * size + 1, '\0');  // so that there is an address without columns, too
+  checked(H5Aread(attribute, string_type(size), all.data()), name);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string_view text = std::string_view(bytes).substr(i * size, size);
+    const std::string_view text = std::string_view(all).substr(i * size, size);
     found.emplace_back(text.substr(0, text.find('\0')));
   }
   return found;
 }
 
-std::vector<Column> read_columns(hid_t data, std::size_t count, std::size_t file_size) {
-  const std::vector<std::string> names = read_texts(data, "columns", 1, file_size);
-  const std::vector<std::string> units = read_texts(data, "units", 1, file_size);
-  const std::vector<std::string> definitions = read_texts(data, "definitions", 1, file_size);
+std::vector<Column> read_columns(hid_t data, std::size_t count, const std::string& bytes) {
+  const std::vector<std::string> names = read_texts(data, "columns", 1, bytes);
+  const std::vector<std::string> units = read_texts(data, "units", 1, bytes);
+  const std::vector<std::string> definitions = read_texts(data, "definitions", 1, bytes);
   if (names.size() != count || units.size() != count || definitions.size() != count) {
     throw ImageError(
         fmt::format("{} names, {} units, {} definitions of {} columns", names.size(), units.size(), definitions.size(), count));
@@ -234,7 +235,7 @@ std::vector<Column> read_columns(hid_t data, std::size_t count, std::size_t file
   return columns;
 }
 
-Trace read_dataset(hid_t owner, const char* name, std::size_t file_size) {
+Trace read_dataset(hid_t owner, const char* name, const std::string& bytes) {
   const Handle data(H5Dopen2(owner, name, H5P_DEFAULT), H5Dclose, name);
   const Handle type(H5Dget_type(data), H5Tclose, name);
   if (H5Tget_class(type) != H5T_FLOAT || H5Tget_size(type) != sizeof(double)) {
@@ -243,11 +244,11 @@ Trace read_dataset(hid_t owner, const char* name, std::size_t file_size) {
   const Handle space(H5Dget_space(data), H5Sclose, name);
   const auto [rows, columns] = shape_of(space, 2, name);
   // gzip makes nothing smaller than a 1032nd: more is a lie that would only exhaust the memory.
-  if (columns != 0 && rows > 1040 * file_size / sizeof(double) / columns) {
+  if (columns != 0 && rows > 1040 * bytes.size() / sizeof(double) / columns) {
     throw ImageError(fmt::format("/{} is larger than it can be", name));
   }
   Trace trace;
-  trace.columns = read_columns(data, columns, file_size);
+  trace.columns = read_columns(data, columns, bytes);
   trace.values.resize(rows * columns);
   if (!trace.values.empty())
     checked(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, trace.values.data()), "reading the values");
@@ -266,6 +267,7 @@ std::string to_image(const Trace& trace, const Origin& origin, std::span<const B
   write_text(file, "format", std::string(std::end(kTraceFormats)[-1]));
   write_text(file, "scenario", origin.scenario);
   write_text(file, "outcome", origin.outcome);
+  write_text(file, "csv_hash", origin.csv_hash);
   write_number(file, "seed", origin.seed);
   write_text(file, "build", origin.build);
   write_number(file, "rows", static_cast<std::int64_t>(trace.rows()));
@@ -288,13 +290,14 @@ StoredTrace from_image(const std::string& file_bytes) {
   // HDF5 copies the image; it takes a pointer that is not const only for callbacks that are not set.
   checked(H5Pset_file_image(access, const_cast<char*>(file_bytes.data()), file_bytes.size()), "image");
   const Handle file(H5Fopen(kNowhere, H5F_ACC_RDONLY, access), H5Fclose, "opening the file");
-  const auto text = [&](const char* name) { return read_texts(file, name, 0, file_bytes.size()).front(); };
+  const auto text = [&](const char* name) { return read_texts(file, name, 0, file_bytes).front(); };
   const std::string format = text("format");
   if (!file_bytes.starts_with(format + "\n")) throw ImageError("the attribute `format` is not that of the first line");
   const bool first = format == kTraceFormats[0];
   StoredTrace stored;
-  stored.origin = {text("scenario"), read_number(file, "seed"), text("build"), first ? "" : text("outcome")};
-  stored.trace = read_dataset(file, "trace", file_bytes.size());
+  stored.origin = {text("scenario"), read_number(file, "seed"), text("build"), first ? "" : text("outcome"),
+                   first ? "" : text("csv_hash")};
+  stored.trace = read_dataset(file, "trace", file_bytes);
   if (read_number(file, "rows") != static_cast<std::int64_t>(stored.trace.rows()))
     throw ImageError(fmt::format("{} rows, of which not all were written", stored.trace.rows()));
   if (text("checksum") != hash(stored.trace)) throw ImageError("the trace does not match its checksum");
@@ -302,7 +305,7 @@ StoredTrace from_image(const std::string& file_bytes) {
   const Handle group(H5Gopen2(file, "recording", H5P_DEFAULT), H5Gclose, "recording");
   for (const char* name : kBeside) {
     if (checked(H5Lexists(group, name, H5P_DEFAULT), name) == 0) continue;
-    stored.beside.push_back({name, read_dataset(group, name, file_bytes.size())});
+    stored.beside.push_back({name, read_dataset(group, name, file_bytes)});
   }
   return stored;
 }

@@ -48,7 +48,7 @@ void each_number_of(OfRecording& r, std::size_t j, Visit visit) {
   visit("torque_error_peak", "N m", "largest motor torque where that error is asked for", r.tally.torque_peak[j]);
 }
 
-std::vector<Beside> tables(const Recording& r, const Trace& rest) {
+std::vector<Beside> tables(const Recording& r) {
   Trace run;
   each_number(r, [&](const char* name, const char* unit, const char* definition, const auto& number) {
     run.columns.push_back({name, unit, definition});
@@ -61,7 +61,7 @@ std::vector<Beside> tables(const Recording& r, const Trace& rest) {
       joints.values.push_back(number);
     });
   }
-  return {{"rest", rest}, {"ticks", r.ticks}, {"joints", joints}, {"run", run}};
+  return {{"rest", r.rest}, {"ticks", r.ticks}, {"joints", joints}, {"run", run}};
 }
 
 InputError unfit(const fs::path& file, const std::string& what) { return {Place{file.string()}, "is corrupt: " + what}; }
@@ -91,13 +91,14 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   each_number(r, [&](const char* name, const char*, const char*, auto& number) {
     using Number = std::remove_reference_t<decltype(number)>;
     const double read = value(run, 0, name);
-    // Every number but those of the energies and times is a count, which a double holds to 2^53.
+    // Counts, numbers of things, and yes or no: a double holds them to 2^53.
     if (!std::is_floating_point_v<Number> && !(read >= 0 && read <= 0x1p53))
       throw unfit(file, fmt::format("{} is {}", name, read));
     number = static_cast<Number>(read);
   });
   if (r.worst.source > Stability::Source::contact) throw unfit(file, "stability.source is none of 0, 1, 2");
-  if (!r.rest.columns.empty() && r.rest.rows() != r.trace.rows() && r.trace.rows() > 0) {
+  if (!std::isfinite(r.simulated) || r.simulated < 0) throw unfit(file, fmt::format("simulated is {}", r.simulated));
+  if (!r.rest.columns.empty() && r.rest.rows() != r.trace.rows()) {
     throw unfit(file, fmt::format("{} rows in /recording/rest, {} in the trace", r.rest.rows(), r.trace.rows()));
   }
 }
@@ -105,10 +106,12 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
 }  // namespace
 
 void write_recording(const Recording& r, const Origin& origin, const std::string& format, const fs::path& folder) {
-  const std::vector<Beside> beside = tables(r, r.rest);
+  const std::vector<Beside> beside = tables(r);
   if (format == "csv") {
     write_csv(r.trace, folder / "trace.csv");
-    write_h5({}, origin, folder / "recording.h5", beside);
+    Origin own = origin;
+    own.csv_hash = hash(r.trace);
+    write_h5({}, own, folder / "recording.h5", beside);
   } else {
     write_h5(r.trace, origin, folder / "trace.h5", beside);
   }
@@ -123,7 +126,12 @@ StoredRecording read_recording(const fs::path& folder) {
   if (csv) {
     read.recording.trace = read_csv(file);
     std::error_code none;
-    if (fs::exists(beside, none)) stored = read_h5(beside);
+    if (fs::exists(beside, none)) {
+      stored = read_h5(beside);
+      if (stored.origin.csv_hash != hash(read.recording.trace)) {
+        throw InputError(Place{file.string()}, "is not the file that recording.h5 belongs to, or was changed");
+      }
+    }
   } else {
     stored = read_h5(file);
     read.recording.trace = std::move(stored.trace);
@@ -136,6 +144,9 @@ StoredRecording read_recording(const fs::path& folder) {
   }
   const Trace& trace = read.recording.trace;
   if (trace.rows() > 0) read.recording.simulated = trace.at(trace.rows() - 1, 0);
+  if (!std::isfinite(read.recording.simulated) || read.recording.simulated < 0) {
+    throw unfit(file, fmt::format("its last row is at t = {}", read.recording.simulated));
+  }
   read.missing.push_back(
       fmt::format("{} holds rows only: peaks, shares of time, energies and the torque error, which are of all "
                   "steps, are not known",

@@ -80,6 +80,8 @@ class ScenarioReader {
     return scenario_;
   }
 
+  [[nodiscard]] bool driven() const { return scenario_.actuator.entry != nullptr; }
+
   /// The scenario with more settings, of sections other than the robot's; only what they touch is read anew.
   [[nodiscard]] Scenario with(const std::vector<std::string>& sets) const {
     if (sets.empty()) return scenario_;
@@ -346,14 +348,18 @@ ScenarioTemplate::~ScenarioTemplate() = default;
 
 Scenario ScenarioTemplate::with(const std::vector<std::string>& own) const {
   // What decides which keys there are, or needs the robot again.
-  const auto whole = [](const std::string& set) {
+  const auto whole = [&](const std::string& set) {
     const std::string key = set.substr(0, set.find('='));
     const std::string section = key.substr(0, key.find('.'));
-    return key.find('.') == std::string::npos
-               ? !default_type(key).empty() || key == "robot" || key == "name" || key == "plugins" || key == "gaitlab"
-               : section == "robot" || section == "plugins" || key.ends_with(".type");
+    constexpr std::array kWhole{"gaitlab", "name", "plugins", "robot"};
+    if (std::ranges::find(kWhole, section) != kWhole.end() || key.ends_with(".type")) return true;
+    if (key == section && !default_type(section).empty()) return true;  // a whole section of a plugin
+    // The template's own type dropped the model of the old one, which may be meant.
+    const auto types = [&](const std::string& one) { return one.starts_with(section + ".type="); };
+    return key.starts_with(section + ".model") && std::ranges::any_of(sets_, types);
   };
-  if (std::ranges::any_of(own, whole)) {
+  // Without a motor the control period is not what the sections say.
+  if (!reader_->driven() || std::ranges::any_of(own, whole)) {
     std::vector<std::string> all = sets_;
     all.insert(all.end(), own.begin(), own.end());
     return read_scenario(path_, all, catalog_);

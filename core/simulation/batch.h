@@ -1,5 +1,6 @@
 // Many rollouts of one robot: side by side in lanes, and packs of lanes side by side in threads.
 #pragma once
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <optional>
@@ -29,24 +30,28 @@ void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings
 
 /// The same for any number of rollouts, of which few exist at a time: `next()` gives the scenarios one by one, nothing at the
 /// end; `digest(scenario, recording)` makes of each what is kept, in several threads at once; `sink(digest)` gets those in the
-/// order of next(), one at a time, whatever threads and lanes are. Throws what run_batch throws, after the sink has all before
-/// the first refused.
+/// order of next(), one at a time, whatever threads and lanes are. Throws what run_batch or next() throws, after the sink has
+/// all before the first refused.
 template <class Digest>
 void run_stream(const std::function<std::optional<Scenario>()>& next, const BatchSettings& settings, Digest digest,
                 const std::function<void(std::invoke_result_t<Digest, const Scenario&, Recording&&>&&)>& sink) {
   using Kept = std::invoke_result_t<Digest, const Scenario&, Recording&&>;
   constexpr std::size_t kWindows = 4;    // packs for each thread before all wait for the last of them
   constexpr std::size_t kMostLanes = 8;  // of any engine
-  const std::size_t window = kWindows * kMostLanes * static_cast<std::size_t>(settings.threads);
+  const std::size_t window = kWindows * kMostLanes * static_cast<std::size_t>(std::max(1, settings.threads));
   for (bool more = true; more;) {
     std::vector<Scenario> rollouts;
-    while (more && rollouts.size() < window) {
-      std::optional<Scenario> one = next();
-      more = one.has_value();
-      if (one) rollouts.push_back(std::move(*one));
+    std::exception_ptr refused;
+    try {
+      while (more && rollouts.size() < window) {
+        std::optional<Scenario> one = next();
+        more = one.has_value();
+        if (one) rollouts.push_back(std::move(*one));
+      }
+    } catch (...) {
+      refused = std::current_exception();  // thrown again when the sink has what came before
     }
     std::vector<std::optional<Kept>> kept(rollouts.size());
-    std::exception_ptr refused;
     try {
       run_batch(rollouts, settings,
                 [&](std::size_t i, Recording&& recording) { kept[i] = digest(rollouts[i], std::move(recording)); });

@@ -65,7 +65,7 @@ struct Simulation::Lane {
   Sample sample;
   std::unique_ptr<Probes> probes;
   Recording recording;
-  std::int64_t ticks_per_row = 1;  ///< of Recording::ticks
+  std::int64_t ticks_per_row = 1;  ///< control ticks per row of Recording::ticks
 };
 
 }  // namespace gaitlab

@@ -13,7 +13,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kTickRows = 2e-3;  // s, between rows of Recording::ticks at least: a gait has hundreds of them
+constexpr double kTickRows = 2e-3;  // s, between rows of Recording::ticks at least
 
 }  // namespace
 
@@ -134,7 +134,8 @@ void Simulation::set_start() {
       table.values.reserve(static_cast<std::size_t>(rows + 3) * table.columns.size());
     };
     for (Trace* table : {&recording.trace, &recording.rest}) reserve(*table, s.duration / s.trace.period);
-    reserve(recording.ticks, s.duration / (s.control_period * static_cast<double>(lane.ticks_per_row)));
+    const double ticks = s.duration / (s.control_period * static_cast<double>(lane.ticks_per_row));
+    reserve(recording.ticks, std::min(ticks, static_cast<double>(kMostTickRows)));
   }
 }
 

@@ -17,6 +17,19 @@ namespace {
 // Beyond this no joint is a joint any more; a run stops here rather than at the overflow a few steps later.
 constexpr double kLargestSpeed = 1e5;  // rad/s
 
+/// Makes one row of each two behind the first: the later one, with the larger of their peaks.
+void halve(Trace& ticks) {
+  const std::size_t columns = ticks.columns.size();
+  const std::size_t rows = ticks.rows();
+  const auto row = [&](std::size_t k) { return Out(ticks.values).subspan(k * columns, columns); };
+  std::size_t kept = 1;
+  for (std::size_t k = 2; k < rows; k += 2, ++kept) {
+    for (std::size_t c = 1; c < columns; c += kTickColumns) row(k)[c] = std::max(row(k - 1)[c], row(k)[c]);
+    std::ranges::copy(row(k), row(kept).begin());
+  }
+  ticks.values.resize(kept * columns);
+}
+
 }  // namespace
 
 std::int64_t whole(double period, double step) { return std::llround(period / step); }
@@ -244,6 +257,11 @@ void Simulation::record_tick(Lane& lane) {
   Trace& ticks = lane.recording.ticks;
   const std::size_t columns = ticks.columns.size();
   if (!ticks.values.empty() && ticks.values[ticks.values.size() - columns] == time()) return;
+  if (ticks.rows() > kMostTickRows) {
+    halve(ticks);
+    lane.ticks_per_row *= 2;
+    if (lane.recording.control_ticks % lane.ticks_per_row != 0 && !lane.closed) return;
+  }
   ticks.values.resize(ticks.values.size() + columns);
   const Out row = Out(ticks.values).last(columns);
   row[0] = time();

@@ -40,6 +40,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Kept{"one_column", "hexapod.yaml", "--set duration=0.1 --set trace.columns=[joint.3.angle]"},
                     Kept{"csv", "caterpillar.yaml", "--set duration=0.3 --format csv"},
                     Kept{"no_motors", "pendulum.yaml", "--set duration=2"},
+                    Kept{"all_columns", "hexapod.yaml", "--set duration=0.1 --set 'trace.columns=[\"*\"]' --format csv"},
+                    Kept{"csv_no_motors", "pendulum.yaml", "--set duration=0.5 --format csv"},
                     Kept{"within_a_step", "hexapod.yaml", "--set duration=0.0303 --set physics.engine=articulated"}),
     [](const auto& info) { return std::string(info.param.name); });
 
@@ -55,7 +57,9 @@ TEST(ReadBackEarly, SaysWhyTheRunEnded) {
   const StoredRecording stored = read_recording(folder / "run");
   EXPECT_NE(stored.recording.outcome, "done");
   EXPECT_EQ(stored.recording.outcome, read_summary(folder / "run")["outcome"]);
-  EXPECT_EQ(gaitlab("report run --out again", folder.path()).code, 0);
+  const Result again = gaitlab("report run --out again", folder.path());
+  EXPECT_EQ(again.code, 0);
+  EXPECT_TRUE(again.err.starts_with("run: note: this run ended early: diverged at step ")) << again.err;
   EXPECT_EQ(read(folder / "again/summary.json"), read(folder / "run/summary.json"));
   EXPECT_EQ(read(folder / "again/figure.svg"), read(folder / "run/figure.svg"));
 }
@@ -185,18 +189,101 @@ TEST(Recordings, ThatDoNotFitTogetherAreRefused) {
   EXPECT_EQ(complaint(beside), file + ": error: is corrupt: stability.index is -1");
 }
 
-/// Another robot's scenario in the folder.
+/// More rows than are kept: two become one, and nothing of peaks and sums is lost.
+TEST(Ticks, AreHalvedWhereThereAreMany) {
+  const Scenario s = scenario(R"(
+gaitlab: 1
+name: long
+duration: 45
+robot: {base: fixed, position: [0, 0, 1]}
+cpg: {type: sine, frequency: 1}
+controller: {period: 0.002}
+physics: {engine: articulated}
+ground: {type: none}
+trace: {period: 1}
+)");
+  const Recording r = run(s);
+  const std::size_t rows = r.ticks.rows();
+  EXPECT_EQ(rows, 11251U) << "22501 ticks, every second one";
+  const Table table(r.ticks);
+  for (std::size_t k = 1; k + 1 < rows; ++k) ASSERT_NEAR(table.at(k, "t") - table.at(k - 1, "t"), 0.004, 1e-9) << k;
+  EXPECT_EQ(table.at(rows - 1, "t"), 45);
+  for (std::size_t j = 0; j < r.joints.size(); ++j) {
+    double peak = 0;
+    for (std::size_t k = 0; k < rows; ++k) peak = std::max(peak, table.at(k, fmt::format("joint.{}.torque_peak", j)));
+    EXPECT_EQ(peak, r.joints[j].torque_peak);
+    EXPECT_NEAR(std::sqrt(table.at(rows - 1, fmt::format("joint.{}.torque_square", j)) / 45), r.joints[j].torque_rms, 1e-12);
+  }
+}
+
+class RunFolders : public testing::Test {
+ protected:
+  RunFolders() {
+    const Result ran = gaitlab(
+        fmt::format("run '{}hexapod.yaml' --set duration=0.05 --format csv --out run --quiet", kScenarios), folder_.path());
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  }
+  void report(int code, const std::string& err) const {
+    const Result result = gaitlab("report run", folder_.path());
+    EXPECT_EQ(result.code, code);
+    EXPECT_EQ(result.err.substr(0, err.size()), err);
+  }
+  const Folder folder_;
+};
+
+/// The recording holds its own scenario: another file in its place changes nothing.
+TEST_F(RunFolders, NeedNoScenarioFile) {
+  const std::string before = gaitlab("report run", folder_.path()).out;
+  std::filesystem::copy_file(kScenarios + "pendulum.yaml", folder_ / "run/scenario.resolved.yaml",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(gaitlab("report run", folder_.path()).out, before);
+  std::filesystem::remove(folder_ / "run/scenario.resolved.yaml");
+  EXPECT_EQ(gaitlab("report run", folder_.path()).out, before);
+}
+
+TEST_F(RunFolders, WithAnotherTraceAreRefused) {
+  const std::string csv = read(folder_ / "run/trace.csv");
+  const std::string refused = "run/trace.csv: error: is not the file that recording.h5 belongs to, or was changed\n";
+  folder_.write("run/trace.csv", csv.substr(0, csv.find('\n', csv.find('\n') + 1) + 1));  // one row
+  report(2, refused);
+  std::string renamed = csv;
+  folder_.write("run/trace.csv", renamed.replace(renamed.find("base.x,"), 7, "base.u,"));
+  report(2, refused);
+  folder_.write("run/trace.csv", csv);
+  report(0, "");
+  std::filesystem::remove(folder_ / "run/recording.h5");
+  report(0, "run: note: run/trace.csv holds rows only");
+}
+
+TEST_F(RunFolders, WithADamagedSummaryAreRead) {
+  folder_.write("run/summary.json", "garbage");
+  report(0, "");
+  folder_.write("run/summary.json", R"({"wall_time": -1e300})");
+  const Result result = gaitlab("report run", folder_.path());
+  EXPECT_NE(result.out.find("simulated in 0.00 s"), std::string::npos) << result.out;
+  EXPECT_EQ(gaitlab("report nothing", folder_.path()).err, "nothing: error: there is no such run folder or trace file\n");
+}
+
+/// Files that somebody made up, whose hashes are right.
 TEST(Recordings, OfAnotherRobotAreRefused) {
   const Folder folder;
-  const std::string at = folder.path();
-  ASSERT_EQ(gaitlab(fmt::format("run '{}hexapod.yaml' --set duration=0.02 --out a --quiet", kScenarios), at).code, 0);
-  ASSERT_EQ(gaitlab(fmt::format("run '{}pendulum.yaml' --set duration=0.02 --out b --quiet", kScenarios), at).code, 0);
-  std::filesystem::copy_file(folder / "b/scenario.resolved.yaml", folder / "a/scenario.resolved.yaml",
-                             std::filesystem::copy_options::overwrite_existing);
-  const Result result = gaitlab("report a", at);
-  EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err, "a: error: the recording is of 22 joints, the scenario has 1\n");
-  EXPECT_EQ(gaitlab("report nothing", at).err, "nothing: error: there is no such run folder or trace file\n");
+  const Recording walked = run(shipped("hexapod.yaml", {"duration=0.02", "physics.engine=articulated"}));
+  const auto complaint = [&](const Recording& recording, const char* scenario) {
+    write_recording(recording, {resolved(shipped(scenario, {"duration=0.02"})), 1, "", "done"}, "h5", folder.path());
+    const Result result = gaitlab("report .", folder.path());
+    EXPECT_EQ(result.code, 2);
+    return result.err;
+  };
+  EXPECT_EQ(complaint(walked, "pendulum.yaml"),
+            ".: error: its recording does not fit its scenario: 22 joints, 1 in the scenario\n");
+  Recording forged = walked;
+  forged.worst = {1.0, Stability::Source::contact, 1000};
+  EXPECT_EQ(complaint(forged, "hexapod.yaml"),
+            ".: error: its recording does not fit its scenario: stability.index is beyond its joints and contacts\n");
+  forged = walked;
+  forged.trace.columns[forged.trace.find("base.x")].name = "base.u";
+  EXPECT_EQ(complaint(forged, "hexapod.yaml"),
+            ".: error: its recording does not fit its scenario: columns that every recording has are not there\n");
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ TEST_P(Templates, GiveWhatReadingAgainGives) {
                               {"seed=7"},
                               {"duration=0.2"},
                               {"name=other"},
+                              {"name.x=1"},
                               {"cpg.type=hopf"},
                               {"cpg={type: sine}"},
                               {"actuator.type=torque"},
@@ -94,7 +95,8 @@ TEST_P(Templates, GiveWhatReadingAgainGives) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, Templates, testing::Values("hexapod.yaml", "caterpillar.yaml", "rubble.yaml"),
+INSTANTIATE_TEST_SUITE_P(Shipped, Templates,
+                         testing::Values("hexapod.yaml", "caterpillar.yaml", "rubble.yaml", "pendulum.yaml"),
                          [](const auto& info) {
                            const std::string name = info.param;
                            return name.substr(0, name.find('.'));
@@ -133,6 +135,39 @@ TEST(Stream, EndsAtTheFirstRefused) {
                    with_bad, {}, [](const Scenario&, Recording&& r) { return r.steps; }, [&](std::int64_t&&) { ++arrived; }),
                InputError);
   EXPECT_EQ(arrived, 3);
+}
+
+/// One that cannot be made: those before it arrive, whatever threads there are.
+TEST(Stream, EndsAtTheFirstThatIsNotMade) {
+  const ScenarioTemplate from(kScenarios + "hexapod.yaml", {"physics.engine=articulated", "duration=0.03"}, catalog());
+  for (const int threads : {0, 1, 2}) {
+    int next = 0;
+    int arrived = 0;
+    EXPECT_THROW(run_stream([&] { return std::optional(from.with({++next == 36 ? "cpg.frequency=-1" : "seed=3"})); },
+                            {.threads = threads}, [](const Scenario&, Recording&& r) { return r.steps; },
+                            [&](std::int64_t&&) { ++arrived; }),
+                 InputError);
+    EXPECT_EQ(arrived, 35) << threads;
+  }
+}
+
+/// A template whose own settings chose the CPG's type.
+TEST(Template, KeepsWhatItsTypeDropped) {
+  const Sets common{"cpg.type=hopf", "duration=0.1"};
+  const ScenarioTemplate from(kScenarios + "caterpillar.yaml", common, catalog());
+  for (const Sets& own : {Sets{"cpg.frequency=0.4"}, Sets{"cpg.model.mu=2"}, Sets{"cpg.model.k=1"}, Sets{"controller.Kp=40"}}) {
+    Sets both = common;
+    both.insert(both.end(), own.begin(), own.end());
+    std::string given;
+    std::string expected;
+    EXPECT_EQ(errors([&] { given = resolved(from.with(own)) + fmt::format("{}", fmt::join(from.with(own).notes, "|")); }),
+              errors([&] {
+                const Scenario again = read_scenario(kScenarios + "caterpillar.yaml", both, catalog());
+                expected = resolved(again) + fmt::format("{}", fmt::join(again.notes, "|"));
+              }))
+        << own[0];
+    EXPECT_EQ(given, expected) << own[0];
+  }
 }
 
 /// Ten thousand rollouts of 0.5 s would take gigabytes if all were kept: the memory in use does not grow with their number.
