@@ -1,5 +1,5 @@
-// The texts that `gaitlab new plugin` writes: @NAME@ is the plugin's name, @CLASS@ its class. tests/gates/install.sh builds and tests
-// them.
+// The texts that `gaitlab new plugin` writes: @NAME@ is the plugin's name, @CLASS@ its class. tests/gates/install.sh builds and
+// tests them.
 #pragma once
 #include <array>
 

@@ -1,9 +1,10 @@
 // What acts while something slips, rolls or hits a stop, in every engine, by what comes out: closed forms, balances, and the
 // engines against each other.
 #include "engines.h"
-#include "torques.h"
 
 #include <cmath>
+
+#include "torques.h"
 
 namespace gaitlab::test {
 namespace {
