@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace gaitlab {
 
 std::vector<double> Series::values() const {
@@ -19,7 +21,7 @@ const std::vector<std::string>& report_columns() {
 Series Recording::series(const std::string& column) const {
   for (const Trace* table : {&trace, &rest}) {
     const std::size_t at = table->find(column);
-    if (at < table->columns.size()) return {*table, at};
+    if (at < table->columns.size() && table->rows() > 0) return {*table, at};
   }
   return {};
 }
@@ -28,7 +30,18 @@ Series Recording::joint(std::size_t number, const char* quantity) const {
   return series(fmt::format("joint.{}.{}", number, quantity));
 }
 
-Vec3 Recording::com(std::size_t row) const { return {series("com.x")[row], series("com.y")[row], series("com.z")[row]}; }
+namespace {
+
+/// NaN where there is no such column.
+double at(const Series& series, std::size_t row) {
+  return series.empty() ? std::numeric_limits<double>::quiet_NaN() : series[row];
+}
+
+}  // namespace
+
+Vec3 Recording::com(std::size_t row) const {
+  return {at(series("com.x"), row), at(series("com.y"), row), at(series("com.z"), row)};
+}
 
 bool Recording::has_states(const Robot& robot) const {
   for (const char* column : {"base.x", "base.y", "base.z", "base.qw", "base.qx", "base.qy", "base.qz"}) {
@@ -41,11 +54,11 @@ bool Recording::has_states(const Robot& robot) const {
 }
 
 RobotState Recording::state(const Robot& robot, std::size_t row) const {
-  const auto at = [&](const char* column) { return series(column)[row]; };
+  const auto value = [&](const char* column) { return at(series(column), row); };
   RobotState s;
-  s.position = Vec3(at("base.x"), at("base.y"), at("base.z"));
-  s.orientation = Quat(at("base.qw"), at("base.qx"), at("base.qy"), at("base.qz"));
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) s.q.push_back(joint(j, "angle")[row]);
+  s.position = Vec3(value("base.x"), value("base.y"), value("base.z"));
+  s.orientation = Quat(value("base.qw"), value("base.qx"), value("base.qy"), value("base.qz"));
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) s.q.push_back(at(joint(j, "angle"), row));
   s.qd.assign(robot.joints.size(), 0.0);
   return s;
 }

@@ -91,12 +91,12 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   each_number(r, [&](const char* name, const char*, const char*, auto& number) {
     using Number = std::remove_reference_t<decltype(number)>;
     const double read = value(run, 0, name);
-    // Counts, numbers of things, and yes or no: a double holds them to 2^53.
-    if (!std::is_floating_point_v<Number> && !(read >= 0 && read <= 0x1p53))
+    // Yes or no, a source, and counts, which a double holds to 2^53.
+    constexpr double kMost = std::is_same_v<Number, bool> ? 1 : std::is_enum_v<Number> ? 2 : 0x1p53;
+    if (!std::is_floating_point_v<Number> && !(read >= 0 && read <= kMost))
       throw unfit(file, fmt::format("{} is {}", name, read));
     number = static_cast<Number>(read);
   });
-  if (r.worst.source > Stability::Source::contact) throw unfit(file, "stability.source is none of 0, 1, 2");
   if (!std::isfinite(r.simulated) || r.simulated < 0) throw unfit(file, fmt::format("simulated is {}", r.simulated));
   if (!r.rest.columns.empty() && r.rest.rows() != r.trace.rows()) {
     throw unfit(file, fmt::format("{} rows in /recording/rest, {} in the trace", r.rest.rows(), r.trace.rows()));

@@ -60,9 +60,11 @@ double difference(const Acceleration& a, const Acceleration& b) {
   return most / largest(a);
 }
 
-/// The worst of `error` over 200 random cases; the same ones in every run, unless RC_PARAMS says otherwise.
+/// Before the first property of any file of this program: the same cases in every run, unless RC_PARAMS says otherwise.
+[[maybe_unused]] const int kSeeded = setenv("RC_PARAMS", "seed=5 max_success=200", 0);
+
+/// The worst of `error` over 200 random cases.
 double worst(const std::function<double(std::uint32_t seed, std::size_t modules)>& error) {
-  (void)setenv("RC_PARAMS", "seed=5 max_success=200", 0);
   double most = 0;
   EXPECT_TRUE(rc::check([&] {
     const auto modules = static_cast<std::size_t>(*rc::gen::resize(rc::kNominalSize, rc::gen::inRange(1, 31)));
