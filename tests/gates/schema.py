@@ -4,7 +4,6 @@ usage: schema.py PROGRAM SCENARIOS_FOLDER PUBLISHED_FOLDER
 77 where python3-jsonschema or python3-yaml is missing."""
 import json
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
@@ -12,23 +11,12 @@ import tempfile
 try:
     import jsonschema
     import yaml
+    from yaml12 import Loader
 except ImportError as error:
     print(f"left out: {error} (Debian: python3-jsonschema, python3-yaml)")
     sys.exit(77)
 
 PROGRAM, SCENARIOS, PUBLISHED = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
-
-
-class Loader(yaml.SafeLoader):
-    """YAML 1.2's numbers and words, as editors and gaitlab read them: 1e-4 is a number, `on` is a text."""
-
-
-Loader.yaml_implicit_resolvers = {}
-Loader.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile(r"^(true|false)$"), "tf")
-Loader.add_implicit_resolver("tag:yaml.org,2002:int", re.compile(r"^[-+]?[0-9]+$"), "-+0123456789")
-Loader.add_implicit_resolver(
-    "tag:yaml.org,2002:float", re.compile(r"^[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$"), "-+.0123456789")
-Loader.add_implicit_resolver("tag:yaml.org,2002:null", re.compile(r"^(~|null|)$"), ["~", "n", ""])
 
 
 def named(value):

@@ -1,25 +1,13 @@
 """A run folder: the resolved scenario and the trace's columns by name."""
 import copy
 import pathlib
-import re
 
 import h5py
 import numpy as np
 import yaml
 
 from paper.robot import Robot, from_quaternion
-
-
-class Loader(yaml.SafeLoader):
-    """YAML 1.2's numbers and words, as gaitlab writes them: 1e-4 is a number, `on` is a text."""
-
-
-Loader.yaml_implicit_resolvers = {}
-Loader.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile(r"^(true|false)$"), "tf")
-Loader.add_implicit_resolver("tag:yaml.org,2002:int", re.compile(r"^[-+]?[0-9]+$"), "-+0123456789")
-Loader.add_implicit_resolver(
-    "tag:yaml.org,2002:float", re.compile(r"^[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$"), "-+.0123456789")
-Loader.add_implicit_resolver("tag:yaml.org,2002:null", re.compile(r"^(~|null|)$"), ["~", "n", ""])
+from yaml12 import Loader
 
 
 class Run:
