@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace gaitlab {
+namespace gaitlab::actuators {
 
 namespace {
 constexpr std::array kEfficiencyModels{"paper", "directional"};
@@ -73,7 +73,7 @@ void DcMotorActuator::unlimited(In command, In speed, Out torque, Out slope) con
   }
 }
 
-void DcMotorActuator::report(In command, In speed, Report out) const {
+void DcMotorActuator::electrical(In command, In speed, Electrical out) const {
   for (std::size_t i = 0; i < motors_.size(); ++i) {
     const DcMotor::Effort e = motors_[i](command[i], speed[i]);
     out.voltage[i] = e.voltage;
@@ -85,4 +85,4 @@ void DcMotorActuator::report(In command, In speed, Report out) const {
   }
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::actuators

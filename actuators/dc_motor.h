@@ -3,7 +3,7 @@
 #include "core/laws/dc_motor.h"
 #include "core/plugin/registry.h"
 
-namespace gaitlab {
+namespace gaitlab::actuators {
 
 class DcMotorActuator final : public Actuator {
  public:
@@ -21,7 +21,7 @@ class DcMotorActuator final : public Actuator {
   [[nodiscard]] In command_limit() const override { return limit_; }
   [[nodiscard]] In reflected_inertia() const override { return inertia_; }
   void effort(In command, In speed, Out torque, Out slope) const override;
-  void report(In command, In speed, Report out) const override;
+  void electrical(In command, In speed, Electrical out) const override;
   void unlimited(In command, In speed, Out torque, Out slope) const override;
   [[nodiscard]] const DcMotor* dc_motors() const override { return motors_.data(); }
 
@@ -30,4 +30,4 @@ class DcMotorActuator final : public Actuator {
   std::vector<double> limit_, inertia_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::actuators

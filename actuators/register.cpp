@@ -3,11 +3,11 @@
 #include "actuators/dc_motor.h"
 #include "actuators/torque.h"
 
-namespace gaitlab {
+namespace gaitlab::actuators {
 
 void register_actuators(Registry& registry) {
   add_actuator<DcMotorActuator>(registry, "dc_motor", DcMotorActuator::kManual);
   add_actuator<TorqueActuator>(registry, "torque", TorqueActuator::kManual);
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::actuators

@@ -2,6 +2,6 @@
 #pragma once
 #include "core/plugin/registry.h"
 
-namespace gaitlab {
+namespace gaitlab::actuators {
 void register_actuators(Registry& registry);
 }

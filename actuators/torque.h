@@ -5,7 +5,7 @@
 
 #include "core/plugin/registry.h"
 
-namespace gaitlab {
+namespace gaitlab::actuators {
 
 class TorqueActuator final : public Actuator {
  public:
@@ -37,7 +37,7 @@ Source: none; the limit of a motor without resistance. Takes commands in N m; it
     }
   }
 
-  void report(In command, In speed, Report out) const override {
+  void electrical(In command, In speed, Electrical out) const override {
     for (std::size_t i = 0; i < limit_.size(); ++i) {
       const double torque = std::clamp(command[i], -limit_[i], limit_[i]);
       out.voltage[i] = out.current[i] = out.copper[i] = out.gear[i] = 0;
@@ -50,4 +50,4 @@ Source: none; the limit of a motor without resistance. Takes commands in N m; it
   std::vector<double> limit_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::actuators

@@ -48,9 +48,10 @@ std::string reason(const ApproveArguments& arguments) {
 }
 
 InputError no_reason(const ApproveArguments& arguments) {
-  return {Place{"--reason"}, fmt::format("is {}; say in a sentence why these numbers are right: it is kept in the golden's "
-                                         "history. Nothing was written",
-                                         arguments.reason ? "empty" : "missing")};
+  return {SourceLocation{"--reason"},
+          fmt::format("is {}; say in a sentence why these numbers are right: it is kept in the golden's "
+                      "history. Nothing was written",
+                      arguments.reason ? "empty" : "missing")};
 }
 
 /// Before minutes of runs: whether the golden can be written where it belongs.
@@ -60,9 +61,9 @@ void check_target(const fs::path& folder) {
     const fs::path parent = folder.parent_path().empty() ? "." : folder.parent_path();
     const fs::path& target = kind == fs::file_type::directory ? folder : parent;
     if (::access(target.c_str(), W_OK | X_OK) == 0) return;
-    throw InputError(Place{target.string()}, "cannot be written: " + std::generic_category().message(errno));
+    throw InputError(SourceLocation{target.string()}, "cannot be written: " + std::generic_category().message(errno));
   }
-  throw InputError(Place{folder.string()}, "is not a folder, and a golden is one; move it away");
+  throw InputError(SourceLocation{folder.string()}, "is not a folder, and a golden is one; move it away");
 }
 
 /// The golden that is there, unless it is to be replaced. (What a first approval left that was killed is none.)
@@ -136,7 +137,7 @@ void check_widest(const Golden& golden, const Scenario& scenario) {
   }
   const Band& band = golden.bands[widest];
   if (band.width() <= kWidestBand) return;
-  throw InputError(Place{scenario.file},
+  throw InputError(SourceLocation{scenario.file},
                    fmt::format("the band of {} would be {} of its range, more than {}: {}; shorten the run{}, so that less "
                                "grows from nothing. Nothing was written",
                                golden.run.trace.columns[widest].name, percent(band.width()), percent(kWidestBand), parts(band),
@@ -146,7 +147,7 @@ void check_widest(const Golden& golden, const Scenario& scenario) {
 }
 
 /// What a person should see before it becomes the reference.
-void show_change(const Golden& before, const GoldenOrigin& now, const GoldenDifference& change) {
+void show_change(const Golden& before, const GoldenProvenance& now, const GoldenDifference& change) {
   const std::string text = origin_changes(before, now) + differences(change, Shown::worst);
   fmt::print("{}", since_approval(before));
   fmt::print("{}", text.empty() ? "  nothing has changed\n" : text);

@@ -17,9 +17,9 @@ Catalog standard_catalog(const std::vector<std::string>& plugins) {
   register_bullet(catalog);
 #endif
   register_articulated(catalog);
-  register_actuators(catalog);
-  register_controllers(catalog);
-  register_cpgs(catalog);
+  actuators::register_actuators(catalog);
+  controllers::register_controllers(catalog);
+  cpg::register_cpgs(catalog);
   for (const std::string& plugin : plugins) load_plugin_file(plugin, catalog);
   return catalog;
 }

@@ -9,7 +9,7 @@ namespace gaitlab::app {
 
 namespace {
 
-std::string_view name_of(const Choice& choice) { return choice.entry == nullptr ? "none" : choice.entry->name; }
+std::string_view name_of(const PluginSelection& choice) { return choice.entry == nullptr ? "none" : choice.entry->name; }
 
 int check(const ScenarioArguments& arguments) {
   Catalog catalog = standard_catalog();
@@ -21,7 +21,7 @@ int check(const ScenarioArguments& arguments) {
   fmt::print("  {} modules, {} bodies (moving as {}), {} degrees of freedom, {:.3f} kg\n", robot.modules.size(),
              robot.bodies.size(), robot.links.size(), robot.dof(s.base), robot.mass);
   const double rate = simulation.standing().rate;
-  fmt::print("  engine {} ({}), {}{}\n", s.physics.engine->name, s.physics.integrator->name, step_text(s.physics),
+  fmt::print("  engine {} ({}), {}{}\n", s.physics.engine->name, s.physics.integrator->name, report::step_text(s.physics),
              rate > 0 ? fmt::format(": h lambda = {:.2f} standing (at most 1)", s.physics.step * rate) : "");
   const Vec3 start = start_state(s).position;
   fmt::print("  base frame at [{:.4g}, {:.4g}, {:.4g}] m at the start: {}\n", start.x(), start.y(), start.z(),

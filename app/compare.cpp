@@ -34,8 +34,8 @@ void check_patterns(const std::vector<std::string>& patterns, const Trace& a, co
   for (const std::string& pattern : patterns) {
     if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return glob(pattern, name); })) continue;
     const std::string near = nearest(pattern, names);
-    problems.add(Place{"--columns"}, fmt::format("'{}' matches no column of either trace{}", pattern,
-                                                 near.empty() ? "" : "; did you mean '" + near + "'?"));
+    problems.add(SourceLocation{"--columns"}, fmt::format("'{}' matches no column of either trace{}", pattern,
+                                                          near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
   problems.raise();
 }
@@ -125,12 +125,12 @@ std::string change(const Json& a, const Json& b) {
 
 void print_summaries(const Json& a, const Json& b) {
   const std::string joint = most_loaded_joint(a);  // one row is one joint, so that of A
-  std::vector<const SummaryNumber*> rows = placed(&SummaryNumber::compare);
-  if (joint.empty()) std::erase_if(rows, [](const SummaryNumber* number) { return number->of_joint != nullptr; });
+  std::vector<const report::SummaryNumber*> rows = report::placed(&report::SummaryNumber::compare);
+  if (joint.empty()) std::erase_if(rows, [](const report::SummaryNumber* number) { return number->of_joint != nullptr; });
   std::size_t width = 0;
-  for (const SummaryNumber* number : rows) width = std::max(width, number->row(joint).size());
+  for (const report::SummaryNumber* number : rows) width = std::max(width, number->row(joint).size());
   fmt::print("\n{:<{}} {:>18} {:>18}  {}\n", "summary", width, "A", "B", "B - A");
-  for (const SummaryNumber* number : rows) {
+  for (const report::SummaryNumber* number : rows) {
     const Json one = at(a, number->pointer(joint));
     const Json other = at(b, number->pointer(joint));
     if ((one.is_null() && other.is_null()) || (number->compare.if_different && one == other)) continue;

@@ -39,7 +39,7 @@ std::string list(const Vec3& v) { return list(In(v.data(), 3)); }
 
 std::string wrench(const Wrench& w) { return fmt::format("{{\"force\": {}, \"torque\": {}}}", list(w.force), list(w.moment)); }
 
-void check_finite(const Eigen::VectorXd& result, const Place& place) {
+void check_finite(const Eigen::VectorXd& result, const SourceLocation& place) {
   if (!result.allFinite()) throw InputError(place, "the dynamics give no finite number: the state is too far out");
 }
 

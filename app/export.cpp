@@ -24,14 +24,14 @@ void check_new(const std::string& name) {
   namespace fs = std::filesystem;
   const fs::path file = name;
   std::error_code error;
-  if (fs::exists(fs::symlink_status(file, error))) throw InputError(Place{name}, "exists; nothing was written");
+  if (fs::exists(fs::symlink_status(file, error))) throw InputError(SourceLocation{name}, "exists; nothing was written");
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, error)) throw InputError(Place{name}, "cannot be written: its folder does not exist");
+  if (!fs::is_directory(folder, error)) throw InputError(SourceLocation{name}, "cannot be written: its folder does not exist");
 }
 
 void export_run(const ExportArguments& arguments) {
   if (!arguments.source.sets.empty()) {
-    throw InputError(Place{"--set " + arguments.source.sets.front()},
+    throw InputError(SourceLocation{"--set " + arguments.source.sets.front()},
                      "a recorded run cannot be changed; expected --to mjcf or urdf");
   }
   const Trace trace = read_trace(arguments.source.file);

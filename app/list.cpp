@@ -24,22 +24,23 @@ void add_plugins(CLI::App& command, ManualArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-constexpr std::array kPluginKinds{Kind::cpg, Kind::controller, Kind::actuator};
-
-std::vector<std::string> kinds() { return {"cpg", "controller", "actuator", "engine", "module", "robot"}; }
+std::vector<std::string> kinds() {
+  std::vector<std::string> all;
+  for (const PluginKind& plugin : kPluginKinds) all.emplace_back(plugin.section);
+  all.insert(all.end(), {"engine", "module", "robot"});
+  return all;
+}
 
 [[noreturn]] void unknown(const std::string& what, const std::string& found, const std::vector<std::string>& known,
                           const std::string& hint = "") {
   const std::string near = nearest(found, known);
-  throw InputError(Place{"gaitlab"},
+  throw InputError(SourceLocation{"gaitlab"},
                    fmt::format("unknown {} '{}'{}; known are {}{}", what, found,
                                near.empty() ? "" : "; did you mean '" + near + "'?", fmt::join(known, ", "), hint));
 }
 
 std::vector<std::string> names(const std::string& kind, const Catalog& catalog) {
-  for (const Kind which : kPluginKinds) {
-    if (kind == word(which)) return catalog.names(which);
-  }
+  if (const PluginKind* plugin = find_kind(kind)) return catalog.names(plugin->kind);
   if (kind == "engine") return catalog.engines();
   std::vector<std::string> found;
   for (const auto& [name, path] : shipped_files(kind)) found.push_back(name);
@@ -49,9 +50,8 @@ std::vector<std::string> names(const std::string& kind, const Catalog& catalog) 
 std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
 
 std::string about(const std::string& kind, const std::string& name, const Catalog& catalog) {
-  for (const Kind which : kPluginKinds) {
-    if (kind != word(which)) continue;
-    const Entry& entry = *catalog.find(which, name);
+  if (const PluginKind* plugin = find_kind(kind)) {
+    const Entry& entry = *catalog.find(plugin->kind, name);
     return first_line(entry.manual) + (entry.origin == kBuiltIn ? "" : fmt::format(" ({})", entry.origin));
   }
   if (kind == "engine") return first_line(catalog.engine(name)->manual);
@@ -82,13 +82,9 @@ int explain(const ManualArguments& arguments) {
   if (std::find(known.begin(), known.end(), kind) == known.end()) unknown("kind", kind, known);
   const std::vector<std::string> all = names(kind, catalog);
   if (std::find(all.begin(), all.end(), name) == all.end()) {
-    const bool plugin =
-        std::any_of(kPluginKinds.begin(), kPluginKinds.end(), [&kind = kind](Kind which) { return kind == word(which); });
-    unknown(kind, name, all, plugin && plugins.empty() ? "; one of your own needs --plugin LIBRARY" : "");
+    unknown(kind, name, all, find_kind(kind) != nullptr && plugins.empty() ? "; one of your own needs --plugin LIBRARY" : "");
   }
-  for (const Kind which : kPluginKinds) {
-    if (kind == word(which)) fmt::print("{}", explain_plugin(*catalog.find(which, name)));
-  }
+  if (const PluginKind* plugin = find_kind(kind)) fmt::print("{}", explain_plugin(*catalog.find(plugin->kind, name)));
   if (kind == "engine") {
     const Engine& engine = *catalog.engine(name);
     fmt::print("{}\n\nintegrators: {} (default {}); default step {}\n", engine.manual,

@@ -8,7 +8,7 @@
 #include "app/commands.h"
 #include "app/skeletons.h"
 #include "core/recording/atomic_file.h"
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab::app {
 
@@ -25,14 +25,14 @@ const Skeleton& skeleton(const std::string& kind) {
   for (const Skeleton& one : kSkeletons) {
     if (kind == word(one.kind)) return one;
   }
-  throw InputError(Place{"gaitlab new plugin"},
+  throw InputError(SourceLocation{"gaitlab new plugin"},
                    "unknown kind " + in_quotes(kind) + offer(kind, {"cpg", "controller", "actuator"}, "kinds"));
 }
 
 /// The name becomes a file, a CMake target and part of a class's name.
 void check_name(const Skeleton& skeleton, const std::string& name) {
   constexpr std::array kTargets{"all", "clean", "depend", "help", "install", "package", "test"};  // CMake's own
-  const Place place{fmt::format("gaitlab new plugin {}", word(skeleton.kind))};
+  const SourceLocation place{fmt::format("gaitlab new plugin {}", word(skeleton.kind))};
   if (!is_name(name, "_") || name[0] == '_' || std::isdigit(static_cast<unsigned char>(name[0])) != 0) {
     throw InputError(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits and _, a letter first");
   }
@@ -66,9 +66,9 @@ std::string filled(std::string text, const std::string& mark, const std::string&
 fs::path new_folder(const std::string& name) {
   fs::path folder = fs::path(name).lexically_normal();
   std::error_code error;
-  if (fs::exists(fs::symlink_status(folder, error))) throw InputError(Place{name}, "exists; nothing was written");
+  if (fs::exists(fs::symlink_status(folder, error))) throw InputError(SourceLocation{name}, "exists; nothing was written");
   fs::create_directories(folder, error);
-  if (error) throw InputError(Place{name}, "cannot be made: " + error.message());
+  if (error) throw InputError(SourceLocation{name}, "cannot be made: " + error.message());
   return folder;
 }
 

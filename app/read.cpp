@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "app/commands.h"
+#include "core/scenario/read_scenario.h"
 #include "report/summary.h"
 
 namespace gaitlab::app {
@@ -18,9 +19,9 @@ Scenario read(const ScenarioArguments& arguments, Catalog& catalog) {
 }
 
 void warn_of_start(const Scenario& scenario) {
-  const std::string warning = start_warning(scenario);
+  const std::string warning = report::start_warning(scenario);
   if (warning.empty()) return;
-  const Place place = scenario.on_ground ? Place{scenario.file} : scenario.place("robot.position");
+  const SourceLocation place = scenario.on_ground ? SourceLocation{scenario.file} : scenario.place("robot.position");
   fmt::print(stderr, "{}: warning: {}\n", to_string(place), warning);
 }
 

@@ -52,7 +52,7 @@ StoredScenario scenario_of(const std::string& run, const StoredRecording& read) 
 /// InputError where the recording cannot be one of the scenario: only of files that somebody made up.
 void check_fit(const std::string& run, const Scenario& scenario, const Recording& recording) {
   const auto refuse = [&](const std::string& what) {
-    throw InputError(Place{run}, "its recording does not fit its scenario: " + what);
+    throw InputError(SourceLocation{run}, "its recording does not fit its scenario: " + what);
   };
   const std::size_t joints = scenario.robot->joints.size();
   if (recording.joints.size() != joints) refuse(fmt::format("{} joints, {} in the scenario", recording.joints.size(), joints));
@@ -76,20 +76,20 @@ int report(const ReportArguments& arguments) {
   const Scenario scenario = read_stored(stored, catalog, OtherPlugins::taken);
   if (read.missing.empty()) check_fit(arguments.run, scenario, recording);
   if (arguments.out && !read.missing.empty()) {
-    throw InputError(Place{arguments.run},
+    throw InputError(SourceLocation{arguments.run},
                      fmt::format("summary and figure cannot be made anew: {}; simulate it again: gaitlab rerun {}",
                                  fmt::join(read.missing, "; "), arguments.run));
   }
   const fs::path folder = trace_file(arguments.run).parent_path();
-  Summary summary = summarise(scenario, recording, wall_time(folder));
+  report::Summary summary = report::summarise(scenario, recording, wall_time(folder));
   summary.build = read.origin.build;
   if (arguments.out) {
     RunFolder out(*arguments.out, scenario.name);
-    write_file(out.path() / "figure.svg", run_figure(scenario, recording, summary));
-    write_file(out.path() / "summary.json", to_json(summary, scenario, recording));
+    write_file(out.path() / "figure.svg", report::run_figure(scenario, recording, summary));
+    write_file(out.path() / "summary.json", report::to_json(summary, scenario, recording));
     out.keep();
   }
-  fmt::print("{}", to_text(summary, scenario, recording));
+  fmt::print("{}", report::to_text(summary, scenario, recording));
   if (arguments.out) fmt::print("  {:<13} {}: summary.json, figure.svg\n", "files", *arguments.out);
   for (const std::string& missing : read.missing) fmt::print(stderr, "{}: note: {}\n", arguments.run, missing);
   const nlohmann::json told = read.origin.outcome.empty() ? summarised(folder, "outcome") : nlohmann::json(recording.outcome);
@@ -102,14 +102,15 @@ int report(const ReportArguments& arguments) {
 
 }  // namespace
 
-void warn_of_run(const Scenario& scenario, const Recording& recording, const Summary& summary) {
-  if (const std::string fall = fall_warning(scenario, recording); !fall.empty())
+void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary) {
+  if (const std::string fall = report::fall_warning(scenario, recording); !fall.empty())
     fmt::print(stderr, "{}: warning: {}\n", scenario.file, fall);
   const std::string where = to_string(scenario.place("physics.step"));
-  const std::string warning = stability_warning(summary, scenario, recording);
+  const std::string warning = report::stability_warning(summary, scenario, recording);
   if (!warning.empty()) fmt::print(stderr, "{}: warning: {}\n", where, warning);
   if (recording.outcome != "done") return;
-  for (const std::string& doubt : trust_warnings(scenario, recording)) fmt::print(stderr, "{}: warning: {}\n", where, doubt);
+  for (const std::string& doubt : report::trust_warnings(scenario, recording))
+    fmt::print(stderr, "{}: warning: {}\n", where, doubt);
 }
 
 void add_report(Commands& commands) {

@@ -14,6 +14,7 @@
 #include "core/recording/csv.h"
 #include "core/recording/h5.h"
 #include "core/recording/run_files.h"
+#include "core/scenario/resolved.h"
 #include "core/simulation/simulation.h"
 #include "report/build_id.h"
 
@@ -60,7 +61,7 @@ Past read_past(const fs::path& run) {
     past.trace = read_csv(past.file);
   }
   if (past.trace.rows() == 0 || past.trace.columns.front().name != "t")
-    throw InputError(Place{past.file.string()}, "holds no rows of a run: it has no first column t, or nothing in it");
+    throw InputError(SourceLocation{past.file.string()}, "holds no rows of a run: it has no first column t, or nothing in it");
   if (!is_there(run / "summary.json")) return past;
   const nlohmann::json summary = read_summary(run);
   const auto text = [&](const char* key) {
@@ -123,9 +124,9 @@ std::string first_difference(const std::string& then, const std::string& now) {
 std::vector<std::string> changes(const StoredScenario& stored, const Past& past, const Scenario& scenario, const Again& again) {
   std::vector<std::string> found;
   if (past.build.empty()) {
-    found.push_back(fmt::format("build: not recorded; now {}", build_id()));
-  } else if (past.build != build_id()) {
-    found.push_back(fmt::format("build: then {}, now {}", past.build, build_id()));
+    found.push_back(fmt::format("build: not recorded; now {}", report::build_id()));
+  } else if (past.build != report::build_id()) {
+    found.push_back(fmt::format("build: then {}, now {}", past.build, report::build_id()));
   }
   const std::vector<PluginChange> plugins = changed_plugins(stored);
   for (const PluginChange& plugin : plugins) {
@@ -145,7 +146,7 @@ std::vector<std::string> changes(const StoredScenario& stored, const Past& past,
   return found;
 }
 
-void print_columns(const TraceDifference& difference) {
+void print_worst_columns(const TraceDifference& difference) {
   std::vector<ColumnDifference> worst;
   for (const ColumnDifference& d : difference.columns) {
     if (!(d.relative_rms <= kTolerance)) worst.push_back(d);
@@ -185,7 +186,7 @@ bool judge(const std::string& run, const Trace& then, const Again& again) {
   fmt::print("{}: differs (A: the recorded run, B: the run again)\n", run);
   for (const std::string& finding : difference.findings) fmt::print("  {}\n", finding);
   if (!again.failure.empty()) fmt::print("  the run again {}\n", again.failure);
-  print_columns(difference);
+  print_worst_columns(difference);
   return false;
 }
 

@@ -11,6 +11,7 @@
 #include "core/recording/atomic_file.h"
 #include "core/recording/recording_file.h"
 #include "core/recording/run_folder.h"
+#include "core/scenario/resolved.h"
 #include "core/simulation/simulation.h"
 #include "report/build_id.h"
 #include "report/figure.h"
@@ -38,12 +39,12 @@ class StopOnSignal {
 };
 
 void write_files(const std::filesystem::path& folder, const std::string& format, const Scenario& scenario,
-                 const Recording& recording, const Summary& summary) {
+                 const Recording& recording, const report::Summary& summary) {
   write_recording(recording, {resolved(scenario), scenario.seed, summary.build, recording.outcome}, format, folder);
   write_file(folder / "scenario.resolved.yaml", resolved(scenario));
-  write_file(folder / "figure.svg", run_figure(scenario, recording, summary));
+  write_file(folder / "figure.svg", report::run_figure(scenario, recording, summary));
   // Last: a folder with a summary is a whole run.
-  write_file(folder / "summary.json", to_json(summary, scenario, recording));
+  write_file(folder / "summary.json", report::to_json(summary, scenario, recording));
 }
 
 }  // namespace
@@ -71,12 +72,13 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
 
   Recording recording = simulation.take_recording(0);
   if (!failure.empty()) recording.outcome = failure;
-  const Summary summary = summarise(scenario, recording, wall.count());
+  const report::Summary summary = report::summarise(scenario, recording, wall.count());
   write_files(folder.path(), arguments.format, scenario, recording, summary);
   folder.keep();
   if (!arguments.quiet) {
-    fmt::print("{}  {:<13} {}: {}, summary.json, scenario.resolved.yaml, figure.svg\n", to_text(summary, scenario, recording),
-               "files", folder.path().string(), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5");
+    fmt::print("{}  {:<13} {}: {}, summary.json, scenario.resolved.yaml, figure.svg\n",
+               report::to_text(summary, scenario, recording), "files", folder.path().string(),
+               arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5");
   }
   warn_of_start(scenario);
   warn_of_run(scenario, recording, summary);

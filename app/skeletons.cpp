@@ -218,7 +218,7 @@ class @CLASS@ final : public gaitlab::Actuator {
   }
 
   // For the trace and the balance of energy alone: what goes in, and what is lost before the joint.
-  void report(gaitlab::In command, gaitlab::In speed, Report out) const override {
+  void electrical(gaitlab::In command, gaitlab::In speed, Electrical out) const override {
     for (std::size_t i = 0; i < motors_.size(); ++i) {
       out.voltage[i] = cut(command, i);
       out.current[i] = 0;

@@ -15,6 +15,7 @@
 #include "core/recording/run_files.h"
 #include "core/scenario/node.h"
 #include "core/scenario/plugin_files.h"
+#include "core/scenario/read_scenario.h"
 
 namespace gaitlab::app {
 
@@ -45,7 +46,7 @@ class MemoryFile {
   int descriptor_;
 };
 
-void rename(Place& place, const std::string& from, const std::string& to) {
+void rename(SourceLocation& place, const std::string& from, const std::string& to) {
   if (place.file == from) place.file = to;
 }
 
@@ -90,7 +91,7 @@ StoredScenario stored_scenario(const std::string& run) {
   if (fs::exists(yaml, none)) return {yaml.string(), yaml.string(), read_file(yaml)};
   const fs::path trace = trace_file(run);
   if (trace.extension() == ".h5") return {"", trace.string() + " (its scenario)", read_h5(trace).origin.scenario};
-  throw InputError(Place{trace.string()}, "a CSV trace does not hold its scenario, and there is no " + yaml.string());
+  throw InputError(SourceLocation{trace.string()}, "a CSV trace does not hold its scenario, and there is no " + yaml.string());
 }
 
 std::vector<PluginChange> changed_plugins(const StoredScenario& stored) {

@@ -31,7 +31,7 @@ struct Swapped {
   std::optional<Scenario> scenario = {};
   std::vector<std::string> notes = {};
   Recording record = {};
-  Summary summary = {};
+  report::Summary summary = {};
 };
 
 /// The CPG that the scenario has, which keeps what --set says of its model.
@@ -61,13 +61,13 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
   const std::string own = own_cpg(arguments, catalog);
   for (const std::string& cpg : split(arguments.cpgs)) {
     if (cpg.empty()) {
-      problems.push_back(
-          {Place{"--cpg"}, fmt::format("has an empty name in '{}'; expected types with commas between", arguments.cpgs)});
+      problems.push_back({SourceLocation{"--cpg"},
+                          fmt::format("has an empty name in '{}'; expected types with commas between", arguments.cpgs)});
       continue;
     }
     const auto same = [&](const Swapped& other) { return other.cpg == cpg; };
     if (std::any_of(all.begin(), all.end(), same)) {
-      problems.push_back({Place{"--cpg"}, fmt::format("names '{}' twice", cpg)});
+      problems.push_back({SourceLocation{"--cpg"}, fmt::format("names '{}' twice", cpg)});
       continue;
     }
     Swapped swapped{cpg};
@@ -86,7 +86,7 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
       swapped.notes.insert(swapped.notes.end(), swapped.scenario->notes.begin(), swapped.scenario->notes.end());
     } catch (const InputError& error) {
       for (Problem problem : error.problems()) {
-        if (problem.place.file == "--set cpg.type=" + cpg) problem.place = Place{"--cpg"};  // what the user wrote
+        if (problem.place.file == "--set cpg.type=" + cpg) problem.place = SourceLocation{"--cpg"};  // what the user wrote
         const auto alike = [&](const Problem& p) {
           return p.text == problem.text && to_string(p.place) == to_string(problem.place);
         };
@@ -109,7 +109,7 @@ void run_all(std::vector<Swapped>& all, int jobs) {
   for (const Swapped& one : all) scenarios.push_back(*one.scenario);
   run_batch(scenarios, {.threads = jobs}, [&](std::size_t i, Recording&& recording) {
     all[i].record = std::move(recording);
-    all[i].summary = summarise(*all[i].scenario, all[i].record, 0);
+    all[i].summary = report::summarise(*all[i].scenario, all[i].record, 0);
   });
 }
 
@@ -122,7 +122,7 @@ void print_row(std::string row) {
 
 template <class Text>
 std::string cells(std::string row, Text text) {
-  for (const SummaryNumber* number : placed(&SummaryNumber::swap)) {
+  for (const report::SummaryNumber* number : report::placed(&report::SummaryNumber::swap)) {
     const int width = number->swap.width;
     row += width < 0 ? fmt::format(" {:<{}}", text(*number), -width) : fmt::format(" {:>{}}", text(*number), width);
   }
@@ -135,13 +135,14 @@ void print_table(const std::vector<Swapped>& all) {
   for (const Swapped& swapped : all) width = std::max(width, swapped.cpg.size());
   const auto name = [&](const std::string& text) { return fmt::format("{:<{}}", text, width); };
   fmt::print("{}: {:g} s under each\n", first.name, first.duration);
-  print_row(cells(name(""), [](const SummaryNumber& number) { return number.swap.head; }));
-  print_row(cells(name("cpg"), [](const SummaryNumber& number) { return number.swap.under; }));
+  print_row(cells(name(""), [](const report::SummaryNumber& number) { return number.swap.head; }));
+  print_row(cells(name("cpg"), [](const report::SummaryNumber& number) { return number.swap.under; }));
   for (const Swapped& swapped : all) {
-    const RunData run{*swapped.scenario, swapped.record, swapped.summary};
+    const report::RunData run{*swapped.scenario, swapped.record, swapped.summary};
     const std::string& outcome = run.summary.outcome;
-    print_row(outcome != "done" ? name(swapped.cpg) + " " + outcome
-                                : cells(name(swapped.cpg), [&](const SummaryNumber& number) { return number.swap.cell(run); }));
+    print_row(outcome != "done"
+                  ? name(swapped.cpg) + " " + outcome
+                  : cells(name(swapped.cpg), [&](const report::SummaryNumber& number) { return number.swap.cell(run); }));
   }
 }
 
@@ -149,13 +150,13 @@ void print_table(const std::vector<Swapped>& all) {
 
 std::string figure(const std::vector<Swapped>& all) {
   const Scenario& first = *all.front().scenario;
-  CurvesInput input;
+  report::CurvesInput input;
   input.title = fmt::format("{} under {}", first.name, golden::plural(all.size(), "CPG"));
   const std::size_t joints = first.robot->joints.size();
   const std::size_t joint = all.front().summary.most_loaded;
-  CurvesPanel setpoint{"set point (rad)"};
-  CurvesPanel torque{"torque (N m)"};
-  CurvesPanel travel{"travel of the centre of mass along x (m)"};
+  report::CurvesPanel setpoint{"set point (rad)"};
+  report::CurvesPanel torque{"torque (N m)"};
+  report::CurvesPanel travel{"travel of the centre of mass along x (m)"};
   if (joints > 0) {
     const std::string where = fmt::format(" of joint {} ({})", joint, first.robot->joints[joint].name);
     setpoint.title = "set point" + where + " (rad)";
@@ -185,7 +186,7 @@ std::string figure(const std::vector<Swapped>& all) {
   }
   if (!setpoint.values.front().empty()) input.panels = {setpoint, torque};
   input.panels.push_back(travel);
-  return curves_svg(input);
+  return report::curves_svg(input);
 }
 
 int swap_cpgs(const SwapArguments& arguments) {

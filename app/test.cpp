@@ -13,6 +13,7 @@
 #include "core/errors.h"
 #include "core/recording/atomic_file.h"
 #include "core/recording/run_folder.h"
+#include "core/scenario/resolved.h"
 #include "golden/cases.h"
 #include "golden/report.h"
 #include "report/overlay.h"
@@ -101,10 +102,10 @@ std::vector<const ColumnCheck*> strayed(const GoldenCase& c) {
   return found;
 }
 
-std::vector<OverlayPanel> panels(const GoldenCase& c) {
-  std::vector<OverlayPanel> panels;
+std::vector<report::OverlayPanel> panels(const GoldenCase& c) {
+  std::vector<report::OverlayPanel> panels;
   for (const ColumnCheck* check : strayed(c)) {
-    OverlayPanel panel{check->name, check->unit};
+    report::OverlayPanel panel{check->name, check->unit};
     const Trace& golden = c.golden->run.trace;
     for (std::size_t k = 0; k < std::min(golden.rows(), c.run.trace.rows()); ++k) {
       panel.time.push_back(golden.at(k, 0));
@@ -127,14 +128,14 @@ class Figures {
 
   /// The file's name, or "" where there is nothing to draw.
   std::string write(const GoldenCase& c) {
-    const std::vector<OverlayPanel> shown = panels(c);
+    const std::vector<report::OverlayPanel> shown = panels(c);
     if (shown.empty()) return "";
     if (!folder_) folder_.emplace(std::nullopt, "test");
     fs::path file = folder_->path() / (c.scenario->name + ".svg");
     for (int k = 2; fs::exists(file); ++k) file.replace_filename(fmt::format("{}-{}.svg", c.scenario->name, k));
     const std::string title = fmt::format("{}: {} outside their bands, the first to stray on top", c.scenario->name,
                                           plural(failing(c.difference.columns), "column"));
-    write_file(file, overlay_svg(title, shown));
+    write_file(file, report::overlay_svg(title, shown));
     folder_->keep();
     return file.string();
   }
@@ -166,16 +167,16 @@ std::string junit(const std::vector<GoldenCase>& cases) {
   text += fmt::format("<testsuite name=\"gaitlab test\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n",
                       cases.size(), count(cases, Verdict::regression), errors, count(cases, Verdict::skipped));
   for (const GoldenCase& c : cases) {
-    text += fmt::format("<testcase classname=\"golden\" name=\"{}\">", xml_escaped(c.file));
+    text += fmt::format("<testcase classname=\"golden\" name=\"{}\">", report::xml_escaped(c.file));
     const auto element = [&](const char* name, const std::string& message, const std::string& content) {
-      text += fmt::format("<{0} message=\"{1}\">{2}</{0}>", name, xml_escaped(message), content);
+      text += fmt::format("<{0} message=\"{1}\">{2}</{0}>", name, report::xml_escaped(message), content);
     };
     // Line by line, because an escaped line break is a space.
     const auto lines = [](const std::string& content) {
       std::string escaped;
       for (std::size_t at = 0; at < content.size();) {
         const std::size_t end = std::min(content.find('\n', at), content.size());
-        escaped += xml_escaped(content.substr(at, end - at)) + "\n";
+        escaped += report::xml_escaped(content.substr(at, end - at)) + "\n";
         at = end + 1;
       }
       return escaped;
@@ -191,7 +192,7 @@ std::string junit(const std::vector<GoldenCase>& cases) {
 
 /// Before the runs, so that a wrong path costs nothing: no input is overwritten, and there is a folder for it.
 void check_report(const std::string& path) {
-  const Place place{"--junit " + path};
+  const SourceLocation place{"--junit " + path};
   const fs::file_type kind = kind_of(path);
   if (kind == fs::file_type::directory) throw InputError(place, "is a folder");
   if (kind == fs::file_type::regular && fs::file_size(path) > 0 && !read_file(path).starts_with("<?xml"))

@@ -10,9 +10,9 @@ namespace gaitlab::app {
 
 std::string version() {
 #ifdef GAITLAB_BULLET
-  return fmt::format("gaitlab {}, Bullet {}", build_id(), bullet_version());
+  return fmt::format("gaitlab {}, Bullet {}", report::build_id(), bullet_version());
 #else
-  return fmt::format("gaitlab {}, without Bullet", build_id());
+  return fmt::format("gaitlab {}, without Bullet", report::build_id());
 #endif
 }
 

@@ -5,7 +5,8 @@
 #include <string>
 
 #include "app/app.h"
-#include "core/scenario/plugin_instance.h"
+#include "core/plugin/plugin_instance.h"
+#include "core/scenario/read_scenario.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
 
@@ -42,7 +43,7 @@ void kernel(benchmark::State& state, const Scenario& s, std::size_t lanes) {
     state.SkipWithError("this processor has no such lanes");
     return;
   }
-  const std::vector<const Choice*> choices(lanes, &s.actuator);
+  const std::vector<const PluginSelection*> choices(lanes, &s.actuator);
   const std::unique_ptr<Actuator> motors = make_actuator(choices, info(*s.robot));
   const LaneSettings own{s.robot, s.physics.gravity, s.ground, contact_elements(*s.robot, s.contact.on), s.contact.penalty};
   PlantSettings settings;

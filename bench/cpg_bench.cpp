@@ -42,8 +42,12 @@ void cpg(benchmark::State& state) {
 constexpr auto kChain = static_cast<std::int64_t>(CouplingRule::chain);
 constexpr auto kAll = static_cast<std::int64_t>(CouplingRule::all);
 
-BENCHMARK(cpg<PhaseOscillator>)->Name("phase_oscillator")->ArgNames({"joints", "rule"})->Args({16, kChain})->Args({16, kAll});
-BENCHMARK(cpg<Equations>)->Name("equations")->ArgNames({"joints", "rule"})->Args({16, kChain})->Args({16, kAll});
+BENCHMARK(cpg<cpg::PhaseOscillator>)
+    ->Name("phase_oscillator")
+    ->ArgNames({"joints", "rule"})
+    ->Args({16, kChain})
+    ->Args({16, kAll});
+BENCHMARK(cpg<cpg::Equations>)->Name("equations")->ArgNames({"joints", "rule"})->Args({16, kChain})->Args({16, kAll});
 
 }  // namespace
 }  // namespace gaitlab

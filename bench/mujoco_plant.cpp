@@ -79,7 +79,7 @@ std::string lean(const std::string& mjcf) {
 std::string dc_motors(const PlantSettings& s) {
   const DcMotor* motor = s.actuator == nullptr ? nullptr : s.actuator->dc_motors();
   const std::size_t joints = s.robot->joints.size();
-  if (motor == nullptr || std::any_of(motor, motor + joints, [](const DcMotor& m) { return m.turn > 0; })) {
+  if (motor == nullptr || std::any_of(motor, motor + joints, [](const DcMotor& m) { return m.reversal_speed > 0; })) {
     throw RunError("set-up dcmotor of the benchmarks needs actuator dc_motor with efficiency_model: paper");
   }
   std::string out = "<actuator>\n";
@@ -174,7 +174,7 @@ class MujocoPlant final : public Plant {
     }
   }
 
-  [[nodiscard]] Applied applied() const override { return part_.applied(works_); }
+  [[nodiscard]] StepEffort applied() const override { return part_.applied(works_); }
 
   [[nodiscard]] std::optional<Vec3> com(std::size_t) const override { return {}; }
   void accelerate(std::size_t, const RobotState&, In, std::span<const BodyWrench>, Acceleration&) override {

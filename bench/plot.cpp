@@ -14,15 +14,16 @@ namespace {
 constexpr double kWidth = 1000, kLeft = 90, kRight = 970;  // px
 constexpr double kTitleHeight = 44, kLegendLine = 22, kHead = 40, kHeight = 380, kFoot = 56, kMark = 3.5;
 
-constexpr Style kGrid{.stroke = colour::kPale};
-constexpr Style kFine{.stroke = colour::kPale, .width = 0.4};
-constexpr Style kFrame{.stroke = colour::kInk, .width = 1.2};
-constexpr Style kGoodLine{.stroke = colour::kInk, .width = 1.2, .dash = "6 4"};
+constexpr report::Style kGrid{.stroke = report::colour::kPale};
+constexpr report::Style kFine{.stroke = report::colour::kPale, .width = 0.4};
+constexpr report::Style kFrame{.stroke = report::colour::kInk, .width = 1.2};
+constexpr report::Style kGoodLine{.stroke = report::colour::kInk, .width = 1.2, .dash = "6 4"};
 
 // Seven colours, then again with dashes.
-Style style_of(std::size_t contender) {
-  constexpr std::array kColours{colour::kBlue, colour::kVermillion, colour::kGreen, colour::kPurple,
-                                colour::kSky,  colour::kOrange,     colour::kBlack};
+report::Style style_of(std::size_t contender) {
+  constexpr std::array kColours{report::colour::kBlue,   report::colour::kVermillion, report::colour::kGreen,
+                                report::colour::kPurple, report::colour::kSky,        report::colour::kOrange,
+                                report::colour::kBlack};
   constexpr std::array kDashes{"", "7 3", "2 3"};
   return {.stroke = kColours[contender % kColours.size()],
           .width = 1.6,
@@ -53,7 +54,7 @@ bool drawn(const Point& p) { return p.ran() && p.error.worst > 0; }
 
 class ScenarioPanel {
  public:
-  ScenarioPanel(Svg& svg, const Results& results, const std::string& scenario, double top) : svg_(svg), top_(top) {
+  ScenarioPanel(report::Svg& svg, const Results& results, const std::string& scenario, double top) : svg_(svg), top_(top) {
     Decades speed;
     Decades error;
     error.add(kGood);
@@ -70,12 +71,12 @@ class ScenarioPanel {
     frame(speed, error, scenario);
   }
 
-  void curve(const std::vector<const Point*>& points, const Style& style) {
-    std::vector<gaitlab::Point> line;
+  void curve(const std::vector<const Point*>& points, const report::Style& style) {
+    std::vector<report::Point> line;
     line.reserve(points.size());
     for (const Point* p : points) line.push_back({x_(std::log10(p->speed())), y_(std::log10(p->error.worst))});
     svg_.polyline(line, style);
-    for (const gaitlab::Point& at : line) svg_.circle(at, kMark, {.stroke = style.stroke, .fill = style.stroke});
+    for (const report::Point& at : line) svg_.circle(at, kMark, {.stroke = style.stroke, .fill = style.stroke});
   }
 
  private:
@@ -86,7 +87,8 @@ class ScenarioPanel {
         const double x = x_(decade + std::log10(digit));
         svg_.line({x, top_}, {x, top_ + kHeight}, digit == 1 ? kGrid : kFine);
       }
-      svg_.text({x_(decade), top_ + kHeight + 18}, fmt::format("{:g}", std::pow(10, decade)), {.anchor = Anchor::middle});
+      svg_.text({x_(decade), top_ + kHeight + 18}, fmt::format("{:g}", std::pow(10, decade)),
+                {.anchor = report::Anchor::middle});
     }
     for (int decade = error.lo; decade <= error.hi; ++decade) {
       for (int digit = 1; digit < 10 && (digit == 1 || decade < error.hi); ++digit) {
@@ -94,17 +96,17 @@ class ScenarioPanel {
         svg_.line({kLeft, y}, {kRight, y}, digit == 1 ? kGrid : kFine);
       }
       svg_.text({kLeft - 8, y_(decade) + 4.5}, fmt::format("{:g} %", 100 * std::pow(10, decade)),
-                {.size = 11, .anchor = Anchor::end});
+                {.size = 11, .anchor = report::Anchor::end});
     }
     svg_.line({kLeft, y_(std::log10(kGood))}, {kRight, y_(std::log10(kGood))}, kGoodLine);
     svg_.rectangle({kLeft, top_}, kRight - kLeft, kHeight, kFrame);
     svg_.text({(kLeft + kRight) / 2, top_ + kHeight + 38}, "simulated seconds per second, one core",
-              {.anchor = Anchor::middle});
+              {.anchor = report::Anchor::middle});
   }
 
-  Svg& svg_;
+  report::Svg& svg_;
   double top_;
-  Scale x_, y_;
+  report::Scale x_, y_;
 };
 
 }  // namespace
@@ -114,9 +116,9 @@ std::string plot(const Results& results) {
   const std::vector<std::string> contenders = unique(results, &Point::contender);
   const std::size_t lines = (contenders.size() + 2) / 3;  // three a line
   double top = kTitleHeight + kLegendLine * static_cast<double>(lines) + kHead;
-  Svg svg(kWidth, top + (kHeight + kFoot + kHead) * static_cast<double>(scenarios.size()) - kHead);
+  report::Svg svg(kWidth, top + (kHeight + kFoot + kHead) * static_cast<double>(scenarios.size()) - kHead);
   svg.text({kWidth / 2, 28}, "What a simulated second costs, and how right its torques are",
-           {.size = 18, .anchor = Anchor::middle, .bold = true});
+           {.size = 18, .anchor = report::Anchor::middle, .bold = true});
   for (std::size_t c = 0; c < contenders.size(); ++c) {
     const std::size_t line = c / 3;
     const double x = kLeft + static_cast<double>(c % 3) * (kRight - kLeft) / 3;

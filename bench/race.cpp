@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/scenario/read_scenario.h"
+
 namespace gaitlab::versus {
 
 namespace {

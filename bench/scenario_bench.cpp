@@ -4,7 +4,7 @@
 #include <sys/resource.h>
 
 #include "app/app.h"
-#include "core/scenario/scenario_template.h"
+#include "core/scenario/read_scenario.h"
 #include "core/simulation/batch.h"
 #include "report/summary.h"
 
@@ -57,8 +57,8 @@ void stream(benchmark::State& state) {
           if (made == state.range(0)) return std::nullopt;
           return from.with({"cpg.frequency=" + std::to_string(0.3 + 1e-5 * static_cast<double>(made++))});
         },
-        {.threads = 2}, [](const Scenario& s, Recording&& r) { return summarise(s, r, 0); },
-        [&](Summary&& summary) { distance += summary.distance; });
+        {.threads = 2}, [](const Scenario& s, Recording&& r) { return report::summarise(s, r, 0); },
+        [&](report::Summary&& summary) { distance += summary.distance; });
     benchmark::DoNotOptimize(distance);
   }
   struct rusage used = {};

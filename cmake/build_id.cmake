@@ -6,7 +6,7 @@ if(NOT commit)
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
 #include "report/build_id.h"
-namespace gaitlab {
+namespace gaitlab::report {
 std::string build_id() { return "@VERSION@+@commit@ (@COMPILER@; @LIBRARIES@)"; }
-}  // namespace gaitlab
+}  // namespace gaitlab::report
 ]])

@@ -2,7 +2,7 @@
 #pragma once
 #include "core/plugin/registry.h"
 
-namespace gaitlab {
+namespace gaitlab::controllers {
 
 class Hold final : public Controller {
  public:
@@ -30,4 +30,4 @@ Source: none; for tests of motors and for joints that stay free.
   Settings s_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::controllers

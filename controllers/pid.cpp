@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gaitlab {
+namespace gaitlab::controllers {
 
 const char* const Pid::kManual = R"(Sampled PID with a filtered derivative, once per control period Ts, zero-order hold.
 
@@ -50,4 +50,4 @@ void Pid::update(const Measured& m, In setpoint, In limit, Out x, Out command) c
   }
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::controllers

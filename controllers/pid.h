@@ -2,7 +2,7 @@
 #pragma once
 #include "core/plugin/registry.h"
 
-namespace gaitlab {
+namespace gaitlab::controllers {
 
 class Pid final : public Controller {
  public:
@@ -27,4 +27,4 @@ class Pid final : public Controller {
   Settings s_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::controllers

@@ -2,6 +2,6 @@
 #pragma once
 #include "core/plugin/registry.h"
 
-namespace gaitlab {
+namespace gaitlab::controllers {
 void register_controllers(Registry& registry);
 }

@@ -5,7 +5,7 @@
 
 namespace gaitlab {
 
-std::string to_string(const Place& place) {
+std::string to_string(const SourceLocation& place) {
   if (place.line == 0) return place.file;
   return place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
 }
@@ -47,7 +47,7 @@ void Problems::raise() const {
 
 InputError::InputError(std::vector<Problem> problems) : std::runtime_error(report(problems)), problems_(std::move(problems)) {}
 
-InputError::InputError(Place place, std::string text)
+InputError::InputError(SourceLocation place, std::string text)
     : InputError(std::vector<Problem>{{std::move(place), std::move(text), {}}}) {}
 
 std::string nearest(const std::string& found, const std::vector<std::string>& known) {

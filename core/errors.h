@@ -9,26 +9,28 @@
 namespace gaitlab {
 
 /// A position in a text the user wrote; line and column count from 1, 0 means "the whole file".
-struct Place {
+struct SourceLocation {
   std::string file = {};
   int line = 0;
   int column = 0;
 };
 
 /// `FILE:LINE:COL` (`FILE` alone where there is no line).
-std::string to_string(const Place& place);
+std::string to_string(const SourceLocation& place);
 
 /// One finding: where, what was found and expected, and notes that point elsewhere or offer a remedy.
 struct Problem {
-  Place place;
+  SourceLocation place;
   std::string text;
-  std::vector<std::pair<Place, std::string>> notes = {};
+  std::vector<std::pair<SourceLocation, std::string>> notes = {};
 };
 
 /// Collects findings, so that a user sees all of them at once.
 class Problems {
  public:
-  Problem& add(Place place, std::string text) { return list_.emplace_back(Problem{std::move(place), std::move(text), {}}); }
+  Problem& add(SourceLocation place, std::string text) {
+    return list_.emplace_back(Problem{std::move(place), std::move(text), {}});
+  }
   [[nodiscard]] bool empty() const { return list_.empty(); }
   [[nodiscard]] std::size_t size() const { return list_.size(); }
   [[nodiscard]] const std::vector<Problem>& list() const { return list_; }
@@ -43,7 +45,7 @@ class Problems {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Problem> problems);
-  InputError(Place place, std::string text);
+  InputError(SourceLocation place, std::string text);
   [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
 
  private:

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -287,4 +287,4 @@ Term parse_equation(const std::string& text) {
   return Parser(text).whole();
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 /// A node of the tree. An operator is a call by its sign ("+" ... "!=", "and", "or", "not", "^", and "~" for a minus before its
 /// operand).
@@ -41,4 +41,4 @@ inline constexpr std::size_t kMostEquationLevels = 64;  ///< brackets, signs and
 ///              | "sum" "(" "j" "in" "neighbours" "," expression ")" | "(" expression ")"
 Term parse_equation(const std::string& text);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

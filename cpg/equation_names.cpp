@@ -5,7 +5,7 @@
 
 #include "core/errors.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 namespace {
 
 using Op = EquationFunction::Op;
@@ -108,7 +108,7 @@ const EquationNames::Entry* EquationNames::find(const std::string& name) const {
   return it == entries_.end() ? nullptr : &*it;
 }
 
-bool EquationNames::may_name(const Entry& entry, const Place& place) {
+bool EquationNames::may_name(const Entry& entry, const SourceLocation& place) {
   switch (entry.kind) {
     case Kind::pi:
     case Kind::given:
@@ -126,7 +126,7 @@ bool EquationNames::may_name(const Entry& entry, const Place& place) {
   }
 }
 
-std::string EquationNames::unknown(const std::string& name, const Place& place) const {
+std::string EquationNames::unknown(const std::string& name, const SourceLocation& place) const {
   std::vector<std::string> known;
   for (const Entry& entry : entries_) {
     if (may_name(entry, place)) known.push_back(entry.name);
@@ -134,7 +134,7 @@ std::string EquationNames::unknown(const std::string& name, const Place& place) 
   return in_quotes(name) + " is unknown" + offer_name(name, known, "names");
 }
 
-void EquationNames::check_name(const Term& term, const Place& place, std::vector<EquationFault>& faults) const {
+void EquationNames::check_name(const Term& term, const SourceLocation& place, std::vector<EquationFault>& faults) const {
   const auto wrong = [&](const std::string& what) { faults.push_back({term.offset, what}); };
   const std::string name = in_quotes(term.name);
   const Entry* entry = find(term.name);
@@ -161,8 +161,8 @@ void EquationNames::check_name(const Term& term, const Place& place, std::vector
   }
 }
 
-void EquationNames::check(const Term& term, const Place& place, std::vector<EquationFault>& faults) const {
-  Place inside = place;
+void EquationNames::check(const Term& term, const SourceLocation& place, std::vector<EquationFault>& faults) const {
+  SourceLocation inside = place;
   if (term.kind == Term::Kind::name) check_name(term, place, faults);
   if (term.kind == Term::Kind::sum) {
     if (place.in_sum) faults.push_back({term.offset, "a sum within a sum; expected one level"});
@@ -187,7 +187,7 @@ void EquationNames::check(const Term& term, const Place& place, std::vector<Equa
 }
 
 void EquationNames::check(const Term& term, Where where, std::size_t slot, std::vector<EquationFault>& faults) const {
-  check(term, Place{where, slot, false}, faults);
+  check(term, SourceLocation{where, slot, false}, faults);
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -6,7 +6,7 @@
 #include "core/plugin/oscillators.h"
 #include "cpg/equation_expression.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 /// A function or operator by its name in the tree.
 struct EquationFunction {
@@ -76,17 +76,17 @@ class EquationNames {
   void check(const Term& term, Where where, std::size_t slot, std::vector<EquationFault>& faults) const;
 
  private:
-  struct Place {
+  struct SourceLocation {
     Where where;
     std::size_t slot;
     bool in_sum;
   };
-  void check(const Term& term, const Place& place, std::vector<EquationFault>& faults) const;
-  void check_name(const Term& term, const Place& place, std::vector<EquationFault>& faults) const;
-  [[nodiscard]] static bool may_name(const Entry& entry, const Place& place);
-  [[nodiscard]] std::string unknown(const std::string& name, const Place& place) const;
+  void check(const Term& term, const SourceLocation& place, std::vector<EquationFault>& faults) const;
+  void check_name(const Term& term, const SourceLocation& place, std::vector<EquationFault>& faults) const;
+  [[nodiscard]] static bool may_name(const Entry& entry, const SourceLocation& place);
+  [[nodiscard]] std::string unknown(const std::string& name, const SourceLocation& place) const;
 
   std::vector<Entry> entries_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -6,7 +6,7 @@
 
 #include "core/math/functions.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 namespace {
 
 using Op = EquationFunction::Op;
@@ -279,4 +279,4 @@ void EquationProgram::run(const EquationInputs& inputs, Out result) const {
   }
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

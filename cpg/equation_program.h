@@ -5,7 +5,7 @@
 
 #include "cpg/equation_names.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 /// What is known when a program is made; one value per joint unless said otherwise.
 struct EquationTables {
@@ -76,4 +76,4 @@ class EquationProgram {
   std::size_t blocks_ = 0, width_ = 0;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 const char* const Equations::kManual =
     R"(A model of your own, written in the scenario: states with their derivatives, an output, feedback from the sensors.
@@ -208,4 +208,4 @@ void Equations::derivative(const Measured& measured, In state, Out rate) const {
 
 void Equations::output(double t, In state, Out setpoint) const { output_.run({t, state, {}, {}, {}, {}}, setpoint); }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

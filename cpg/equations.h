@@ -3,7 +3,7 @@
 #include "core/plugin/registry.h"
 #include "cpg/equation_program.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 /// Texts by the grammar of equation_expression.h. The defaults are the model of `phase_oscillator`.
 struct EquationsModel {
@@ -40,4 +40,4 @@ class Equations final : public Cpg {
   EquationProgram initial_, derivative_, output_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

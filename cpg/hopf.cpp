@@ -2,11 +2,9 @@
 
 #include "core/math/functions.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 namespace {
 
-constexpr const char* kBlocks[] = {"x", "y"};
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kFirstRadius = 0.01;      // the set points grow from almost nothing
 constexpr std::size_t kTableSteps = 4096;  // many within the change from swing to stance at the largest sharpness, 0.01 rad
 
@@ -102,4 +100,4 @@ void Hopf::output(double, In state, Out setpoint) const {
   for (std::size_t i = 0; i < joints_; ++i) setpoint[i] = s_.offset[i] + s_.amplitude[i] * state[i];
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

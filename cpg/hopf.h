@@ -4,7 +4,7 @@
 #include "core/plugin/registry.h"
 #include "cpg/phase_table.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 struct HopfModel {
   double coupling = 1, rate = 2, duty_factor = 0.5, sharpness = 20;
@@ -14,6 +14,7 @@ struct HopfModel {
 class Hopf final : public OscillatorCpg<HopfModel> {
  public:
   static const char* const kManual;
+  static constexpr const char* kBlocks[] = {"x", "y"};  ///< of its states
 
   Hopf(const RobotInfo& robot, const Settings& settings);
   void start(Out state) const override;
@@ -28,4 +29,4 @@ class Hopf final : public OscillatorCpg<HopfModel> {
   PhaseTable angle_;  ///< angle on the circle at a phase, and back
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 const char* const Keyframes::kManual =
     R"(Joint angles at given times (frames), joined by splines or straight lines. Joints a frame does not name are at its default.
@@ -185,4 +185,4 @@ void Keyframes::output(double t, In, Out setpoint) const {
   }
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

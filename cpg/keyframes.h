@@ -2,7 +2,7 @@
 #pragma once
 #include "core/plugin/registry.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 class Keyframes final : public Cpg {
  public:
@@ -41,4 +41,4 @@ class Keyframes final : public Cpg {
   std::vector<double> angle_, curvature_;  ///< rad, and its second derivative, rad/s^2; frame * joints + joint
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -2,13 +2,7 @@
 
 #include "core/math/functions.h"
 
-namespace gaitlab {
-
-namespace {
-
-constexpr const char* kBlocks[] = {"phi", "r", "dr", "x", "dx"};
-
-}  // namespace
+namespace gaitlab::cpg {
 
 const char* const KuramotoAmplitude::kManual =
     R"(Phase oscillators coupled in proportion to the amplitude of the one that is followed; amplitude and offset of second order.
@@ -71,4 +65,4 @@ void KuramotoAmplitude::output(double, In state, Out setpoint) const {
   }
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -3,7 +3,7 @@
 #include "core/plugin/oscillators.h"
 #include "core/plugin/registry.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 struct KuramotoAmplitudeModel {
   double coupling = 4, amplitude_rate = 20, offset_rate = 20;
@@ -13,6 +13,7 @@ struct KuramotoAmplitudeModel {
 class KuramotoAmplitude final : public OscillatorCpg<KuramotoAmplitudeModel> {
  public:
   static const char* const kManual;
+  static constexpr const char* kBlocks[] = {"phi", "r", "dr", "x", "dx"};  ///< of its states
 
   KuramotoAmplitude(const RobotInfo& robot, const Settings& settings);
   void start(Out state) const override;
@@ -20,4 +21,4 @@ class KuramotoAmplitude final : public OscillatorCpg<KuramotoAmplitudeModel> {
   void output(double t, In state, Out setpoint) const override;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

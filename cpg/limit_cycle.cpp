@@ -2,10 +2,9 @@
 
 #include "core/math/functions.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr std::size_t kPhases = 2048;  // of the table: linear between them, 1e-6 of the amplitude
 
 using State = std::array<double, Oscillator::kMost>;
@@ -174,4 +173,4 @@ void CycleNetwork::output(double, In state, Out setpoint) const {
   }
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -8,7 +8,7 @@
 #include "core/plugin/registry.h"
 #include "cpg/phase_table.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 /// An autonomous oscillator in its own unit of time, whose orbit turns about a centre in a plane.
 class Oscillator {
@@ -75,4 +75,4 @@ class CycleNetwork : public Cpg {
   LimitCycle cycle_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 namespace {
 
 double fired(double u) { return std::max(0.0, u); }
@@ -73,4 +73,4 @@ void MatsuokaModel::fields(Fields& f) {
 Matsuoka::Matsuoka(const RobotInfo& robot, const Settings& settings)
     : CycleNetwork(robot, settings, settings.model, std::make_unique<MatsuokaPair>(settings.model)) {}
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

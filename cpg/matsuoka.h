@@ -2,7 +2,7 @@
 #pragma once
 #include "cpg/limit_cycle.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 struct MatsuokaModel : CycleNetwork::Model {
   double inhibition = 2, adaptation = 2.5, time_ratio = 0.5;
@@ -17,4 +17,4 @@ class Matsuoka final : public CycleNetwork {
   Matsuoka(const RobotInfo& robot, const Settings& settings);
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

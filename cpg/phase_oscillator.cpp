@@ -2,13 +2,7 @@
 
 #include "core/math/functions.h"
 
-namespace gaitlab {
-
-namespace {
-
-constexpr const char* kBlocks[] = {"phi", "r", "x"};
-
-}  // namespace
+namespace gaitlab::cpg {
 
 const char* const PhaseOscillator::kManual = R"(A network of phase oscillators with any coupling graph.
 
@@ -64,4 +58,4 @@ void PhaseOscillator::output(double, In state, Out setpoint) const {
   }
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

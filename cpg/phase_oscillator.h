@@ -3,7 +3,7 @@
 #include "core/plugin/oscillators.h"
 #include "core/plugin/registry.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 struct PhaseOscillatorModel {
   double coupling = 1, amplitude_rate = 2, offset_rate = 2;
@@ -14,6 +14,7 @@ struct PhaseOscillatorModel {
 class PhaseOscillator final : public OscillatorCpg<PhaseOscillatorModel> {
  public:
   static const char* const kManual;
+  static constexpr const char* kBlocks[] = {"phi", "r", "x"};  ///< of its states
 
   PhaseOscillator(const RobotInfo& robot, const Settings& settings);
   void start(Out state) const override;
@@ -21,4 +22,4 @@ class PhaseOscillator final : public OscillatorCpg<PhaseOscillatorModel> {
   void output(double t, In state, Out setpoint) const override;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

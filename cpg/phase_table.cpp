@@ -5,10 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace gaitlab {
-namespace {
-constexpr double kTurn = 2 * std::numbers::pi;
-}
+namespace gaitlab::cpg {
+namespace {}
 
 PhaseTable::PhaseTable(std::vector<double> angles) : angles_(std::move(angles)), phases_(angles_.size()) {
   const std::size_t last = angles_.size() - 1;
@@ -33,4 +31,4 @@ double PhaseTable::look_up(const std::vector<double>& table, double at) {
   return kTurn * turns + table[k] + (where - static_cast<double>(k)) * (table[k + 1] - table[k]);
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

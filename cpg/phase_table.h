@@ -1,9 +1,12 @@
 // Phase on a closed orbit against the angle about its centre: a table for both directions.
 #pragma once
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
-namespace gaitlab {
+namespace gaitlab::cpg {
+
+inline constexpr double kTurn = 2 * std::numbers::pi;  ///< one revolution, rad
 
 /// One turn of a closed orbit in a plane. Phase: time since the orbit's start as a share of the period, 2 pi a turn. Angle:
 /// that of the point of the orbit, which must only ever rise with the phase. Both start at 0 and are 2 pi after one turn.
@@ -23,4 +26,4 @@ class PhaseTable {
   std::vector<double> angles_, phases_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -11,7 +11,7 @@
 #include "cpg/tripod.h"
 #include "cpg/van_der_pol.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 void register_cpgs(Registry& registry) {
   add_cpg<Equations>(registry, "equations", Equations::kManual);
@@ -26,4 +26,4 @@ void register_cpgs(Registry& registry) {
   add_cpg<VanDerPol>(registry, "van_der_pol", VanDerPol::kManual);
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

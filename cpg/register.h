@@ -2,6 +2,6 @@
 #pragma once
 #include "core/plugin/registry.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 void register_cpgs(Registry& registry);
 }

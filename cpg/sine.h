@@ -6,7 +6,7 @@
 #include "core/plugin/oscillators.h"
 #include "core/plugin/registry.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 class Sine final : public Cpg {
  public:
@@ -43,4 +43,4 @@ Source: Chariot, Filippi, Verlinden 2012, eq. 10 on the limit cycle of eq. 7.
   OscillatorNetwork network_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 const char* const Table::kManual =
     R"(Set points from a CSV text: one row per time, one column per joint. Joints without a column stay at 0.
@@ -35,7 +35,7 @@ namespace {
   throw std::invalid_argument("the table's line " + std::to_string(line) + ", column " + std::to_string(column) + ": " + what);
 }
 
-std::string quoted(std::string_view text) { return "'" + std::string(text.substr(0, 40)) + "'"; }
+std::string in_marks(std::string_view text) { return "'" + std::string(text.substr(0, 40)) + "'"; }
 
 struct Cell {
   std::string_view text;
@@ -61,7 +61,7 @@ double number(const Cell& cell, std::size_t line) {
   const char* end = cell.text.data() + cell.text.size();
   const auto [stopped, error] = std::from_chars(cell.text.data(), end, value);
   if (error != std::errc() || stopped != end || !std::isfinite(value)) {
-    fail(line, cell.column, quoted(cell.text) + " is not a finite number");
+    fail(line, cell.column, in_marks(cell.text) + " is not a finite number");
   }
   return value;
 }
@@ -93,12 +93,12 @@ class TableText {
   void read_head(const std::vector<Cell>& cells, std::size_t line) {
     headed_ = true;
     if (cells[0].text != "time" && cells[0].text != "t") {
-      fail(line, cells[0].column, "expected the column time; found " + quoted(cells[0].text));
+      fail(line, cells[0].column, "expected the column time; found " + in_marks(cells[0].text));
     }
     for (std::size_t i = 1; i < cells.size(); ++i) {
       const std::size_t joint = joint_of(cells[i], line);
       if (std::find(columns_.begin(), columns_.end(), joint) != columns_.end()) {
-        fail(line, cells[i].column, "joint " + quoted(robot_.joints[joint].name) + " has a column already");
+        fail(line, cells[i].column, "joint " + in_marks(robot_.joints[joint].name) + " has a column already");
       }
       columns_.push_back(joint);
     }
@@ -108,7 +108,7 @@ class TableText {
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
       if (cell.text == robot_.joints[j].name || cell.text == std::to_string(j)) return j;
     }
-    fail(line, cell.column, "no joint " + quoted(cell.text));
+    fail(line, cell.column, "no joint " + in_marks(cell.text));
   }
 
   void read_row(const std::vector<Cell>& cells, std::size_t line) {
@@ -153,4 +153,4 @@ void Table::Model::fields(Fields& f) {
 
 Table::Table(const RobotInfo& robot, const Settings& settings) : frames_(robot, keyframes_of(robot, settings.model)) {}
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

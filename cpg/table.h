@@ -4,7 +4,7 @@
 
 #include "cpg/keyframes.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 class Table final : public Cpg {
  public:
@@ -30,4 +30,4 @@ class Table final : public Cpg {
   Keyframes frames_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

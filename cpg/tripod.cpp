@@ -5,7 +5,7 @@
 
 #include "core/math/functions.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 namespace {
 constexpr double kFade = 0.2;       // of the swing
@@ -130,4 +130,4 @@ void Tripod::output(double t, In, Out setpoint) const {
 
 std::string Tripod::note() const { return std::to_string(steps_.size()) + " legs found"; }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

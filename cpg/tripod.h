@@ -3,7 +3,7 @@
 #include "core/plugin/legs.h"
 #include "core/plugin/registry.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 class Tripod final : public Cpg {
  public:
@@ -51,4 +51,4 @@ class Tripod final : public Cpg {
   std::vector<Step> steps_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -1,6 +1,6 @@
 #include "cpg/van_der_pol.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 namespace {
 
 class VanDerPolOscillator final : public Oscillator {
@@ -52,4 +52,4 @@ void VanDerPolModel::fields(Fields& f) {
 VanDerPol::VanDerPol(const RobotInfo& robot, const Settings& settings)
     : CycleNetwork(robot, settings, settings.model, std::make_unique<VanDerPolOscillator>(settings.model.mu)) {}
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -2,7 +2,7 @@
 #pragma once
 #include "cpg/limit_cycle.h"
 
-namespace gaitlab {
+namespace gaitlab::cpg {
 
 struct VanDerPolModel : CycleNetwork::Model {
   double mu = 1;
@@ -17,4 +17,4 @@ class VanDerPol final : public CycleNetwork {
   VanDerPol(const RobotInfo& robot, const Settings& settings);
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::cpg

@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "core/recording/atomic_file.h"
+#include "core/scenario/read_scenario.h"
 
 namespace gaitlab::golden {
 
@@ -54,13 +55,13 @@ void find_in(const fs::path& folder, bool top, Found& found) {
     if (scenario.empty()) found.orphans.push_back(path);
     if (!scenario.empty() && !top) found.scenarios.push_back(scenario);
   }
-  if (error) throw InputError(Place{folder.string()}, "cannot be read: " + error.message());
+  if (error) throw InputError(SourceLocation{folder.string()}, "cannot be read: " + error.message());
 }
 
 Found found_in(const fs::path& folder) {
   Found found;
   find_in(folder, true, found);
-  if (found.scenarios.empty()) throw InputError(Place{folder.string()}, "holds no scenario (*.yaml, *.yml)");
+  if (found.scenarios.empty()) throw InputError(SourceLocation{folder.string()}, "holds no scenario (*.yaml, *.yml)");
   std::sort(found.scenarios.begin(), found.scenarios.end());
   std::sort(found.orphans.begin(), found.orphans.end());
   return found;
@@ -71,13 +72,13 @@ GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golde
   try {
     c.folder = golden ? fs::path(*golden) : own_golden(file);
     c.given_golden = golden.has_value();
-    if (kind_of(file) == fs::file_type::not_found) throw InputError(Place{c.file}, "is a link to nothing");
+    if (kind_of(file) == fs::file_type::not_found) throw InputError(SourceLocation{c.file}, "is a link to nothing");
     if (golden || is_there(c.folder)) {
       c.golden = read_golden(c.folder);
     } else if (!must) {
       c.verdict = Verdict::skipped;
     } else {
-      throw InputError(Place{c.file},
+      throw InputError(SourceLocation{c.file},
                        fmt::format("has no golden ({} does not exist); make it: gaitlab approve {} --reason TEXT",
                                    c.folder.string(), c.file));
     }
@@ -103,7 +104,7 @@ Scenario with_engine(const std::string& file, const Scenario& scenario, const st
   const Engine* engine = catalog.engine(name);
   if (engine == nullptr) {
     const std::string near = nearest(name, catalog.engines());
-    throw InputError(Place{"--engine"},
+    throw InputError(SourceLocation{"--engine"},
                      fmt::format("engine '{}' is unknown; {}", name,
                                  near.empty() ? fmt::format("there are: {}", fmt::join(catalog.engines(), ", "))
                                               : "did you mean '" + near + "'?"));
@@ -161,15 +162,16 @@ fs::path own_golden(const fs::path& scenario) {
   for (const char* extension : {".yaml", ".yml"}) {
     const fs::path other = fs::path(scenario).replace_extension(extension);
     if (other.extension() == scenario.extension() || !is_there(other)) continue;
-    throw InputError(Place{scenario.string()}, fmt::format("would share its golden, {}, with {}; rename one of them",
-                                                           golden_folder(scenario).string(), other.filename().string()));
+    throw InputError(SourceLocation{scenario.string()},
+                     fmt::format("would share its golden, {}, with {}; rename one of them", golden_folder(scenario).string(),
+                                 other.filename().string()));
   }
   return golden_folder(scenario);
 }
 
 void check_own(const Golden& golden, const fs::path& folder, const Scenario& scenario, const GoldenDifference& difference) {
   if (golden.origin.name == scenario.name || difference.passed()) return;
-  throw InputError(Place{folder.string()},
+  throw InputError(SourceLocation{folder.string()},
                    fmt::format("is the golden of '{}', and {} ('{}') is another run; gaitlab approve --replace makes its own",
                                golden.origin.name, scenario.file, scenario.name));
 }
@@ -178,7 +180,7 @@ std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& ca
   std::vector<std::string> given = arguments.scenarios;
   if (given.empty()) given.emplace_back("scenarios");
   if (arguments.golden && (given.size() != 1 || kind_of(given.front()) == fs::file_type::directory))
-    throw InputError(Place{"--golden"}, "is the golden of one scenario; name exactly one scenario with it");
+    throw InputError(SourceLocation{"--golden"}, "is the golden of one scenario; name exactly one scenario with it");
   std::vector<GoldenCase> cases;
   std::set<std::string> seen;
   const auto add = [&](const fs::path& file, bool must) {
@@ -188,7 +190,7 @@ std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& ca
   };
   for (const std::string& path : given) {  // those named by their file first: they must have a golden
     const fs::file_type kind = kind_of(path);
-    if (kind == fs::file_type::not_found) throw InputError(Place{path}, "there is no such scenario or folder");
+    if (kind == fs::file_type::not_found) throw InputError(SourceLocation{path}, "there is no such scenario or folder");
     if (kind != fs::file_type::directory) add(path, true);
   }
   for (const std::string& path : given) {

@@ -229,7 +229,7 @@ std::string pack(const Trace& trace) {
 }
 
 RoundedTrace unpack(std::string_view bytes, const std::filesystem::path& path) {
-  const Place place{path.string()};
+  const SourceLocation place{path.string()};
   std::string_view body;
   if (std::string text = complaint(bytes, body); !text.empty()) throw InputError(place, std::move(text));
   try {

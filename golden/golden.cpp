@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kVersion = 1;
+constexpr int kJsonVersion = 1;
 constexpr const char* kVersionKey = "gaitlab_golden";
 constexpr std::string_view kChecksum = ",\n  \"checksum\": \"";  // the last key, of the text before this
 constexpr const char* kJsonFile = "golden.json";
@@ -80,9 +80,9 @@ std::string history_text(const Golden& golden) {
 }
 
 std::string json_text(const Golden& golden, std::string_view trace_bytes) {
-  const GoldenOrigin& o = golden.origin;
+  const GoldenProvenance& o = golden.origin;
   const Trace& trace = golden.run.trace;
-  std::string text = fmt::format("{{\n  \"{}\": {}", kVersionKey, kVersion);
+  std::string text = fmt::format("{{\n  \"{}\": {}", kVersionKey, kJsonVersion);
   const auto add = [&](const char* key, const std::string& value) { text += fmt::format(",\n  \"{}\": {}", key, value); };
   add("name", text_of(o.name));
   add("engine", text_of(o.engine));
@@ -102,7 +102,7 @@ std::string json_text(const Golden& golden, std::string_view trace_bytes) {
 
 // ---- and back
 
-InputError wrong(const fs::path& file, std::string text) { return {Place{file.string()}, std::move(text)}; }
+InputError wrong(const fs::path& file, std::string text) { return {SourceLocation{file.string()}, std::move(text)}; }
 
 // The document, its version and checksum seen to.
 Json checked(const fs::path& file, const std::string& text) {
@@ -117,9 +117,9 @@ Json checked(const fs::path& file, const std::string& text) {
     throw wrong(file, whole ? "is corrupt: it is not JSON" : fmt::format("is truncated: it ends after {} bytes", text.size()));
   }
   const Json& version = json[kVersionKey];
-  if (version.is_number_integer() && version != kVersion) {
+  if (version.is_number_integer() && version != kJsonVersion) {
     throw wrong(file, fmt::format("has golden format {}; this gaitlab reads {}: take the gaitlab that wrote it",
-                                  text_of(version), kVersion));
+                                  text_of(version), kJsonVersion));
   }
   const std::size_t end = text.rfind(kChecksum);
   const std::string_view content = std::string_view(text).substr(0, end);
@@ -188,7 +188,7 @@ class Lock {
   explicit Lock(const fs::path& folder) : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       ::close(descriptor_);
-      throw InputError(Place{folder.string()}, "is being written by another process; call again");
+      throw InputError(SourceLocation{folder.string()}, "is being written by another process; call again");
     }
   }
   ~Lock() {

@@ -29,7 +29,7 @@ struct Approval {
 };
 
 /// Which run it was.
-struct GoldenOrigin {
+struct GoldenProvenance {
   std::string name, engine, integrator;
   double step = 0;              ///< s
   std::string build, compiler;  ///< build id; its compiler
@@ -37,7 +37,7 @@ struct GoldenOrigin {
 };
 
 struct Golden {
-  GoldenOrigin origin;
+  GoldenProvenance origin;
   std::vector<Approval> history;  ///< the last is the one that holds
   RoundedTrace run;
   std::vector<double> rounding;  ///< one a column, in its unit squared: mean square of what rounding the trace took

@@ -78,8 +78,8 @@ std::string since_approval(const Golden& golden) {
   return fmt::format("since approval {} ({}):\n", golden.history.back().number, golden.history.back().reason);
 }
 
-std::string origin_changes(const Golden& golden, const GoldenOrigin& now) {
-  const GoldenOrigin& then = golden.origin;
+std::string origin_changes(const Golden& golden, const GoldenProvenance& now) {
+  const GoldenProvenance& then = golden.origin;
   std::string text;
   const auto add = [&](const char* what, const auto& before, const auto& after) {
     if (before != after) text += fmt::format("  {}: then {}, now {}\n", what, before, after);

@@ -13,7 +13,7 @@ std::string since_approval(const Golden& golden);
 
 /// What of build, compiler, engine, integrator, step and scenario is not as it was when the golden was approved: a line each,
 /// indented by two.
-std::string origin_changes(const Golden& golden, const GoldenOrigin& now);
+std::string origin_changes(const Golden& golden, const GoldenProvenance& now);
 
 /// Bands that are wider or narrower by more than a fifth than before: the ten that changed most, a line each, indented by two.
 std::string band_changes(const Golden& before, const Golden& now);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parallel.h"
+#include "core/scenario/resolved.h"
 #include "core/simulation/simulation.h"
 #include "report/build_id.h"
 #include "report/numbers.h"
@@ -22,7 +23,7 @@ constexpr double kPerturbation = 1e-7;  // rad: above the rounding of another co
 
 std::vector<std::string> columns(const Scenario& scenario) {
   std::vector<std::string> names;
-  if (has_motors(scenario)) names = {"joint.*.torque", "joint.*.current"};
+  if (report::has_motors(scenario)) names = {"joint.*.torque", "joint.*.current"};
   if (!scenario.robot->joints.empty()) names.emplace_back("joint.*.angle");
   for (const char* part : {"x", "y", "z", "qw", "qx", "qy", "qz"}) names.push_back(std::string("base.") + part);
   return names;
@@ -40,15 +41,16 @@ Trace thinned(const Trace& trace, double period) {
 }
 
 std::vector<Number> numbers(const Scenario& scenario, const Recording& record) {
-  const Summary summary = summarise(scenario, record, 0);
-  std::vector<const SummaryNumber*> kept = placed(&SummaryNumber::golden);
-  if (!has_motors(scenario)) std::erase_if(kept, [](const SummaryNumber* number) { return number->golden.needs_motor; });
+  const report::Summary summary = report::summarise(scenario, record, 0);
+  std::vector<const report::SummaryNumber*> kept = report::placed(&report::SummaryNumber::golden);
+  if (!report::has_motors(scenario))
+    std::erase_if(kept, [](const report::SummaryNumber* number) { return number->golden.needs_motor; });
   std::vector<Number> all;
-  for (const SummaryNumber* number : kept) {
+  for (const report::SummaryNumber* number : kept) {
     if (number->of_joint == nullptr) all.push_back({number->name(), number->unit, number->value({scenario, record, summary})});
   }
   for (std::size_t j = 0; j < record.joints.size(); ++j) {
-    for (const SummaryNumber* number : kept) {
+    for (const report::SummaryNumber* number : kept) {
       if (number->of_joint == nullptr) continue;
       all.push_back({number->name(scenario.robot->joints[j].name), number->unit, record.joints[j].*number->of_joint});
     }
@@ -121,15 +123,15 @@ std::vector<Number> golden_numbers(const GoldenRun& run) {
       std::find_if(run.numbers.begin(), run.numbers.end(), [](const Number& n) { return n.name == "distance"; });
   std::vector<Number> kept = run.numbers;
   if (distance->value > kLeastTravel) return kept;
-  for (const SummaryNumber& entry : summary_numbers()) {
+  for (const report::SummaryNumber& entry : report::summary_numbers()) {
     if (entry.golden.needs_travel) std::erase_if(kept, [&](const Number& number) { return number.name == entry.name(); });
   }
   return kept;
 }
 
-GoldenOrigin golden_origin(const Scenario& scenario) {
+GoldenProvenance golden_origin(const Scenario& scenario) {
   const Engine& engine = *scenario.physics.engine;
-  const std::string build = build_id();
+  const std::string build = report::build_id();
   // `VERSION (COMPILER; LIBRARIES)`
   const std::size_t from = std::min(build.find('('), build.size() - 1) + 1;
   return {scenario.name,           engine.name, scenario.physics.integrator->name,

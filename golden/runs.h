@@ -29,7 +29,7 @@ std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int job
 std::vector<Number> golden_numbers(const GoldenRun& run);
 
 /// Which run a golden is, for Golden::origin.
-GoldenOrigin golden_origin(const Scenario& scenario);
+GoldenProvenance golden_origin(const Scenario& scenario);
 
 /// `scenario` with its initial joint angles moved by up to 1e-7 rad each: number `member` of the ensemble. From scenario.seed
 /// alone, by splitmix64 of a counter.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/model/principal_axes.h"
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 #include "core/simulation/start.h"
 #include "interchange/robot_xml.h"
 
@@ -20,11 +20,11 @@ using namespace interchange;
 constexpr double kMassless = 2e-15;
 constexpr double kPointSize = 0.001;  // m, drawn
 
-std::string text(const Quat& q) { return interchange::text({q.w(), q.x(), q.y(), q.z()}); }
+std::string quaternion(const Quat& q) { return text({q.w(), q.x(), q.y(), q.z()}); }
 
 void set_pose(Xml& element, const Pose& pose) {
-  set(element, "pos", interchange::text(pose.p));
-  set(element, "quat", text(Quat(pose.R)));
+  set(element, "pos", text(pose.p));
+  set(element, "quat", quaternion(Quat(pose.R)));
 }
 
 class Mjcf {
@@ -38,7 +38,7 @@ class Mjcf {
     comment(root, fmt::format(
                       "Written by gaitlab. Not in this file, because MJCF does not hold it:{}{} Geoms touch nothing: those of "
                       "group 3 are the contact elements (points are drawn as spheres of {} m), each with a site.{}",
-                      left_out(s_), method(), interchange::text({kPointSize}), massless()));
+                      left_out(s_), method(), text({kPointSize}), massless()));
     write_options(root);
     Xml& world = add(root, "worldbody");
     write_ground(world);
@@ -65,7 +65,7 @@ class Mjcf {
     set(geom(world, "ground", "plane", "0 0 1"), "group", "2");
     for (std::size_t i = 0; s_.ground.kind == Ground::Kind::boxes && i < s_.ground.boxes.size(); ++i) {
       const Box& box = s_.ground.boxes[i];
-      Xml& e = geom(world, fmt::format("ground/{}", i), "box", interchange::text(Vec3(box.size / 2)));
+      Xml& e = geom(world, fmt::format("ground/{}", i), "box", text(Vec3(box.size / 2)));
       set_pose(e, {box.R, box.center});
       set(e, "group", "2");
     }
@@ -76,8 +76,8 @@ class Mjcf {
     set(compiler, "angle", "radian");
     set(compiler, "inertiafromgeom", "false");
     Xml& option = add(root, "option");
-    set(option, "timestep", interchange::text({step()}));
-    set(option, "gravity", interchange::text(s_.physics.gravity));
+    set(option, "timestep", text({step()}));
+    set(option, "gravity", text(s_.physics.gravity));
     set(option, "integrator", "RK4");
     Xml& drawn = add(add(root, "default"), "geom");
     set(drawn, "contype", "0");
@@ -91,8 +91,8 @@ class Mjcf {
     Xml& element = add(parent, "body");
     set(element, "name", body.name);
     if (at.kind == Attachment::Kind::base) {
-      set(element, "pos", interchange::text(start_.position));
-      set(element, "quat", text(start_.orientation));
+      set(element, "pos", text(start_.position));
+      set(element, "quat", quaternion(start_.orientation));
       write_base_joints(element);
     } else {
       const Body& on = robot_.bodies[at.parent];
@@ -115,7 +115,7 @@ class Mjcf {
       Xml& j = add(element, "joint");
       set(j, "name", name);
       set(j, "type", type);
-      set(j, "axis", interchange::text(Vec3(R.transpose() * axis)));
+      set(j, "axis", text(Vec3(R.transpose() * axis)));
     };
     joint("base/x", "slide", Vec3::UnitX());
     joint("base/z", "slide", Vec3::UnitZ());
@@ -128,11 +128,11 @@ class Mjcf {
     Xml& e = add(element, "joint");
     set(e, "name", joint.name);
     set(e, "type", "hinge");
-    set(e, "pos", interchange::text(hinge.p));
-    set(e, "axis", interchange::text(Vec3(hinge.R * robot_.links[body.link].axis)));
+    set(e, "pos", text(hinge.p));
+    set(e, "axis", text(Vec3(hinge.R * robot_.links[body.link].axis)));
     set(e, "limited", "true");
-    set(e, "range", interchange::text({joint.lo, joint.hi}));
-    if (!limits_.empty() && limits_[j].armature > 0) set(e, "armature", interchange::text({limits_[j].armature}));
+    set(e, "range", text({joint.lo, joint.hi}));
+    if (!limits_.empty() && limits_[j].armature > 0) set(e, "armature", text({limits_[j].armature}));
   }
 
   const BodyType& type(const Body& body) const { return robot_.types[robot_.modules[body.module].type].bodies[body.type]; }
@@ -167,13 +167,13 @@ class Mjcf {
     const BodyType& t = type(body);
     if (!(t.mass > 0) && kind != Attachment::Kind::hinge) return;
     Xml& e = add(element, "inertial");
-    set(e, "pos", interchange::text(t.com));
-    set(e, "mass", interchange::text({std::max(t.mass, kMassless)}));
+    set(e, "pos", text(t.com));
+    set(e, "mass", text({std::max(t.mass, kMassless)}));
     // MuJoCo takes whole tensors, too, but turns them with errors of 1e-12 kg m^2: principal axes are exact.
     Vec3 moments;
     const Mat3 axes = principal_axes(t.inertia, moments);
-    set(e, "quat", text(Quat(axes)));
-    set(e, "diaginertia", interchange::text(Vec3(moments.cwiseMax(kMassless))));
+    set(e, "quat", quaternion(Quat(axes)));
+    set(e, "diaginertia", text(Vec3(moments.cwiseMax(kMassless))));
   }
 
   static Xml& geom(Xml& parent, const std::string& name, const char* type, const std::string& size) {
@@ -188,26 +188,26 @@ class Mjcf {
     for (const Shape& shape : type(body).shapes) {
       Pose pose = shape.in_body;
       if (shape.kind == Shape::Kind::box) {
-        set_pose(geom(element, "", "box", interchange::text(Vec3(shape.size / 2))), pose);
+        set_pose(geom(element, "", "box", text(Vec3(shape.size / 2))), pose);
       } else if (shape.kind == Shape::Kind::sphere) {
-        set_pose(geom(element, "", "sphere", interchange::text({shape.size.x()})), pose);
+        set_pose(geom(element, "", "sphere", text({shape.size.x()})), pose);
       } else {  // MuJoCo has no half cylinder: a whole one, whose other half is inside the body
         pose.R = pose.R * y_from_z();
-        set_pose(geom(element, "", "cylinder", interchange::text({shape.size.x(), shape.size.y() / 2})), pose);
+        set_pose(geom(element, "", "cylinder", text({shape.size.x(), shape.size.y() / 2})), pose);
       }
     }
   }
 
   void draw(Xml& element, const ContactElement& contact, const Body& body) {
-    const std::string pos = interchange::text(body.in_link.inverse() * contact.centre);
-    const std::string size = interchange::text({contact.radius > 0 ? contact.radius : kPointSize});
+    const std::string pos = text(body.in_link.inverse() * contact.centre);
+    const std::string size = text({contact.radius > 0 ? contact.radius : kPointSize});
     Xml& e = geom(element, contact.name, "sphere", size);
     set(e, "pos", pos);
     set(e, "group", "3");
     Xml& site = add(element, "site");
     set(site, "name", contact.name);
     set(site, "pos", pos);
-    set(site, "size", interchange::text({kPointSize}));
+    set(site, "size", text({kPointSize}));
     set(site, "group", "3");
   }
 
@@ -221,7 +221,7 @@ class Mjcf {
       set(e, "joint", robot_.joints[j].name);
       const bool limited = std::isfinite(limits_[j].effort);
       set(e, "ctrllimited", limited ? "true" : "false");
-      if (limited) set(e, "ctrlrange", interchange::text({-limits_[j].effort, limits_[j].effort}));
+      if (limited) set(e, "ctrlrange", text({-limits_[j].effort, limits_[j].effort}));
     }
   }
 
@@ -245,8 +245,8 @@ class Mjcf {
     if (q.empty()) return;
     Xml& key = add(add(root, "keyframe"), "key");
     set(key, "name", "start");
-    set(key, "qpos", interchange::text(q));
-    set(key, "qvel", interchange::text(v));
+    set(key, "qpos", text(q));
+    set(key, "qvel", text(v));
   }
 
   void append_joints(const Xml& element, std::vector<double>& q, std::vector<double>& v) const {

@@ -6,8 +6,8 @@
 
 #include "core/laws/hinge_stop.h"
 #include "core/plugin/actuator.h"
-#include "core/scenario/plugin_instance.h"
-#include "core/scenario/value.h"
+#include "core/plugin/plugin_instance.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab::interchange {
 
@@ -83,7 +83,9 @@ std::string left_out(const Scenario& s) {
                      number_text(s.contact.penalty.kn), number_text(s.contact.penalty.k), number_text(s.contact.penalty.cd),
                      number_text(s.contact.penalty.d), number_text(s.ground.friction), number_text(s.contact.penalty.v_lim));
   }
-  const auto name = [](const Choice& choice) { return choice.entry == nullptr ? "none" : std::string(choice.entry->name); };
+  const auto name = [](const PluginSelection& choice) {
+    return choice.entry == nullptr ? "none" : std::string(choice.entry->name);
+  };
   if (s.actuator.entry != nullptr) {
     out += fmt::format(" Drive: actuator {} behind controller {}, sampled every {} s.", name(s.actuator), name(s.controller),
                        number_text(s.control_period));

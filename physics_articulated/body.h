@@ -24,7 +24,7 @@ class Body {
   Body(const Tree<T>& tree, const Vec<T>& gravity) : tree_(tree), gravity_(gravity), links_(tree.links.size()) {}
 
   /// Poses and velocities from the state; inertias, weight, centrifugal and gyroscopic forces.
-  void place(std::span<const T> state) {
+  void forward_kinematics(std::span<const T> state) {
     place_base(state);
     weigh(0);
     for (std::size_t i = 1; i < links_.size(); ++i) {

@@ -22,7 +22,7 @@ struct Touch {
 
 /// What stands around the robot, one per lane. A ground that is not a plane is asked lane by lane: `query`, over Ground::query.
 template <class T>
-struct Site {
+struct Environment {
   Vec<T> gravity;
   BasicPenaltyContact<T> law;
   bool plane = true;  ///< in every lane
@@ -47,27 +47,29 @@ struct Contact {
   typename BasicPenaltyContact<T>::Normal law;  ///< at the place
   T depth;                                      ///< m, at the start of the step
   T damping;                                    ///< D, N s/m
-  T fn, gn;                                     ///< tangent of the normal force, N, N s/m
-  T most;                                       ///< f Fn, N
-  T push, gt;                                   ///< f Fn while it slides, else 0; slope
-  Vec<T> along;                                 ///< s; 0 while it sticks
+  T fn, normal_damping;                         ///< tangent of the normal force, N, N s/m
+  T friction_limit;                             ///< f Fn, N
+  T sliding_force, tangential_damping;          ///< f Fn while it slides, else 0; slope
+  Vec<T> slip_direction;                        ///< s; 0 while it sticks
   Vec<T> change, held;                          ///< of the iterate: change of velocity, m/s; force that the solve took, N
   Vec<T> next_change, next_held;                ///< of the last solve
 
-  [[nodiscard]] Vec<T> across(const Vec<T>& v) const { return v - dot(along, v) * along; }
-  [[nodiscard]] Vec<T> friction(const Vec<T>& v) const { return -(push * along + gt * across(v)); }
+  [[nodiscard]] Vec<T> across(const Vec<T>& v) const { return v - dot(slip_direction, v) * slip_direction; }
+  [[nodiscard]] Vec<T> friction(const Vec<T>& v) const {
+    return -(sliding_force * slip_direction + tangential_damping * across(v));
+  }
   [[nodiscard]] Vec<T> force() const { return fn * n + friction(vt); }
   /// As the solve takes it, for a change of velocity.
   [[nodiscard]] Vec<T> force(const Vec<T>& dv) const {
     const T normal = dot(n, dv);
-    return (fn - gn * normal) * n + friction(vt + (dv - normal * n));
+    return (fn - normal_damping * normal) * n + friction(vt + (dv - normal * n));
   }
   /// h times the slope: what Body takes for a resistance.
   [[nodiscard]] Sym<T> slope(double h) const {
     const T zero = 0.0;
-    Sym<T> G{h * gt, h * gt, h * gt, zero, zero, zero};
-    G.add_square(h * (gn - gt), n);
-    G.add_square(-h * gt, along);
+    Sym<T> G{h * tangential_damping, h * tangential_damping, h * tangential_damping, zero, zero, zero};
+    G.add_square(h * (normal_damping - tangential_damping), n);
+    G.add_square(-h * tangential_damping, slip_direction);
     return G;
   }
 };
@@ -75,8 +77,8 @@ struct Contact {
 template <class T>
 class Contacts {
  public:
-  Contacts(const Tree<T>& tree, const Site<T>& site)
-      : tree_(tree), site_(site), per_v_lim_(1.0 / site.law.v_lim), first_(tree.links.size() + 1) {
+  Contacts(const Tree<T>& tree, const Environment<T>& environment)
+      : tree_(tree), environment_(environment), per_v_lim_(1.0 / environment.law.v_lim), first_(tree.links.size() + 1) {
     touching_.reserve(tree.points.size());
     for (std::size_t e = 0; e < tree.points.size(); ++e) order_.push_back(e);
     std::stable_sort(order_.begin(), order_.end(),
@@ -97,7 +99,7 @@ class Contacts {
         const Vec<T> v = body.velocity(link, x);
         const T gap = T(reach) * math::sqrt(dot(v, v)) + T(kPull * reach * reach);
         const auto near = found.penetration > -gap;
-        if (!math::any(near)) continue;
+        if (!math::any_lane(near)) continue;
         Contact<T>& c = touching_.emplace_back(contact(order_[e], link, found, x, v, ahead));
         c.depth = math::select(near, c.depth, T(kFar));  // there for other lanes
       }
@@ -110,11 +112,11 @@ class Contacts {
     for (Contact<T>& c : touching_) {
       const Normal end = h > 0 ? normal(c, c.vn, h) : Normal{c.law.fn, c.law.normal_slope};
       c.fn = end.fn;
-      c.gn = end.slope;
-      c.most = c.touch.friction * c.law.fn;
-      c.push = c.gt = T(0.0);
-      c.along = {};
-      slide(c, c.slip >= T(0.0), math::both(c.most > T(0.0), c.slip > site_.law.v_lim), c.vt, c.slip);
+      c.normal_damping = end.slope;
+      c.friction_limit = c.touch.friction * c.law.fn;
+      c.sliding_force = c.tangential_damping = T(0.0);
+      c.slip_direction = {};
+      slide(c, c.slip >= T(0.0), math::mask_and(c.friction_limit > T(0.0), c.slip > environment_.law.v_lim), c.vt, c.slip);
     }
   }
 
@@ -122,7 +124,8 @@ class Contacts {
   void load(std::size_t link, typename Body<T>::Load load, double h) const {
     for (std::size_t i = first_[link]; i < first_[link + 1]; ++i) {
       const Contact<T>& c = touching_[i];
-      if (!math::any(math::either(c.most > T(0.0), math::either(c.fn > T(0.0), c.gn > T(0.0))))) continue;  // in the air
+      if (!math::any_lane(math::mask_or(c.friction_limit > T(0.0), math::mask_or(c.fn > T(0.0), c.normal_damping > T(0.0)))))
+        continue;  // in the air
       load.add_force(c.x, c.force());
       if (h > 0) load.add_resistance(c.x, c.slope(h));
     }
@@ -154,23 +157,24 @@ class Contacts {
   /// Where the iterate is off a law by more than the tolerance: normal force 0.1 % and 1e-5 N, friction a tenth of f Fn in
   /// direction and size, or 1e-6 of it across the corner at v_lim (a tighter one costs solves and changes no error).
   [[nodiscard]] math::Mask<T> off(double h) const {
-    using math::either;
+    using math::mask_or;
     math::Mask<T> all{};
     for (const Contact<T>& c : touching_) {
       const T dn = dot(c.n, c.change);
       const auto down = c.depth - T(h) * (c.vn + dn) > T(0.0);
       const auto held_before = dot(c.held, c.held) > T(0.0);
-      if (!math::any(either(down, either(held_before, either(c.most > T(0.0), c.gn > T(0.0)))))) continue;  // in the air
+      if (!math::any_lane(mask_or(down, mask_or(held_before, mask_or(c.friction_limit > T(0.0), c.normal_damping > T(0.0))))))
+        continue;  // in the air
       const T fn = normal(c, c.vn + dn, h).fn;
       const T held = dot(c.n, c.held);
-      all = either(all, math::abs(fn - held) > kNormalTolerance * math::select(fn > held, fn, held) + kNormalFloor);
+      all = mask_or(all, math::abs(fn - held) > kNormalTolerance * math::select(fn > held, fn, held) + kNormalFloor);
       const Vec<T> end = c.vt + (c.change - dn * c.n);
       const Vec<T> miss = (c.held - held * c.n) - friction(c, end);
-      const auto slides = dot(end, end) > site_.law.v_lim * site_.law.v_lim;
-      const auto slid = c.push > T(0.0);
-      const auto crossed = either(math::fresh(slides, slid), math::fresh(slid, slides));
-      const T tolerance = math::select(crossed, T(kCornerTolerance), T(kFrictionTolerance)) * c.most + kFrictionFloor;
-      all = either(all, dot(miss, miss) > tolerance * tolerance);
+      const auto slides = dot(end, end) > environment_.law.v_lim * environment_.law.v_lim;
+      const auto slid = c.sliding_force > T(0.0);
+      const auto crossed = mask_or(math::fresh(slides, slid), math::fresh(slid, slides));
+      const T tolerance = math::select(crossed, T(kCornerTolerance), T(kFrictionTolerance)) * c.friction_limit + kFrictionFloor;
+      all = mask_or(all, dot(miss, miss) > tolerance * tolerance);
     }
     return all;
   }
@@ -180,11 +184,11 @@ class Contacts {
     for (Contact<T>& c : touching_) {
       const T dn = dot(c.n, c.change);
       const Normal n = normal(c, c.vn + dn, h);
-      c.gn = select(which, n.slope, c.gn);
+      c.normal_damping = select(which, n.slope, c.normal_damping);
       c.fn = select(which, n.fn + n.slope * dn, c.fn);
       const Vec<T> end = c.vt + (c.change - dn * c.n);
       const T speed = math::sqrt(dot(end, end));
-      slide(c, which, math::both(c.most > T(0.0), speed > site_.law.v_lim), end, speed);
+      slide(c, which, math::mask_and(c.friction_limit > T(0.0), speed > environment_.law.v_lim), end, speed);
     }
   }
 
@@ -205,19 +209,19 @@ class Contacts {
     const T zero = 0.0;
     const T p = c.depth - T(h) * vn;
     const auto down = p > zero;
-    if (!math::any(down)) return {zero, zero};
+    if (!math::any_lane(down)) return {zero, zero};
     const auto touched = c.depth > zero;
-    const T damping = select(touched, c.damping, site_.law.damping(p));
-    const T fn = site_.law.spring(p) - damping * vn;
-    const T steeper = math::all(touched) ? zero : select(touched, zero, site_.law.damping_slope(p) * vn);
-    const T slope = damping + T(h) * (site_.law.stiffness(p) - steeper);
-    const auto acts = math::both(down, fn > zero);
-    return {select(acts, fn, zero), select(math::both(acts, slope > zero), slope, zero)};
+    const T damping = select(touched, c.damping, environment_.law.damping(p));
+    const T fn = environment_.law.spring(p) - damping * vn;
+    const T steeper = math::all_lanes(touched) ? zero : select(touched, zero, environment_.law.damping_slope(p) * vn);
+    const T slope = damping + T(h) * (environment_.law.stiffness(p) - steeper);
+    const auto acts = math::mask_and(down, fn > zero);
+    return {select(acts, fn, zero), select(math::mask_and(acts, slope > zero), slope, zero)};
   }
   /// Of friction, at a tangential velocity.
   [[nodiscard]] Vec<T> friction(const Contact<T>& c, const Vec<T>& v) const {
     const T speed = math::sqrt(dot(v, v));
-    return -(c.most / math::select(speed > site_.law.v_lim, speed, site_.law.v_lim)) * v;
+    return -(c.friction_limit / math::select(speed > environment_.law.v_lim, speed, environment_.law.v_lim)) * v;
   }
   [[nodiscard]] Vec<T> law(const Contact<T>& c, const Vec<T>& change, double h) const {
     const T n = dot(c.n, change);
@@ -225,14 +229,15 @@ class Contacts {
   }
 
   [[nodiscard]] Touch<T> touch(const Vec<T>& centre, const T& radius) const {
-    if (site_.plane) {
+    if (environment_.plane) {
       const PlaneTouch<T> found = on_plane(centre.z, radius);
-      return {found.penetration, {T(0.0), T(0.0), T(1.0)}, {centre.x, centre.y, found.height}, site_.friction};
+      return {found.penetration, {T(0.0), T(0.0), T(1.0)}, {centre.x, centre.y, found.height}, environment_.friction};
     }
     Touch<T> all{};
-    for (std::size_t l = 0; l < site_.ground.size(); ++l) {
-      const Touch<double> one = site_.query(
-          *site_.ground[l], {math::lane(centre.x, l), math::lane(centre.y, l), math::lane(centre.z, l)}, math::lane(radius, l));
+    for (std::size_t l = 0; l < environment_.ground.size(); ++l) {
+      const Touch<double> one = environment_.query(*environment_.ground[l],
+                                                   {math::lane(centre.x, l), math::lane(centre.y, l), math::lane(centre.z, l)},
+                                                   math::lane(radius, l));
       put(all.penetration, l, one.penetration);
       put(all.n, l, one.n);
       put(all.point, l, one.point);
@@ -252,23 +257,23 @@ class Contacts {
     c.vn = dot(c.n, v);
     c.vt = v - c.vn * c.n;
     c.slip = math::sqrt(dot(c.vt, c.vt));
-    c.law = site_.law.normal(touch.penetration, c.vn);
+    c.law = environment_.law.normal(touch.penetration, c.vn);
     c.depth = touch.penetration + T(ahead) * c.vn;
-    c.damping = math::select(touch.penetration > T(0.0), site_.law.damping(touch.penetration), T(0.0));
+    c.damping = math::select(touch.penetration > T(0.0), environment_.law.damping(touch.penetration), T(0.0));
     return c;
   }
 
   /// In the lanes `which`: sliding with velocity v of size `speed`, or sticking.
   void slide(Contact<T>& c, const math::Mask<T>& which, const math::Mask<T>& sliding, const Vec<T>& v, const T& speed) const {
     using math::select;
-    const T per_size = math::any(sliding) ? 1.0 / select(sliding, speed, site_.law.v_lim) : per_v_lim_;
-    c.push = select(which, select(sliding, c.most, T(0.0)), c.push);
-    c.gt = select(which, c.most * per_size, c.gt);
-    c.along = select<T>(which, select<T>(sliding, per_size * v, Vec<T>{}), c.along);
+    const T per_size = math::any_lane(sliding) ? 1.0 / select(sliding, speed, environment_.law.v_lim) : per_v_lim_;
+    c.sliding_force = select(which, select(sliding, c.friction_limit, T(0.0)), c.sliding_force);
+    c.tangential_damping = select(which, c.friction_limit * per_size, c.tangential_damping);
+    c.slip_direction = select<T>(which, select<T>(sliding, per_size * v, Vec<T>{}), c.slip_direction);
   }
 
   const Tree<T>& tree_;
-  const Site<T>& site_;
+  const Environment<T>& environment_;
   T per_v_lim_;
   std::vector<std::size_t> order_;    // elements by link
   std::vector<Contact<T>> touching_;  // in that order

@@ -6,17 +6,17 @@
 
 #include "core/simulation/plant.h"
 #include "physics_articulated/eigen.h"
-#include "physics_articulated/single.h"
+#include "physics_articulated/lane_model.h"
 
 namespace gaitlab {
 
 namespace {
 
+using articulated::ContactForce;
 using articulated::Kernel;
 using articulated::KernelSettings;
-using articulated::Press;
+using articulated::LaneModel;
 using articulated::Rollout;
-using articulated::Single;
 using articulated::vec3;
 
 /// Kernels by the number of rollouts they run side by side.
@@ -74,7 +74,7 @@ class ArticulatedPlant final : public Plant {
     for (std::size_t l = 0; l < layout_.lanes; ++l) {
       const LaneSettings& own = l == 0 ? settings_ : settings_.others[l - 1];
       rollouts.push_back(articulated::rollout(own, s.base));
-      singles_.push_back(std::make_unique<Single>(settings_, own, l, layout_.lanes));
+      models_.push_back(std::make_unique<LaneModel>(settings_, own, l, layout_.lanes));
     }
     const auto width = std::find_if(kWidths.begin(), kWidths.end(), [&](const Width& w) { return w.lanes == layout_.lanes; });
     if (width == kWidths.end() || !width->runs()) {
@@ -98,22 +98,24 @@ class ArticulatedPlant final : public Plant {
     out.off = number(at.off());
     out.coarse = number(at.coarse());
   }
-  [[nodiscard]] Applied applied() const override { return kernel_->applied(); }
+  [[nodiscard]] StepEffort applied() const override { return kernel_->applied(); }
 
   void accelerate(std::size_t lane, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
                   Acceleration& out) override {
     StateLayout{layout_.joints, 1}.write(state, 0, x_);
-    singles_[lane]->accelerate(x_, state, torque, wrenches, out);
+    models_[lane]->accelerate(x_, state, torque, wrenches, out);
   }
 
-  bool report(In command, In speed, const Actuator::Report& out) override { return kernel_->report(command, speed, out); }
-  void look() override { kernel_->look(numbers_); }
+  bool evaluate_motors(In command, In speed, const Actuator::Electrical& out) override {
+    return kernel_->evaluate_motors(command, speed, out);
+  }
+  void update_contacts() override { kernel_->update_contacts(numbers_); }
   [[nodiscard]] std::optional<Vec3> com(std::size_t lane) const override { return vec3(kernel_->com(lane)); }
 
   void contacts(std::size_t lane, std::span<ContactSample> out) const override {
     for (ContactSample& sample : out) sample = {};
-    for (const Press& press : kernel_->presses(lane)) {
-      out[press.element] = {vec3(press.force), press.fn, press.touch.penetration, vec3(press.touch.point)};
+    for (const ContactForce& force : kernel_->contact_forces(lane)) {
+      out[force.element] = {vec3(force.force), force.fn, force.touch.penetration, vec3(force.touch.point)};
     }
   }
 
@@ -122,7 +124,7 @@ class ArticulatedPlant final : public Plant {
     if (!explicit_) return {};
     layout_.read(numbers_, lane, state_);
     StateLayout{layout_.joints, 1}.write(state_, 0, x_);
-    return singles_[lane]->stability(x_, state_, command, standing);
+    return models_[lane]->stability(x_, state_, command, standing);
   }
 
  private:
@@ -131,7 +133,7 @@ class ArticulatedPlant final : public Plant {
   bool explicit_;
   Out numbers_, history_;
   std::unique_ptr<Kernel> kernel_;
-  std::vector<std::unique_ptr<Single>> singles_;
+  std::vector<std::unique_ptr<LaneModel>> models_;
   std::vector<double> x_;
   RobotState state_;
 };

@@ -9,10 +9,10 @@ namespace gaitlab::articulated {
 
 /// What one implicit step did.
 template <class T>
-struct Done {
+struct StepResult {
   std::vector<T> torque, speed, angle;           ///< of the motors, N m; of the joints at the step's end
   T contact = 0.0, friction = 0.0, stops = 0.0;  ///< work of the robot on them, J
-  explicit Done(std::size_t joints) : torque(joints), speed(joints), angle(joints) {}
+  explicit StepResult(std::size_t joints) : torque(joints), speed(joints), angle(joints) {}
 };
 
 /// State: entries as in StateLayout, SI. Nothing allocates after the constructor. The step from (q, v) to (q+, v+) solves
@@ -29,9 +29,9 @@ class Implicit {
   static constexpr double kTorqueTolerance = 1e-9;  ///< of a motor's largest torque at rest
   static constexpr double kStopTolerance = 1e-9;    ///< N m
 
-  Implicit(const Tree<T>& tree, const Site<T>& site, const Actuator* actuator)
-      : body(tree, site.gravity),
-        contacts(tree, site),
+  Implicit(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator)
+      : body(tree, environment.gravity),
+        contacts(tree, environment),
         motors(actuator, tree.lo.size()),
         rotor(tree.lo.size(), T(0.0)),
         done(tree.lo.size()),
@@ -49,14 +49,14 @@ class Implicit {
   void step(std::span<T> x, In command, double h, const math::Mask<T>& which) {
     std::copy(x.begin(), x.end(), place_.begin());
     drift<T>(place_, h);
-    body.place(place_);
+    body.forward_kinematics(place_);
     contacts.find(body, h, h);
     start(x, command, h);
     solves = T(0.0);
     off = T(0.0);
     unfinished = {};
     math::Mask<T> open = which;  // lanes in which a law is not met
-    for (int solve = 0; math::any(open); ++solve) {
+    for (int solve = 0; math::any_lane(open); ++solve) {
       if (solve == kSolves) {
         unfinished = open;
         off = math::select(open, missed_, T(0.0));
@@ -65,18 +65,18 @@ class Implicit {
       solves = solves + math::select(open, T(1.0), T(0.0));
       this->solve(h);
       move(open, solve == 0 ? T(1.0) : share(open, x, command, h));
-      open = math::both(open, misses(x, command, h));
-      if (math::any(open)) touch(open, x, h);
+      open = math::mask_and(open, misses(x, command, h));
+      if (math::any_lane(open)) touch(open, x, h);
     }
     finish(x, h, which);
   }
 
   /// The laws themselves at x, and the accelerations that they make: for an explicit method.
   void evaluate(std::span<const T> x, In command) {
-    body.place(x);
+    body.forward_kinematics(x);
     contacts.find(body, 0, 0);
     contacts.begin(0);
-    motors.look(command, speeds(x));
+    motors.linearise(command, speeds(x));
     motors.torque = motors.law;
     for (std::size_t j = 0; j < joints_; ++j) stop_[j] = stop_law(x, j).torque;
     accelerate(0);
@@ -112,7 +112,7 @@ class Implicit {
   Contacts<T> contacts;
   Motors<T> motors;
   std::vector<T> rotor;        ///< reflected inertia of each joint, kg m^2
-  Done<T> done;                ///< of the last step
+  StepResult<T> done;          ///< of the last step
   T solves = 0.0;              ///< that the last step needed
   math::Mask<T> unfinished{};  ///< lanes whose search did not end
   T off = 0.0;                 ///< motors and stops that it left off their law
@@ -130,7 +130,7 @@ class Implicit {
   /// Tangents at the start's speed: that of the last step's end, so that the branch of every law is the last one's.
   void start(std::span<const T> x, In command, double h) {
     const math::Mask<T> all = T(0.0) <= T(0.0);
-    motors.look(command, speeds(x));
+    motors.linearise(command, speeds(x));
     for (std::size_t j = 0; j < joints_; ++j) {
       motors.touch(j, all, speeds(x)[j], speeds(x)[j]);
       const Stop s = stopped(x, j, speeds(x)[j], h);
@@ -165,7 +165,7 @@ class Implicit {
     for (std::size_t j = 0; j < joints_; ++j) {
       end_[j] = speeds(x)[j] + T(h) * (now_.a[6 + j] + share * (next_.a[6 + j] - now_.a[6 + j]));
     }
-    motors.look(command, end_);
+    motors.linearise(command, end_);
     T sum = contacts.excess(share, h);
     for (std::size_t j = 0; j < joints_; ++j) {
       const T d = T(h) * (next_.a[6 + j] - now_.a[6 + j]);
@@ -181,16 +181,16 @@ class Implicit {
     using math::select;
     const T zero = 0.0, one = 1.0;
     T hi = one, f_hi = climb(x, command, h, one);
-    auto open = math::both(which, f_hi > zero);
-    if (!math::any(open)) return one;
+    auto open = math::mask_and(which, f_hi > zero);
+    if (!math::any_lane(open)) return one;
     const T start = climb(x, command, h, zero);
-    open = math::both(open, start < zero);
+    open = math::mask_and(open, start < zero);
     T lo = zero, f_lo = start, result = one;
-    for (int i = 0; i < 40 && math::any(open); ++i) {
+    for (int i = 0; i < 40 && math::any_lane(open); ++i) {
       const T a = i % 3 == 2 ? 0.5 * (lo + hi) : lo + (hi - lo) * f_lo / select(open, f_lo - f_hi, one);
       const T f = climb(x, command, h, a);
       result = select(open, a, result);
-      open = math::both(open, math::abs(f) > -0.01 * start);
+      open = math::mask_and(open, math::abs(f) > -0.01 * start);
       const auto below = f < zero;
       lo = select(below, a, lo);
       f_lo = select(below, f, f_lo);
@@ -203,15 +203,15 @@ class Implicit {
   /// Lanes in which a law at the iterate's end is not what the solve took; missed_: how many motors and stops.
   math::Mask<T> misses(std::span<const T> x, In command, double h) {
     for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + T(h) * now_.a[6 + j];
-    motors.look(command, end_);
+    motors.linearise(command, end_);
     math::Mask<T> any = contacts.off(h);
     missed_ = T(0.0);
     for (std::size_t j = 0; j < joints_; ++j) {
       const auto motor = math::abs(motors.law[j] - now_.torque[j]) > kTorqueTolerance * motors.scale[j];
       const auto stop = math::abs(stopped(x, j, end_[j], h).torque - now_.stop[j]) > T(kStopTolerance);
-      const auto joint = math::either(motor, stop);
+      const auto joint = math::mask_or(motor, stop);
       missed_ = missed_ + math::select(joint, T(1.0), T(0.0));
-      any = math::either(any, joint);
+      any = math::mask_or(any, joint);
     }
     return any;
   }
@@ -239,10 +239,10 @@ class Implicit {
     constexpr double c = BasicHingeStop<T>::kDamping;
     const auto up = q > 0.5 * (lo + hi);
     const T excess = q - select(up, hi, lo);
-    const auto within = math::both(q <= hi, q >= lo);
+    const auto within = math::mask_and(q <= hi, q >= lo);
     const T end = excess + h * qd;
     const T torque = -k * end - c * select(within, (1 / h) * end, qd);
-    const auto acts = math::either(math::both(up, torque < zero), math::fresh(torque > zero, up));
+    const auto acts = math::mask_or(math::mask_and(up, torque < zero), math::fresh(torque > zero, up));
     return {select(acts, torque, zero), select(acts, T(c + h * k), zero)};
   }
 

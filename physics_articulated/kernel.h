@@ -20,7 +20,7 @@ struct Rollout {
 };
 
 /// Force of the ground on a contact element of one lane, world, N.
-struct Press {
+struct ContactForce {
   std::size_t element = 0;
   double fn = 0;
   Vec<double> force;
@@ -33,12 +33,12 @@ class Kernel {
   /// As Plant::advance; history: as Plant::history.
   virtual void step(Out state, Out history, In command, double h) = 0;
   [[nodiscard]] virtual History history() const = 0;  ///< of a rollout
-  [[nodiscard]] virtual Applied applied() const = 0;
-  virtual bool report(In command, In speed, const Actuator::Report& out) = 0;
+  [[nodiscard]] virtual StepEffort applied() const = 0;
+  virtual bool evaluate_motors(In command, In speed, const Actuator::Electrical& out) = 0;
   /// Takes the state for what follows, all lanes at once.
-  virtual void look(In state) = 0;
+  virtual void update_contacts(In state) = 0;
   /// Those that touch, in the order of the elements; valid up to the next call.
-  virtual std::span<const Press> presses(std::size_t lane) = 0;
+  virtual std::span<const ContactForce> contact_forces(std::size_t lane) = 0;
   virtual Vec<double> com(std::size_t lane) = 0;  ///< world, m
 };
 

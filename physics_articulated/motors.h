@@ -31,9 +31,17 @@ class Motors {
     dc_.resize(joints);
     for (BasicDcMotor<T>& to : dc_) {
       for (std::size_t l = 0; l < math::kLanes<T>; ++l, ++from) {
-        const std::array values{from->R,     from->Kt,    from->Ks,   from->gear, from->efficiency,
-                                from->u_max, from->i_max, from->turn, from->steep};
-        const std::array places{&to.R, &to.Kt, &to.Ks, &to.gear, &to.efficiency, &to.u_max, &to.i_max, &to.turn, &to.steep};
+        const std::array values{from->R,
+                                from->Kt,
+                                from->Ks,
+                                from->gear,
+                                from->efficiency,
+                                from->u_max,
+                                from->i_max,
+                                from->reversal_speed,
+                                from->back_emf_damping};
+        const std::array places{
+            &to.R, &to.Kt, &to.Ks, &to.gear, &to.efficiency, &to.u_max, &to.i_max, &to.reversal_speed, &to.back_emf_damping};
         for (std::size_t k = 0; k < values.size(); ++k) math::lane(*places[k], l) = values[k];
       }
     }
@@ -42,7 +50,7 @@ class Motors {
   [[nodiscard]] bool any() const { return actuator_ != nullptr; }
 
   /// Fills law and law_slope at these speeds.
-  void look(In command, std::span<const T> speed) {
+  void linearise(In command, std::span<const T> speed) {
     if (actuator_ != nullptr && dc_.empty()) actuator_->effort(command, math::numbers(speed), numbers(law), numbers(law_slope));
     for (std::size_t j = 0; j < dc_.size(); ++j) {
       const auto effort = dc_[j](of_joint(command, j), speed[j]);
@@ -51,16 +59,16 @@ class Motors {
     }
   }
 
-  /// In the lanes `which`, after look at `end`: the tangent there, as a solve from the speed `start` takes it. A slope below 0,
-  /// which no actuator should have, counts as 0: the solve keeps a solution, and what its end is off the law is told.
+  /// In the lanes `which`, after linearise at `end`: the tangent there, as a solve from the speed `start` takes it. A slope
+  /// below 0, which no actuator should have, counts as 0: the solve keeps a solution, and what its end is off the law is told.
   void touch(std::size_t j, const math::Mask<T>& which, const T& start, const T& end) {
     const T falls = math::select(law_slope[j] > T(0.0), law_slope[j], T(0.0));
     slope[j] = math::select(which, falls, slope[j]);
     torque[j] = math::select(which, law[j] + falls * (end - start), torque[j]);
   }
 
-  /// Actuator::report of DC motors; false: they are none.
-  bool report(In command, In speed, const Actuator::Report& out) const {
+  /// Actuator::electrical of DC motors; false: they are none.
+  bool evaluate(In command, In speed, const Actuator::Electrical& out) const {
     for (std::size_t j = 0; j < dc_.size(); ++j) {
       const auto e = dc_[j](of_joint(command, j), of_joint(speed, j));
       store(e.voltage, j, out.voltage);
@@ -73,7 +81,7 @@ class Motors {
     return !dc_.empty();
   }
 
-  std::vector<T> law, law_slope;  ///< what look found
+  std::vector<T> law, law_slope;  ///< what linearise found
   std::vector<T> torque, slope;   ///< as a solve takes them: torque - slope (w - w_start)
   std::vector<T> scale;           ///< largest torque at rest; 1 where there is no limit to it
   std::vector<T> per_speed;       ///< by which an error of the speed is judged: the slope at rest, else scale / kSpeed

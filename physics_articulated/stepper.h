@@ -10,8 +10,8 @@ enum class Method { adaptive, implicit, extrapolated, rk4 };
 
 /// What a step left behind at one moment within it, and how it counts.
 template <class T>
-struct Part : Done<T> {
-  using Done<T>::Done;
+struct Part : StepResult<T> {
+  using StepResult<T>::StepResult;
   math::Mask<T> lanes{};  ///< whose moment it is
   double h = 0;           ///< s that it stands for, alone; 0: the start, where a new command is met
   T sum = 0.0;            ///< weight in integrals, s: Richardson's, which may be negative
@@ -38,8 +38,8 @@ struct History {
 template <class T>
 class Stepper {
  public:
-  Stepper(const Tree<T>& tree, const Site<T>& site, const Actuator* actuator, Method method, const T& accuracy)
-      : implicit(tree, site, actuator),
+  Stepper(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator, Method method, const T& accuracy)
+      : implicit(tree, environment, actuator),
         layout{tree.lo.size()},
         method_(method),
         joints_(tree.lo.size()),
@@ -94,7 +94,7 @@ class Stepper {
 
   /// What motors give at the start, under the command that may be new: peaks are there.
   void take_start(std::span<const T> x, In command) {
-    implicit.motors.look(command, implicit.speeds(x));
+    implicit.motors.linearise(command, implicit.speeds(x));
     Part<T>& part = add_part();
     part.torque = implicit.motors.law;
     std::ranges::copy(implicit.speeds(x), part.speed.begin());
@@ -116,9 +116,9 @@ class Stepper {
     if (halvings < kHalvings) std::copy(x.begin(), x.end(), halved_[halvings].begin());
     implicit.step(x, command, h, which);
     history_[layout.solves()] = history_[layout.solves()] + math::select(which, implicit.solves, T(0.0));
-    const bool halve = halvings < kHalvings && math::any(implicit.unfinished);
+    const bool halve = halvings < kHalvings && math::any_lane(implicit.unfinished);
     Part<T>& part = add_part();
-    static_cast<Done<T>&>(part) = implicit.done;
+    static_cast<StepResult<T>&>(part) = implicit.done;
     part.lanes = halve ? math::fresh(which, implicit.unfinished) : which;
     part.h = h;
     part.off = implicit.off;
@@ -132,7 +132,7 @@ class Stepper {
   void weigh(std::size_t from, std::size_t to, const math::Mask<T>& which, double weight, bool finest) {
     for (std::size_t i = from; i < to; ++i) {
       Part<T>& part = parts_[i];
-      const auto here = math::both(which, part.lanes);
+      const auto here = math::mask_and(which, part.lanes);
       part.sum = math::select(here, T(weight * part.h), part.sum);
       part.share = math::select(here, T(finest ? part.h : 0.0), part.share);
     }
@@ -153,13 +153,13 @@ class Stepper {
       const T& peak = history_[layout.peak() + j];
       const T least = kFloor * implicit.motors.scale[j];
       const T apart = implicit.motors.per_speed[j] * math::abs(difference(StateLayout::kAngles + joints_ + j));
-      within = math::both(within, apart <= allowed * math::select(peak > least, peak, least));
+      within = math::mask_and(within, apart <= allowed * math::select(peak > least, peak, least));
     }
     for (const auto& [first, speed] :
          {std::pair(StateLayout::kVelocity, kBaseSpeed), {StateLayout::kAngularVelocity, kBaseTurn}}) {
       const Vec<T> apart{difference(first), difference(first + 1), difference(first + 2)};
       const T most = speed * allowed;
-      within = math::both(within, dot(apart, apart) <= most * most);
+      within = math::mask_and(within, dot(apart, apart) <= most * most);
     }
     return within;
   }
@@ -185,7 +185,7 @@ class Stepper {
     weigh(halves, rest, second, 2, true);
     const auto more = math::fresh(which, second);
     math::Mask<T> third{};
-    if (math::any(more)) {
+    if (math::any_lane(more)) {
       std::copy(start.begin(), start.end(), quarters.begin());
       for (int i = 0; i < 4; ++i) settle(quarters, command, h / 4, more);
       third = within(kThirdOrder, more, [&](std::size_t e) { return 2.0 * (quarters[e] - x[e]) - (x[e] - whole[e]); });
@@ -203,10 +203,10 @@ class Stepper {
       whole[e] = select(second, T(2.0) * x[e] - whole[e], of_three);
     }
     normalise<T>(whole);
-    const auto taken = math::either(second, third);
+    const auto taken = math::mask_or(second, third);
     for (std::size_t e = 0; e < x.size(); ++e) x[e] = select(taken, whole[e], start[e]);
     const auto shorter = math::fresh(which, taken);
-    if (!math::any(shorter)) return;
+    if (!math::any_lane(shorter)) return;
     for (int i = 0; i < 2; ++i) adapt(x, command, h / 2, shorter, level + 1);
   }
 

@@ -16,9 +16,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr int kMonitorIterations = 20;  // the rate is right to second order in the vector's error: 20 give 1 % and better
 constexpr const char* kRk4 = "rk4";
-constexpr int kStartIterations = 200;  // once, before the run
 
 class BulletPlant final : public Plant, private InverseMass {
  public:
@@ -72,7 +70,7 @@ class BulletPlant final : public Plant, private InverseMass {
     part_.set(applied_, start_speed_, start_angle_, h);
   }
 
-  [[nodiscard]] Applied applied() const override { return part_.applied(work_); }
+  [[nodiscard]] StepEffort applied() const override { return part_.applied(work_); }
 
   void accelerate(std::size_t, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
                   Acceleration& out) override {
@@ -93,23 +91,15 @@ class BulletPlant final : public Plant, private InverseMass {
     layout_.read(numbers_, 0, state_);
     evaluate(state_, command);
     accelerate(state_, acceleration_);  // factorises the mass matrix for apply
-    // A robot that stands does not turn its motors: at speed they may be saturated, and their slope 0.
     if (standing && settings_.actuator != nullptr) settings_.actuator->effort(at_rest_, at_rest_, torque_, slope_);
-    for (std::size_t j = 0; j < torque_.size(); ++j) {
-      monitor_.motor[j] = slope_[j];
-      monitor_.stop[j] = stop_at(state_, j).damping;
-    }
-    monitor_.contacts.clear();
-    if (standing && settings_.base != Base::fixed) {
-      stand(settings_, kinematics_, monitor_.contacts);
-    } else {
+    std::copy(slope_.begin(), slope_.end(), monitor_.motor.begin());
+    return monitor_.rule(settings_, settings_.base, kinematics_, state_, standing, *this, [&] {
       for_each_contact([&](const Contact& c) {
         monitor_.contacts.push_back({c.element, c.link, c.touch.point, c.touch.normal,
                                      c.force.sliding ? Vec3(c.vt / c.slip) : Vec3::Zero(), c.force.friction_slope,
                                      c.force.normal_slope});
       });
-    }
-    return monitor_.largest(robot_, kinematics_, *this, standing ? kStartIterations : kMonitorIterations);
+    });
   }
 
  private:

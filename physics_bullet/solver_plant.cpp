@@ -39,7 +39,7 @@ class SolverPlant final : public Plant {
 
   [[nodiscard]] std::size_t lanes() const override { return 1; }
   void bind(Out numbers, Out) override { numbers_ = numbers; }
-  [[nodiscard]] bool memoryless() const override { return false; }
+  [[nodiscard]] bool state_is_complete() const override { return false; }
 
   void advance(In command, double h) override {
     layout_.read(numbers_, 0, state_);
@@ -56,7 +56,7 @@ class SolverPlant final : public Plant {
               h);
   }
 
-  [[nodiscard]] Applied applied() const override { return part_.applied(work_); }
+  [[nodiscard]] StepEffort applied() const override { return part_.applied(work_); }
 
   [[nodiscard]] std::optional<Vec3> com(std::size_t) const override { return {}; }
   void accelerate(std::size_t, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::vector<Point> thinned(const std::vector<Point>& points) {
   return kept;
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -5,7 +5,13 @@
 
 #include "report/svg.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
+
+// What all figures share.
+inline constexpr double kWidth = 1000;      ///< px, of the sheet
+inline constexpr double kTitleHeight = 44;  ///< px
+inline constexpr Style kGridLine{.stroke = colour::kPale};
+inline constexpr Style kAxisLine{.stroke = colour::kInk, .width = 1.2};
 
 /// The smallest 1, 2 or 5 times a power of ten not below `least` (> 0).
 double nice_step(double least);
@@ -43,4 +49,4 @@ struct Scale {
 /// by rising x.
 std::vector<Point> thinned(const std::vector<Point>& points);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

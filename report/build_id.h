@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-namespace gaitlab {
+namespace gaitlab::report {
 /// `0.1.0+1a2b3c4 (GNU 12.2.0; Bullet 3.24, SLEEF 3.5.1)`; `.dirty` behind the commit where the tree had changes.
 std::string build_id();
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -5,12 +5,12 @@
 
 #include "report/panel.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 namespace {
 
-constexpr double kWidth = 1000, kLeft = 90, kRight = 970;  // px
-constexpr double kTitleHeight = 44, kLegendLine = 24, kHead = 30, kHeight = 190, kFoot = 52;
+constexpr double kLeft = 90, kRight = 970;  // px
+constexpr double kLegendLine = 24, kHead = 30, kHeight = 190, kFoot = 52;
 
 // Seven colours, then again with dashes.
 Style style_of(std::size_t run) {
@@ -71,4 +71,4 @@ std::string curves_svg(const CurvesInput& input) {
   return svg.finish();
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

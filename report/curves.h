@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 struct CurvesPanel {
   std::string title;                             ///< with the unit
@@ -21,4 +21,4 @@ struct CurvesInput {
 /// An SVG document, 1000 px wide. The runs keep colour and dash from panel to panel.
 std::string curves_svg(const CurvesInput& input);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

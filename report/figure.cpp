@@ -10,14 +10,12 @@
 
 #include "report/panel.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 namespace {
 
-constexpr double kWidth = 1000;
-constexpr double kLeft = 80, kRight = 920;  // px, of all panels
-constexpr double kLeftOfNames = 120;        // px, where legs have their names at the left
-constexpr double kTitleHeight = 44;
+constexpr double kLeft = 80, kRight = 920;                             // px, of all panels
+constexpr double kLeftOfNames = 120;                                   // px, where legs have their names at the left
 constexpr double kChartTop = 36, kChartHeight = 260, kChartFoot = 58;  // below the legend; px
 constexpr double kViewMost = 150;                                      // px, the tallest robot
 constexpr double kViewGap = 40;  // px, between one view's ground and the next one's headroom
@@ -34,8 +32,6 @@ std::size_t first_shown(const std::vector<double>& time) {
 
 Ticks shown_time(const std::vector<double>& time) { return ticks_within(time[first_shown(time)], time.back(), 8); }
 
-constexpr Style kGridLine{.stroke = colour::kPale};
-constexpr Style kAxisLine{.stroke = colour::kInk, .width = 1.2};
 constexpr Style kZeroLine{.stroke = colour::kGrey};
 constexpr Style kAngle{.stroke = colour::kBlue, .width = 2};
 constexpr Style kSetpoint{.stroke = colour::kBlack, .width = 1.1, .dash = "2 3"};
@@ -374,4 +370,4 @@ std::string figure_svg(const FigureInput& input) {
   return svg.finish();
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -7,7 +7,7 @@
 #include "report/footfall.h"
 #include "report/side_view.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 /// The robot at one instant, m, in the plane of the view: x along the travel, y up, the ground at 0.
 struct View {
@@ -39,4 +39,4 @@ struct FigureInput {
 /// and an axis in metres. Values that are not finite leave a gap.
 std::string figure_svg(const FigureInput& input);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

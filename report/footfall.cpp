@@ -4,15 +4,12 @@
 
 #include <algorithm>
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 namespace {
 
-constexpr double kHead = 30, kRow = 24, kBar = 12, kFoot = 26;  // px
+constexpr double kNoteHeight = 30, kRow = 24, kBar = 12, kAxisHeight = 26;  // px
 constexpr double kGapSeen = 0.6;  // px: a foot that bounces within it looks as if it stood, and the file stays small
-
-constexpr Style kGridLine{.stroke = colour::kPale};
-constexpr Style kAxisLine{.stroke = colour::kInk, .width = 1.2};
 
 std::string place_on_side(std::size_t rank, std::size_t count) {
   if (rank == 0) return "front";
@@ -72,11 +69,11 @@ std::vector<std::string> leg_names(const std::vector<Leg>& legs) {
   return names;
 }
 
-double footfall_height(std::size_t rows) { return kHead + kRow * static_cast<double>(rows) + kFoot; }
+double footfall_height(std::size_t rows) { return kNoteHeight + kRow * static_cast<double>(rows) + kAxisHeight; }
 
 void draw_footfalls(Svg& svg, const std::vector<Footfall>& rows, const std::string& note, const Ticks& time, const Scale& x,
                     double top) {
-  const double first = top + kHead;
+  const double first = top + kNoteHeight;
   const double bottom = first + kRow * static_cast<double>(rows.size());
   svg.text({x.from, top + 18}, "footfall", {.bold = true});
   svg.text({x.to + 8 + text_width("0.00", 13), top + 18}, note, {.anchor = Anchor::end});
@@ -90,4 +87,4 @@ void draw_footfalls(Svg& svg, const std::vector<Footfall>& rows, const std::stri
   svg.rectangle({x.from, first}, x.to - x.from, bottom - first, kAxisLine);
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -7,7 +7,7 @@
 #include "core/plugin/legs.h"
 #include "report/axes.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 /// A stretch of time in which a leg carries load, s.
 struct Stance {
@@ -40,4 +40,4 @@ double footfall_height(std::size_t rows);
 void draw_footfalls(Svg& svg, const std::vector<Footfall>& rows, const std::string& note, const Ticks& time, const Scale& x,
                     double top);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 namespace {
 
@@ -289,4 +289,4 @@ MotionCycle find_limit_cycle(std::span<const double> values, std::size_t columns
   return best;
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -7,7 +7,7 @@
 
 #include "report/trust.h"
 
-namespace gaitlab::texts {
+namespace gaitlab::report::texts {
 
 namespace {
 
@@ -171,4 +171,4 @@ std::string limit_cycle_cell(const RunData& run) {
   return fmt::format(" {:.4g} s from {:.3g} s, to {}", cycle.period, cycle.from, percent(cycle.error));
 }
 
-}  // namespace gaitlab::texts
+}  // namespace gaitlab::report::texts

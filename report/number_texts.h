@@ -5,7 +5,7 @@
 
 #include "report/numbers.h"
 
-namespace gaitlab::texts {
+namespace gaitlab::report::texts {
 
 using Lines = std::vector<std::string>;
 
@@ -40,4 +40,4 @@ std::string saturated_cell(const RunData& run);
 std::string tracking_cell(const RunData& run);
 std::string limit_cycle_cell(const RunData& run);
 
-}  // namespace gaitlab::texts
+}  // namespace gaitlab::report::texts

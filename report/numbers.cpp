@@ -7,7 +7,7 @@
 #include "report/number_texts.h"
 #include "report/trust.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 namespace {
 
@@ -387,4 +387,4 @@ bool has_motors(const RunData& run) { return run.scenario.actuator.entry != null
 
 bool has_motors(const Scenario& scenario) { return scenario.actuator.entry != nullptr && !scenario.robot->joints.empty(); }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

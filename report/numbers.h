@@ -9,7 +9,7 @@
 
 #include "report/summary.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 /// What a number is computed from: a run that has ended, and its summary.
 struct RunData {
@@ -79,4 +79,4 @@ bool has_motors(const Scenario& scenario);
 /// The same of a run, and whether its statistics are known.
 bool has_motors(const RunData& run);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

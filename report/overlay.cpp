@@ -6,12 +6,12 @@
 
 #include "report/panel.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 namespace {
 
-constexpr double kWidth = 1000, kLeft = 110, kRight = 970;  // px
-constexpr double kTitleHeight = 44, kHead = 30, kSignals = 150, kGap = 14, kDifference = 80, kFoot = 52;
+constexpr double kLeft = 110, kRight = 970;  // px
+constexpr double kHead = 30, kSignals = 150, kGap = 14, kDifference = 80, kFoot = 52;
 constexpr double kPanel = kHead + kSignals + kGap + kDifference + kFoot;
 
 constexpr Style kReference{.stroke = colour::kBlue, .width = 2};
@@ -85,4 +85,4 @@ std::string overlay_svg(const std::string& title, const std::vector<OverlayPanel
   return svg.finish();
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 struct OverlayPanel {
   std::string name, unit;
@@ -18,4 +18,4 @@ struct OverlayPanel {
 /// without rows are left out.
 std::string overlay_svg(const std::string& title, const std::vector<OverlayPanel>& panels);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -3,14 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gaitlab {
-
-namespace {
-
-constexpr Style kGrid{.stroke = colour::kPale};
-constexpr Style kFrame{.stroke = colour::kInk, .width = 1.2};
-
-}  // namespace
+namespace gaitlab::report {
 
 void Bounds::add(double value) {
   if (!std::isfinite(value)) return;
@@ -30,12 +23,12 @@ Panel::Panel(Svg& svg, const PlotArea& area, const Ticks& time, const Ticks& val
       time_(time),
       x_{time.lo, time.hi, area.left, area.right},
       y_{values.lo, values.hi, area.bottom, area.top} {
-  for (const double t : time.values()) svg_.line({x_(t), area.top}, {x_(t), area.bottom}, kGrid);
+  for (const double t : time.values()) svg_.line({x_(t), area.top}, {x_(t), area.bottom}, kGridLine);
   for (const double value : values.values()) {
-    svg_.line({area.left, y_(value)}, {area.right, y_(value)}, kGrid);
+    svg_.line({area.left, y_(value)}, {area.right, y_(value)}, kGridLine);
     svg_.text({area.left - 8, y_(value) + 4.5}, values.label(value), {.size = 11, .anchor = Anchor::end});
   }
-  svg_.rectangle({area.left, area.top}, area.right - area.left, area.bottom - area.top, kFrame);
+  svg_.rectangle({area.left, area.top}, area.right - area.left, area.bottom - area.top, kAxisLine);
 }
 
 void Panel::curve(std::span<const double> time, std::span<const double> values, const Style& style) {
@@ -55,4 +48,4 @@ void Panel::time_axis() {
   svg_.text({(area_.left + area_.right) / 2, area_.bottom + 36}, "time (s)", {.anchor = Anchor::middle});
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -5,7 +5,7 @@
 
 #include "report/axes.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 /// The range of what is drawn; values that are not finite do not count.
 struct Bounds {
@@ -39,4 +39,4 @@ class Panel {
   Scale x_, y_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

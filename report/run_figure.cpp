@@ -8,7 +8,7 @@
 
 #include "report/figure.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 namespace {
 
@@ -196,4 +196,4 @@ std::string run_figure(const Scenario& scenario, const Recording& r, const Summa
   return figure_svg(input);
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

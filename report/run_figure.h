@@ -7,7 +7,7 @@
 #include "core/plugin/legs.h"
 #include "report/summary.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 /// The most loaded joint on twin axes, and the robot from the side at the last five seconds.
 ///
@@ -23,4 +23,4 @@ std::string run_figure(const Scenario& scenario, const Recording& record, const 
 /// front. Not the most loaded of the spine: in our hexapod that is the foremost one, where the front legs are docked.
 std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& legs);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

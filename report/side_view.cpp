@@ -5,7 +5,7 @@
 #include <limits>
 #include <tuple>
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 namespace {
 
@@ -124,4 +124,4 @@ std::vector<Outline> side_view(const Robot& robot, const Kinematics& kinematics)
   return outlines;
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

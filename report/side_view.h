@@ -5,7 +5,7 @@
 #include "core/model/kinematics.h"
 #include "report/svg.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 /// What a body is to the eye: the block that carries the active or the passive faces, or the link between them.
 enum class Role { active, link, passive, other };
@@ -27,4 +27,4 @@ Polygon box_outline(const Pose& pose, const Vec3& size);
 /// The convex hull, counter-clockwise, without points on its edges.
 Polygon convex_hull(std::vector<Point> points);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 #include "core/simulation/start.h"
 #include "core/simulation/step_advice.h"
 #include "report/build_id.h"
 #include "report/number_texts.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 namespace {
 
@@ -176,4 +176,4 @@ std::string stability_warning(const Summary& s, const Scenario& scenario, const 
                      step_advice(scenario, contacts, r.worst, fmt::format("at t = {:.2f} s", r.worst_time)));
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -7,7 +7,7 @@
 #include "core/simulation/simulation.h"
 #include "report/limit_cycle.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 /// Definitions of every figure: docs/conventions.md. SI.
 struct Summary {
@@ -43,4 +43,4 @@ std::string fall_warning(const Scenario& scenario, const Recording& record);
 /// The warning about a step that was too long for more than 1 % of the control ticks, or "".
 std::string stability_warning(const Summary& summary, const Scenario& scenario, const Recording& record);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

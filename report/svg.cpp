@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 namespace {
 
@@ -156,4 +156,4 @@ std::string Svg::finish() const {
       number(width_), number(height_), body_);
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 /// In a drawing: px, y down. In a side view: m, y stands for the world's z, up.
 struct Point {
@@ -64,4 +64,4 @@ std::string xml_escaped(std::string_view text);
 /// A rough width of `text` in a sans-serif font of `size` px, for layouts.
 double text_width(std::string_view text, double size);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

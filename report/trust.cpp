@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 #include "core/simulation/step_advice.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 namespace {
 
@@ -107,4 +107,4 @@ std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
   return warnings;
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

@@ -5,7 +5,7 @@
 
 #include "core/simulation/simulation.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 /// Estimate (core/simulation/step_error.h) of how far the motor torques are off, RMS over the joint's largest, both at the
 /// moments of the estimate, of the worst joint. A joint's peak counts as at least 2 % of the largest of all.
@@ -27,4 +27,4 @@ std::string steps_text(const Scenario& scenario, const Recording& record);
 /// off their law, steps that never reached the accuracy.
 std::vector<std::string> trust_warnings(const Scenario& scenario, const Recording& record);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

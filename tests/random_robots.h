@@ -11,6 +11,7 @@
 #include "actuators/dc_motor.h"
 #include "core/math/functions.h"
 #include "core/model/kinematics.h"
+#include "core/scenario/module_file.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab::test {
@@ -88,8 +89,8 @@ class RandomRobots {
   /// Motors of every kind, one per joint: from the shipped one's size to a hundredth of its torque, every third with a current
   /// limit that it lives at, every second with a rotor; gears as printed or directional. Their back-EMF damps up to about as
   /// much as the shipped one's (0.9 N m s). A directional gear damps more, so that an explicit method asks for the rate.
-  DcMotorActuator::Settings motors(std::size_t joints) {
-    DcMotorActuator::Settings m;
+  actuators::DcMotorActuator::Settings motors(std::size_t joints) {
+    actuators::DcMotorActuator::Settings m;
     const auto each = [&](PerJoint& value, const auto& draw) {
       value.each.clear();
       for (std::size_t j = 0; j < joints; ++j) value.each.push_back(draw());
@@ -102,8 +103,8 @@ class RandomRobots {
     each(m.u_max, [&] { return uniform(2, 12); });
     each(m.i_max, [&] { return below(3) == 0 ? uniform(0.02, 0.2) : uniform(0.5, 3); });
     each(m.rotor_inertia, [&] { return below(2) == 0 ? 0 : scaled(1e-10, 1e-8); });
-    m.efficiency_model =
-        below(2) == 0 ? DcMotorActuator::EfficiencyModel::paper : DcMotorActuator::EfficiencyModel::directional;
+    m.efficiency_model = below(2) == 0 ? actuators::DcMotorActuator::EfficiencyModel::paper
+                                       : actuators::DcMotorActuator::EfficiencyModel::directional;
     m.turn_speed = scaled(0.3, 3);
     return m;
   }

@@ -31,7 +31,7 @@ struct BasicPenaltyContact {
     const T zero = 0.0;
     const T damper = damping(p);
     const T fn = spring(p) - damper * vn;
-    const math::Mask<T> acts = math::both(p > 0.0, fn > 0.0);
+    const math::Mask<T> acts = math::mask_and(p > 0.0, fn > 0.0);
     return {select(acts, fn, zero), select(acts, damper, zero), select(acts, stiffness(p), zero), acts};
   }
   // For p > 0 alone, perhaps no number in the air: Kn p^k, N; its slope, N/m; Cd p^d, N s/m; its slope, N s/m^2.
@@ -39,7 +39,7 @@ struct BasicPenaltyContact {
   [[nodiscard]] T stiffness(const T& p) const { return kn * k * power(p, k - 1.0); }
   [[nodiscard]] T damping(const T& p) const { return cd * power(p, d); }
   [[nodiscard]] T damping_slope(const T& p) const { return cd * d * power(p, d - 1.0); }
-  [[nodiscard]] math::Mask<T> slides(const Normal& n, const T& slip) const { return math::both(n.acts, slip > v_lim); }
+  [[nodiscard]] math::Mask<T> slides(const Normal& n, const T& slip) const { return math::mask_and(n.acts, slip > v_lim); }
   /// slip: |v|; friction: f of the ground.
   [[nodiscard]] Force operator()(const T& p, const T& vn, const T& slip, const T& friction) const {
     using math::select;
@@ -52,9 +52,9 @@ struct BasicPenaltyContact {
   static T power(const T& x, const T& e) {
     using math::select;
     const auto none = e == T(0.0);
-    const auto easy = math::either(none, e == T(1.0));
+    const auto easy = math::mask_or(none, e == T(1.0));
     const T simple = select(none, T(1.0), x);
-    return math::all(easy) ? simple : select(easy, simple, math::pow(x, e));
+    return math::all_lanes(easy) ? simple : select(easy, simple, math::pow(x, e));
   }
 };
 

@@ -11,20 +11,21 @@ namespace gaitlab {
 /// u V, w joint speed rad/s, i A, T N m on the joint. Inductance neglected, as in the paper. V: double or lanes.
 ///
 /// As printed, eq. 2 takes eta from the torque both ways: a joint that drives its motor then gets away with eta T instead of T
-/// / eta, and the gear creates energy. `turn` > 0 makes it directional: T = eta^s Kt i n, s = w sign(i) / turn within [-1, 1],
-/// so that eta acts while driving, 1 / eta while back-driven, and the gear's loss (1 - eta^s) Kt i n w is never negative. The
-/// steps of torque at w = 0 would make any explicit method chatter; `turn` spreads it, as v_lim does for friction.
+/// / eta, and the gear creates energy. `reversal_speed` > 0 makes it directional: T = eta^s Kt i n, s = w sign(i) /
+/// reversal_speed within [-1, 1], so that eta acts while driving, 1 / eta while back-driven, and the gear's loss (1 - eta^s) Kt
+/// i n w is never negative. The steps of torque at w = 0 would make any explicit method chatter; `reversal_speed` spreads it,
+/// as v_lim does for friction.
 template <class V>
 struct BasicDcMotor {
   V R = 1.0, Kt = 0.0, Ks = 0.0, gear = 1.0, efficiency = 1.0, u_max = 0.0, i_max = 0.0;
-  V turn = 0.0;  ///< rad/s on the joint; 0: eq. 2 as printed
-  V steep = Kt * Ks * gear * gear / R;
+  V reversal_speed = 0.0;  ///< rad/s on the joint; 0: eq. 2 as printed
+  V back_emf_damping = Kt * Ks * gear * gear / R;
 
   struct Effort {
-    V torque;                        ///< N m
-    V slope;                         ///< -dT/dw >= 0, N m s/rad: eta Kt Ks n^2 / R, 0 while limited; more within `turn`
-    V current;                       ///< A
-    V voltage;                       ///< at the terminals: R i + Ks n w, V
+    V torque;   ///< N m
+    V slope;    ///< -dT/dw >= 0, N m s/rad: eta Kt Ks n^2 / R, 0 while limited; more within `reversal_speed`
+    V current;  ///< A
+    V voltage;  ///< at the terminals: R i + Ks n w, V
     math::Mask<V> limited, clamped;  ///< the current; the command
     V drawn;                         ///< electrical power, W
     V copper, gear;                  ///< what becomes heat of it in the winding and in the gear, W
@@ -53,7 +54,7 @@ struct BasicDcMotor {
     const V drawn = voltage * current;
     const V copper = R * current * current;
     return {torque,
-            share.eta * select(limited, V(0.0), steep) + share.slope * Kt * math::abs(current) * gear,
+            share.eta * select(limited, V(0.0), back_emf_damping) + share.slope * Kt * math::abs(current) * gear,
             current,
             voltage,
             limited,
@@ -71,13 +72,13 @@ struct BasicDcMotor {
     using math::select;
     const V zero = 0.0;
     const V one = 1.0;
-    const auto directional = turn > zero;
-    if (!math::any(directional)) return {efficiency, zero};
-    const V along = select(current < zero, -speed, speed) / select(directional, turn, one);
+    const auto directional = reversal_speed > zero;
+    if (!math::any_lane(directional)) return {efficiency, zero};
+    const V along = select(current < zero, -speed, speed) / select(directional, reversal_speed, one);
     const V loss = math::log(efficiency);  // <= 0
     const V eta = math::exp(loss * math::clamp(along, -one, one));
-    return {select(directional, eta, efficiency),
-            select(math::both(directional, math::abs(along) < one), -eta * loss / select(directional, turn, one), zero)};
+    return {select(directional, eta, efficiency), select(math::mask_and(directional, math::abs(along) < one),
+                                                         -eta * loss / select(directional, reversal_speed, one), zero)};
   }
 };
 

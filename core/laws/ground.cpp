@@ -35,7 +35,7 @@ struct Face {
 constexpr std::array<Face, 6> kFaces{{{2, 1}, {2, -1}, {1, 1}, {1, -1}, {0, 1}, {0, -1}}};
 
 /// The ways by which an element left one box after another: a seam, a corner of four tiles.
-struct Ways {
+struct ExitPath {
   std::array<Vec3, 3> normals;
   std::size_t count = 0;
   [[nodiscard]] bool back(const Vec3& normal) const {
@@ -44,7 +44,8 @@ struct Ways {
 };
 
 /// How much farther it is into the open from a place where an element left box `left`; at least `bound` is enough to know.
-double onward(const std::vector<Box>& boxes, const Box& left, const Vec3& place, const Ways& ways, double bound) {
+double remaining_exit_depth(const std::vector<Box>& boxes, const Box& left, const Vec3& place, const ExitPath& ways,
+                            double bound) {
   double most = 0;
   for (const Box& box : boxes) {
     if (&box == &left) continue;
@@ -56,9 +57,9 @@ double onward(const std::vector<Box>& boxes, const Box& left, const Vec3& place,
       double cost = face.depth(box, local);
       if (cost >= least || ways.back(normal)) continue;
       if (ways.count < ways.normals.size()) {
-        Ways longer = ways;
+        ExitPath longer = ways;
         longer.normals[longer.count++] = normal;
-        cost += onward(boxes, box, place + cost * normal, longer, least - cost);
+        cost += remaining_exit_depth(boxes, box, place + cost * normal, longer, least - cost);
       }
       least = std::min(least, cost);
     }
@@ -78,7 +79,7 @@ Push inside(const std::vector<Box>& boxes, const Box& box, const Vec3& centre, c
     const Vec3 place = centre + depth * normal;
     if (normal.z() < kBack && place.z() < 2 * kSame) continue;
     // Twice: at a seam, where the way to the next box is short, up is still the shorter one.
-    const double cost = depth + 2 * onward(boxes, box, place, {{normal}, 1}, least - depth);
+    const double cost = depth + 2 * remaining_exit_depth(boxes, box, place, {{normal}, 1}, least - depth);
     if (cost >= least) continue;
     least = cost;
     push.penetration = radius + depth;
@@ -178,7 +179,7 @@ Ground::Touch Ground::on_boxes(const Vec3& centre, double radius) const {
 }
 
 Ground::Touch Ground::on_field(const Vec3& centre, double radius) const {
-  Heightfield::Spot spot = field.at(centre.x(), centre.y());
+  Heightfield::SurfacePoint spot = field.at(centre.x(), centre.y());
   double distance = (centre.z() - spot.z) * spot.normal.z();
   const bool near = std::abs(distance) < radius + field.spacing;  // else any measure of the gap will do
   for (int step = 0; near && step < kPerpendiculars; ++step) {

@@ -45,7 +45,7 @@ Stencil stencil(double u, std::size_t n) {
 
 }  // namespace
 
-Heightfield::Spot Heightfield::at(double x, double y) const {
+Heightfield::SurfacePoint Heightfield::at(double x, double y) const {
   const Stencil a = stencil((x - origin.x()) / spacing, columns);
   const Stencil b = stencil((y - origin.y()) / spacing, rows());
   double z = 0;

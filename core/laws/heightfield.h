@@ -16,11 +16,11 @@ struct Heightfield {
   std::size_t columns = 0;          ///< along x; at least 2, as there are at least 2 rows, along y
   std::vector<double> values = {};  ///< above the origin, m, row by row
 
-  struct Spot {
+  struct SurfacePoint {
     double z;     ///< m, world
     Vec3 normal;  ///< upwards
   };
-  [[nodiscard]] Spot at(double x, double y) const;
+  [[nodiscard]] SurfacePoint at(double x, double y) const;
   [[nodiscard]] std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
 };
 

@@ -46,11 +46,11 @@ Doubles<N> select(const Bools<N>& mask, const Doubles<N>& yes, const Doubles<N>&
   return Doubles<N>(mask.v ? yes.v : no.v);
 }
 template <std::size_t N>
-Bools<N> both(const Bools<N>& a, const Bools<N>& b) {
+Bools<N> mask_and(const Bools<N>& a, const Bools<N>& b) {
   return {a.v & b.v};
 }
 template <std::size_t N>
-Bools<N> either(const Bools<N>& a, const Bools<N>& b) {
+Bools<N> mask_or(const Bools<N>& a, const Bools<N>& b) {
   return {a.v | b.v};
 }
 template <std::size_t N>

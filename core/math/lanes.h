@@ -15,13 +15,13 @@ template <class T>
 inline constexpr std::size_t kLanes = sizeof(T) / sizeof(double);
 
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
-inline bool both(bool a, bool b) { return a && b; }
-inline bool either(bool a, bool b) { return a || b; }
+inline bool mask_and(bool a, bool b) { return a && b; }
+inline bool mask_or(bool a, bool b) { return a || b; }
 /// yes and not already
 inline bool fresh(bool yes, bool already) { return yes && !already; }
 /// Whether work may be skipped: it is masked off in every lane.
-inline bool any(bool mask) { return mask; }
-inline bool all(bool mask) { return mask; }
+inline bool any_lane(bool mask) { return mask; }
+inline bool all_lanes(bool mask) { return mask; }
 inline double sqrt(double x) { return std::sqrt(x); }  // exact to rounding everywhere, unlike its kin (core/math/functions.h)
 inline double abs(double x) { return std::abs(x); }
 template <class T>

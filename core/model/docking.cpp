@@ -31,9 +31,9 @@ std::string face_list(const ModuleType& type, const Gender* only = nullptr) {
 const char* word(Gender gender) { return gender == Gender::active ? "active" : "passive"; }
 
 /// Checks of the rows, one problem each.
-class Rows {
+class DockRows {
  public:
-  Rows(const std::vector<ModuleType>& types, const std::vector<std::size_t>& type_of, const std::vector<Dock>& docks)
+  DockRows(const std::vector<ModuleType>& types, const std::vector<std::size_t>& type_of, const std::vector<Dock>& docks)
       : types_(types), type_of_(type_of), docks_(docks) {
     for (const Dock& dock : docks) children_.insert(dock.child_module);
   }
@@ -171,7 +171,7 @@ std::size_t lattice_of(const Robot& robot, std::size_t module) {
 
 void check_docks(const std::vector<ModuleType>& types, const std::vector<std::size_t>& type_of,
                  const std::vector<Dock>& docks) {
-  Rows(types, type_of, docks).check();
+  DockRows(types, type_of, docks).check();
 }
 
 void check_cells(const Robot& robot) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <span>
 
 #include "core/math/functions.h"
 
@@ -10,6 +11,9 @@ namespace gaitlab {
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;  ///< turns body coordinates into world coordinates
+
+/// The three numbers of v, for what takes lists.
+inline std::span<double> span_of(Vec3& v) { return {v.data(), 3}; }
 
 /// Pose of a frame B in a frame A: p_A = R p_B + p.
 struct Pose {

@@ -49,7 +49,7 @@ struct ContactElement {
 
 struct Dock {
   int child_face = 0, child_module = 0, parent_face = 0, parent_module = 0, orientation = 0;
-  Place place = {};
+  SourceLocation place = {};
 };
 
 struct Module {

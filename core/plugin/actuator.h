@@ -19,10 +19,10 @@ class Actuator {
   /// torque: N m on the joint, positive along its axis; slope = -d(torque)/d(speed) >= 0, N m s/rad, 0 while limited.
   virtual void effort(In command, In speed, Out torque, Out slope) const = 0;
   /// voltage V, current A, saturation (0 none, 1 voltage, 2 current), power drawn, lost in copper and in the gear, W.
-  struct Report {
+  struct Electrical {
     Out voltage, current, saturation, power_in, copper, gear;
   };
-  virtual void report(In command, In speed, Report) const = 0;  ///< for trace and ledger only
+  virtual void electrical(In command, In speed, Electrical) const = 0;  ///< for trace and ledger only
   /// effort as it would be without the limit that depends on the speed (a motor's largest current); the same bits where that
   /// does not bind. Asked by contact.law: bullet, whose rows have the limit apart. Without such a limit: effort.
   virtual void unlimited(In command, In speed, Out torque, Out slope) const { effort(command, speed, torque, slope); }

@@ -53,7 +53,7 @@ class NamedTermination {
 };
 
 /// What scenarios, --set and lists with commas can hold.
-bool is_name(const std::string& text) {
+bool is_plugin_name(const std::string& text) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto inside = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
   return !text.empty() && letter(text.front()) && std::all_of(text.begin(), text.end(), inside);
@@ -61,21 +61,19 @@ bool is_name(const std::string& text) {
 
 }  // namespace
 
-const char* word(Kind kind) {
-  switch (kind) {
-    case Kind::cpg:
-      return "cpg";
-    case Kind::controller:
-      return "controller";
-    case Kind::actuator:
-      return "actuator";
-  }
-  return "";
+const PluginKind& describe(Kind kind) {
+  return *std::find_if(kPluginKinds.begin(), kPluginKinds.end(), [&](const PluginKind& one) { return one.kind == kind; });
+}
+
+const PluginKind* find_kind(std::string_view section) {
+  const auto* const at =
+      std::find_if(kPluginKinds.begin(), kPluginKinds.end(), [&](const PluginKind& one) { return one.section == section; });
+  return at == kPluginKinds.end() ? nullptr : at;
 }
 
 void Catalog::add(const Entry& entry) {
   const std::string name(entry.name);
-  if (!is_name(name)) {
+  if (!is_plugin_name(name)) {
     throw std::invalid_argument(std::string(word(entry.kind)) + " '" + name + "' of " + origin_ +
                                 " has no name: a letter first, then letters, digits, _ and -");
   }

@@ -1,9 +1,11 @@
 // What is registered in this program: plugins by kind and name, with their origin, and the engines.
 #pragma once
+#include <array>
 #include <deque>
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/plugin/registry.h"
@@ -39,8 +41,27 @@ struct Engine {
 
 inline constexpr std::string_view kBuiltIn = "built in";  ///< an origin
 
-/// `cpg`, `controller` or `actuator`: also the scenario's section.
-const char* word(Kind kind);
+/// A kind of plugin, as the scenario and the messages know it.
+struct PluginKind {
+  Kind kind;
+  const char* section;       ///< of the scenario, and the word for the kind in messages
+  const char* default_type;  ///< where the section names none
+  bool may_be_none;          ///< whether `type: none` is a choice
+  const char* about;         ///< of the section
+  const char* about_type;    ///< of its key `type`
+};
+inline constexpr std::array<PluginKind, 3> kPluginKinds{{
+    {Kind::cpg, "cpg", "phase_oscillator", false, "Pattern generator; without this section the initial angles are held.",
+     "Oscillator model or gait; its own keys: gaitlab explain cpg TYPE."},
+    {Kind::controller, "controller", "pid", false, "Controller of the joints: from set points to commands.",
+     "Joint controller; its own keys: gaitlab explain controller TYPE."},
+    {Kind::actuator, "actuator", "dc_motor", true, "The motor of every joint.",
+     "Motor model; its own keys: gaitlab explain actuator TYPE."},
+}};
+const PluginKind& describe(Kind kind);
+/// By its section; nullptr: no kind of plugin has it.
+const PluginKind* find_kind(std::string_view section);
+inline const char* word(Kind kind) { return describe(kind).section; }
 
 class Catalog final : public Registry {
  public:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,6 +23,8 @@ struct Spec {
   double min, max;
   const char* about;
 };
+
+inline constexpr double kPositive = std::numeric_limits<double>::denorm_min();  ///< as the least number of a range: more than 0
 
 /// A value per joint: in YAML a number, a list, or {default: x, m3/passive: y}.
 struct PerJoint {

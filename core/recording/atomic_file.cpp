@@ -87,13 +87,13 @@ std::filesystem::file_type kind_of(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::file_type type = std::filesystem::status(path, error).type();
   if (type == std::filesystem::file_type::none)
-    throw InputError(Place{path.string()}, "cannot be read: " + std::generic_category().message(error.value()));
+    throw InputError(SourceLocation{path.string()}, "cannot be read: " + std::generic_category().message(error.value()));
   return type;
 }
 
 std::string read_file(const std::filesystem::path& path) {
   const auto fail = [&](int error) -> InputError {
-    return {Place{path.string()}, "cannot be read: " + std::generic_category().message(error)};
+    return {SourceLocation{path.string()}, "cannot be read: " + std::generic_category().message(error)};
   };
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw fail(errno);

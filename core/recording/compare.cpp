@@ -19,7 +19,7 @@ constexpr double kSameTime = 1e-6;  // of the spacing; rounding of k h is some 1
 constexpr double kFlat = 1e-12;     // a range below is rounding, in any unit a trace has
 constexpr std::size_t kNamesShown = 8;
 
-struct Rows {
+struct SharedRow {
   std::size_t a = 0, b = 0;
 };
 
@@ -106,7 +106,7 @@ class Comparison {
     const std::size_t rows_a = a_.rows();
     const std::size_t rows_b = b_.rows();
     const double spacing = rows_a > 1 ? (a_.at(rows_a - 1, 0) - a_.at(0, 0)) / static_cast<double>(rows_a - 1) : 1.0;
-    for (Rows at; at.a < rows_a && at.b < rows_b;) {
+    for (SharedRow at; at.a < rows_a && at.b < rows_b;) {
       const double late = b_.at(at.b, 0) - a_.at(at.a, 0);
       if (std::abs(late) <= kSameTime * spacing) rows_.push_back(at);
       if (late <= kSameTime * spacing) ++at.b;
@@ -135,7 +135,7 @@ class Comparison {
     Pair pair;
     pair.a.reserve(rows_.size());
     pair.b.reserve(rows_.size());
-    for (const Rows& at : rows_) {
+    for (const SharedRow& at : rows_) {
       pair.a.push_back(a_.at(at.a, column));
       pair.b.push_back(b_.at(at.b, other));
     }
@@ -219,7 +219,7 @@ class Comparison {
   const CompareOptions& options_;
   TraceDifference found_;
   std::vector<std::pair<std::size_t, std::size_t>> shared_;  // columns of A and B
-  std::vector<Rows> rows_;
+  std::vector<SharedRow> rows_;
   std::size_t uniform_ = 0;
 };
 

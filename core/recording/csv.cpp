@@ -30,9 +30,9 @@ std::string header_cell(const std::string& name, const std::filesystem::path& pa
 }
 
 // Cuts a text into lines and lines into cells, and knows where it is.
-class Reader {
+class CsvReader {
  public:
-  Reader(std::string file, std::string_view text) : file_(std::move(file)), rest_(text) {}
+  CsvReader(std::string file, std::string_view text) : file_(std::move(file)), rest_(text) {}
 
   // False at the end of the text. A file cut off in a number would otherwise read as another number.
   bool next_line() {
@@ -47,7 +47,7 @@ class Reader {
   }
 
   [[nodiscard]] InputError error(std::size_t offset, std::string text) const {
-    return {Place{file_, line_number_, static_cast<int>(offset) + 1}, std::move(text)};
+    return {SourceLocation{file_, line_number_, static_cast<int>(offset) + 1}, std::move(text)};
   }
 
   [[nodiscard]] std::string_view line() const { return line_; }
@@ -69,7 +69,7 @@ std::string_view cell_at(std::string_view line, std::size_t offset) {
 }
 
 // One header name from `offset` on, which it moves to the following comma or the end.
-std::string read_name(const Reader& reader, std::size_t& offset) {
+std::string read_name(const CsvReader& reader, std::size_t& offset) {
   const std::string_view line = reader.line();
   if (offset == line.size() || line[offset] != '"') {
     const std::string_view cell = cell_at(line, offset);
@@ -98,7 +98,7 @@ bool is_number(std::string_view cell) {
   return code != std::errc::invalid_argument && end == last;
 }
 
-std::vector<Column> read_header(const Reader& reader) {
+std::vector<Column> read_header(const CsvReader& reader) {
   std::vector<Column> columns;
   std::unordered_set<std::string> seen;
   bool numbers = true;
@@ -118,14 +118,14 @@ std::vector<Column> read_header(const Reader& reader) {
   return columns;
 }
 
-[[noreturn]] void refuse_cell(const Reader& reader, std::size_t offset, std::errc code) {
+[[noreturn]] void refuse_cell(const CsvReader& reader, std::size_t offset, std::errc code) {
   const std::string_view cell = cell_at(reader.line(), offset);
   if (code == std::errc::result_out_of_range && is_number(cell))
     throw reader.error(offset, fmt::format("{} is outside the range of a double", cell));
   throw reader.error(offset, fmt::format("\"{}\" is not a number", cell.substr(0, 40)));
 }
 
-void read_row(const Reader& reader, std::size_t columns, std::vector<double>& values) {
+void read_row(const CsvReader& reader, std::size_t columns, std::vector<double>& values) {
   const char* const first = reader.line().data();
   const char* const last = first + reader.line().size();
   const char* at = first;
@@ -172,7 +172,7 @@ void write_csv(const Trace& trace, const std::filesystem::path& path) {
 Trace read_csv(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   if (text.empty()) throw InputError({path.string(), 1, 1}, "the file is empty: a header row of column names is missing");
-  Reader reader(path.string(), text);
+  CsvReader reader(path.string(), text);
   reader.next_line();
   Trace trace;
   trace.columns = read_header(reader);

@@ -88,7 +88,7 @@ std::string complaint(std::string_view bytes) {
 
 }  // namespace
 
-void write_h5(const Trace& trace, const Origin& origin, const std::filesystem::path& path, std::span<const Beside> beside) {
+void write_h5(const Trace& trace, const Provenance& origin, const std::filesystem::path& path, std::span<const Beside> beside) {
   AtomicFile file(path);
   std::string hdf5;
   try {
@@ -103,7 +103,7 @@ void write_h5(const Trace& trace, const Origin& origin, const std::filesystem::p
 
 StoredTrace read_h5(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
-  const Place place{path.string()};
+  const SourceLocation place{path.string()};
   if (std::string text = complaint(bytes); !text.empty()) throw InputError(place, std::move(text));
   try {
     return from_image(bytes);

@@ -11,7 +11,7 @@
 namespace gaitlab {
 
 /// Where a trace came from.
-struct Origin {
+struct Provenance {
   std::string scenario;  ///< the resolved scenario, YAML
   std::int64_t seed = 0;
   std::string build;    ///< build id
@@ -28,7 +28,7 @@ struct Beside {
 
 struct StoredTrace {
   Trace trace;
-  Origin origin;
+  Provenance origin;
   std::vector<Beside> beside;  ///< none in a file of format 1
 };
 
@@ -38,7 +38,8 @@ struct StoredTrace {
 /// `seed`, `build`, `rows`, `checksum` (hash() of the trace). The file's first 512 bytes, which HDF5 leaves to the user, hold
 /// format, size and hash_words() of the rest. No times: the same trace, the same bytes. The file appears whole or not at all;
 /// it is built in memory (about twice its size on top of the trace). RunError: cannot be written (see AtomicFile).
-void write_h5(const Trace& trace, const Origin& origin, const std::filesystem::path& path, std::span<const Beside> beside = {});
+void write_h5(const Trace& trace, const Provenance& origin, const std::filesystem::path& path,
+              std::span<const Beside> beside = {});
 
 /// What write_h5 wrote, every bit of it, or a file of format gaitlab-trace-1 (the same without `/recording`, texts of variable
 /// length). InputError `PATH: error: ...`, one message each: cannot be read, is empty, is not a gaitlab trace (foreign HDF5,

@@ -87,7 +87,7 @@ Handle string_type(std::size_t size) {
   return type;
 }
 
-Handle scalar() { return {H5Screate(H5S_SCALAR), H5Sclose, "scalar"}; }
+Handle scalar_space() { return {H5Screate(H5S_SCALAR), H5Sclose, "scalar"}; }
 
 // --- writing ----------------------------------------------------------------------------------------------------------
 
@@ -98,7 +98,7 @@ void write_attribute(hid_t owner, const char* name, hid_t stored, hid_t memory, 
 }
 
 void write_number(hid_t owner, const char* name, std::int64_t number) {
-  write_attribute(owner, name, H5T_STD_I64LE, H5T_NATIVE_INT64, scalar(), &number);
+  write_attribute(owner, name, H5T_STD_I64LE, H5T_NATIVE_INT64, scalar_space(), &number);
 }
 
 // One after the other, each filled up with NULs to the length of the longest.
@@ -120,7 +120,7 @@ void write_text(hid_t owner, const char* name, const std::string& text) {
   std::size_t size = 0;
   const std::string bytes = padded({text}, size);
   const Handle type = string_type(size);
-  write_attribute(owner, name, type, type, scalar(), bytes.data());
+  write_attribute(owner, name, type, type, scalar_space(), bytes.data());
 }
 
 void write_texts(hid_t owner, const char* name, const Trace& trace, std::string Column::*part) {
@@ -257,7 +257,7 @@ Trace read_dataset(hid_t owner, const char* name, const std::string& bytes) {
 
 }  // namespace
 
-std::string to_image(const Trace& trace, const Origin& origin, std::span<const Beside> beside) {
+std::string to_image(const Trace& trace, const Provenance& origin, std::span<const Beside> beside) {
   const Library library;
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file creation");
   checked(H5Pset_userblock(creation, kUserBlock), "user block");

@@ -19,7 +19,7 @@ class ImageError : public std::runtime_error {
 };
 
 /// The bytes behind the user block. One thread at a time is in HDF5; others wait. Throws ImageError.
-std::string to_image(const Trace& trace, const Origin& origin, std::span<const Beside> beside);
+std::string to_image(const Trace& trace, const Provenance& origin, std::span<const Beside> beside);
 
 /// From the whole file, user block included. Throws ImageError; the bytes must be those that to_image made.
 StoredTrace from_image(const std::string& file);

@@ -64,7 +64,9 @@ std::vector<Beside> tables(const Recording& r) {
   return {{"rest", r.rest}, {"ticks", r.ticks}, {"joints", joints}, {"run", run}};
 }
 
-InputError unfit(const fs::path& file, const std::string& what) { return {Place{file.string()}, "is corrupt: " + what}; }
+InputError unfit(const fs::path& file, const std::string& what) {
+  return {SourceLocation{file.string()}, "is corrupt: " + what};
+}
 
 /// What tables() made, back into the recording.
 void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r) {
@@ -105,11 +107,11 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
 
 }  // namespace
 
-void write_recording(const Recording& r, const Origin& origin, const std::string& format, const fs::path& folder) {
+void write_recording(const Recording& r, const Provenance& origin, const std::string& format, const fs::path& folder) {
   const std::vector<Beside> beside = tables(r);
   if (format == "csv") {
     write_csv(r.trace, folder / "trace.csv");
-    Origin own = origin;
+    Provenance own = origin;
     own.csv_hash = hash(r.trace);
     write_h5({}, own, folder / "recording.h5", beside);
   } else {
@@ -129,7 +131,7 @@ StoredRecording read_recording(const fs::path& folder) {
     if (fs::exists(beside, none)) {
       stored = read_h5(beside);
       if (stored.origin.csv_hash != hash(read.recording.trace)) {
-        throw InputError(Place{file.string()}, "is not the file that recording.h5 belongs to, or was changed");
+        throw InputError(SourceLocation{file.string()}, "is not the file that recording.h5 belongs to, or was changed");
       }
     }
   } else {

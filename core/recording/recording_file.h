@@ -12,13 +12,13 @@ namespace gaitlab {
 /// Writes trace.h5, or, for `format` csv, trace.csv and recording.h5, which has what the CSV file cannot hold. Tables of
 /// `/recording`: `rest` and `ticks` (see Recording); `joints`, a row for each joint: its statistics and its torque error;
 /// `run`, one row: what is known of the whole run. RunError: a file cannot be written.
-void write_recording(const Recording& recording, const Origin& origin, const std::string& format,
+void write_recording(const Recording& recording, const Provenance& origin, const std::string& format,
                      const std::filesystem::path& folder);
 
 /// A recording read back.
 struct StoredRecording {
   Recording recording;
-  Origin origin;
+  Provenance origin;
   std::vector<std::string> missing;  ///< what the folder does not hold, a sentence each; none: everything is as it was written
 };
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Of a byte counted from 1, as nlohmann's parser does.
-Place place_of(const fs::path& file, std::string_view text, std::size_t byte) {
+SourceLocation place_of(const fs::path& file, std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, std::min(byte == 0 ? 0 : byte - 1, text.size()));
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
   return {file.string(), 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
@@ -28,7 +28,7 @@ Place place_of(const fs::path& file, std::string_view text, std::size_t byte) {
 }  // namespace
 
 fs::path trace_file(const fs::path& run) {
-  const Place place{run.string()};
+  const SourceLocation place{run.string()};
   std::error_code error;
   const fs::file_status status = fs::status(run, error);
   if (!fs::exists(status)) throw InputError(place, "there is no such run folder or trace file");
@@ -52,12 +52,13 @@ nlohmann::json read_summary(const fs::path& folder) {
   const std::string text = read_file(file);
   try {
     nlohmann::json summary = nlohmann::json::parse(text);
-    if (!summary.is_object()) throw InputError(Place{file.string(), 1, 1}, "holds no JSON object: it is not a summary");
+    if (!summary.is_object())
+      throw InputError(SourceLocation{file.string(), 1, 1}, "holds no JSON object: it is not a summary");
     return summary;
   } catch (const nlohmann::json::parse_error& error) {
     throw InputError(place_of(file, text, error.byte), "is not JSON from here on: it is truncated or damaged");
   } catch (const nlohmann::json::exception&) {  // a number beyond a double
-    throw InputError(Place{file.string()}, "holds a number that is outside the range of a double");
+    throw InputError(SourceLocation{file.string()}, "holds a number that is outside the range of a double");
   }
 }
 

@@ -69,7 +69,7 @@ int RunFolder::make_parents(const fs::path& folder) {
 }
 
 void RunFolder::use(const fs::path& out) {
-  const auto refuse = [&](const std::string& text) { return InputError(Place{"--out " + out.string()}, text); };
+  const auto refuse = [&](const std::string& text) { return InputError(SourceLocation{"--out " + out.string()}, text); };
   if (out.empty()) throw refuse("is not a folder");
   path_ = out.has_filename() ? out : out.parent_path();  // `DIR/` is DIR
   int error = make_parents(path_);
@@ -87,7 +87,7 @@ void RunFolder::use(const fs::path& out) {
 
 void RunFolder::number(const std::string& name) {
   if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos)
-    throw InputError(Place{"name"}, fmt::format("\"{}\" cannot name a run folder", name));
+    throw InputError(SourceLocation{"name"}, fmt::format("\"{}\" cannot name a run folder", name));
   constexpr int kPatience = 100;  // another process may remove an empty `runs` between our two mkdir
   int vanished = 0;
   for (int k = 1;;) {
@@ -98,7 +98,7 @@ void RunFolder::number(const std::string& name) {
     if (error == EEXIST) {
       ++k;
     } else if (error != ENOENT || ++vanished > kPatience) {
-      throw InputError(Place{path_.string()}, "cannot be made: " + reason(error));
+      throw InputError(SourceLocation{path_.string()}, "cannot be made: " + reason(error));
     }
   }
 }

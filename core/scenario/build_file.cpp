@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "core/scenario/reader.h"
-#include "core/scenario/value.h"
 
 namespace gaitlab {
 namespace {
@@ -29,7 +28,7 @@ struct DockFields {
   void fields(Fields& f) {
     for (std::size_t i = 0; i < columns.size(); ++i) f.integer(kKeys[i], columns[i], spec(i));
   }
-  [[nodiscard]] Dock dock(const Place& place) const {
+  [[nodiscard]] Dock dock(const SourceLocation& place) const {
     std::array<int, 5> c{};
     for (std::size_t i = 0; i < c.size(); ++i) c[i] = static_cast<int>(columns[i]);
     return {c[0], c[1], c[2], c[3], c[4], place};
@@ -37,7 +36,7 @@ struct DockFields {
 };
 
 /// A row from its five scalars.
-std::optional<Dock> read_row(const std::vector<Node>& items, const Place& place, Problems& problems) {
+std::optional<Dock> read_row(const std::vector<Node>& items, const SourceLocation& place, Problems& problems) {
   if (items.size() != 5) {
     problems.add(place,
                  fmt::format("the row has {} number{}; expected 5: {}", items.size(), items.size() == 1 ? "" : "s", kRow));
@@ -57,7 +56,7 @@ std::optional<Dock> read_row(const std::vector<Node>& items, const Place& place,
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /// The words of a line up to a comment, each with its place.
-std::vector<Node> words(const std::string& text, Place place) {
+std::vector<Node> words(const std::string& text, SourceLocation place) {
   std::vector<Node> out;
   bool inside = false;
   for (std::size_t i = 0; i < text.size() && text[i] != '#'; ++i) {
@@ -92,7 +91,7 @@ std::optional<Dock> read_dock(const Node& node, std::size_t index, Problems& pro
 
 std::vector<Dock> read_build(const std::string& text, const std::string& file, Problems& problems) {
   std::vector<Dock> docks;
-  Place place{file, 1, 1};
+  SourceLocation place{file, 1, 1};
   for (std::size_t start = 0; start < text.size(); ++place.line) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     const std::vector<Node> row = words(text.substr(start, end - start), place);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {

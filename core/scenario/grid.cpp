@@ -4,6 +4,7 @@
 
 #include "core/scenario/reader.h"
 #include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
@@ -13,7 +14,7 @@ std::string numbers(std::size_t n) { return fmt::format("{} number{}", n, n == 1
 bool separates(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ','; }
 
 /// The words of a line up to a comment; two commas in a row hold an empty one.
-Node row_of(const std::string& line, Place place) {
+Node row_of(const std::string& line, SourceLocation place) {
   Node row{Node::Kind::list, place};
   bool comma = false;
   for (std::size_t i = 0; i < line.size() && line[i] != '#';) {
@@ -69,7 +70,7 @@ Rows read_rows(const Node& list, const std::string& what, const Spec& spec, Prob
 
 Node grid_node(const std::string& text, const std::string& file) {
   Node grid{Node::Kind::list, {file, 1, 1}};
-  Place place{file, 1, 1};
+  SourceLocation place{file, 1, 1};
   for (std::size_t start = 0; start < text.size(); ++place.line) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     Node row = row_of(text.substr(start, end - start), place);

@@ -9,17 +9,14 @@
 
 #include "core/scenario/grid.h"
 #include "core/scenario/text_file.h"
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
 
-constexpr double kPositive = std::numeric_limits<double>::denorm_min();
 constexpr std::array<const char*, 4> kTypes{"none", "plane", "boxes", "heightfield"};
 constexpr Spec kHeights{"m", -1e6, 1e6, "Heights, a row for each y, upwards; instead of `file`."};
 constexpr std::size_t kMostValues = 40000;  // a resolved scenario holds them in full, and is at most 1 MB
-
-std::span<double> span_of(Vec3& v) { return {v.data(), 3}; }
 
 struct BoxFields {
   Box box;
@@ -83,13 +80,13 @@ void finish_field(const Node& section, const std::string& folder, Heightfield& f
   const Node* map = section.find("heightfield");
   const Node* file = map == nullptr ? nullptr : map->find("file");
   const Node* values = map == nullptr ? nullptr : map->find("values");
-  const Place place = map == nullptr ? section.place : map->place;
+  const SourceLocation place = map == nullptr ? section.place : map->place;
   if (map != nullptr && map->kind != Node::Kind::map) return;
   if (file == nullptr && values == nullptr) {
     problems.add(place, "a heightfield needs heights; expected heightfield: {values: [[...], [...]]} or {file: PATH}");
     return;
   }
-  Place grid = values != nullptr ? values->place : file->place;
+  SourceLocation grid = values != nullptr ? values->place : file->place;
   if (file != nullptr && values != nullptr) {
     problems.add(file->place, "the heightfield has a file and values; expected one of them")
         .notes.emplace_back(values->place, "values is here");

@@ -4,12 +4,12 @@
 
 #include <array>
 
+#include "core/plugin/plugin_instance.h"
 #include "core/scenario/explainer.h"
 #include "core/scenario/overlay.h"
-#include "core/scenario/plugin_instance.h"
 #include "core/scenario/robot_section.h"
 #include "core/scenario/sections.h"
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
@@ -32,7 +32,7 @@ std::vector<KeyRow> scenario_keys(const Catalog& catalog) {
   Explainer base;
   BaseFields{scenario}.fields(base);
   for (const KeyRow& row : base.rows()) explainer.row("  " + row.key, row.unit, row.preset, row.range, row.about);
-  SectionFields sections(scenario, &catalog, nullptr, default_type("actuator"));
+  SectionFields sections(scenario, &catalog, nullptr, describe(Kind::actuator).default_type);
   for (PluginFields* plugin : {&sections.actuator, &sections.controller, &sections.cpg}) plugin->own_keys = false;
   sections.fields(explainer);
   explainer.row("sensors", "", "[]", "[]", "There are no sensor types yet.");
@@ -82,10 +82,10 @@ std::string plugins_page(const Catalog& catalog) {
   std::string page = "# CPGs, controllers, actuators and engines\n\n" + std::string(kRenewed) +
                      "The manuals of what is built in, as `gaitlab explain KIND NAME` prints them. One of your own:\n"
                      "[write a CPG](../tutorials/write-a-cpg.md).\n";
-  for (const Kind kind : {Kind::cpg, Kind::controller, Kind::actuator}) {
-    for (const std::string& name : catalog.names(kind)) {
-      const Entry& entry = *catalog.find(kind, name);
-      page += fmt::format("\n## {} `{}`\n\n{}", word(kind), name, fenced(std::string(entry.manual)));
+  for (const PluginKind& kind : kPluginKinds) {
+    for (const std::string& name : catalog.names(kind.kind)) {
+      const Entry& entry = *catalog.find(kind.kind, name);
+      page += fmt::format("\n## {} `{}`\n\n{}", kind.section, name, fenced(std::string(entry.manual)));
       const std::vector<KeyRow> keys = plugin_keys(entry);
       if (!keys.empty()) page += "\n" + markdown_table(keys);
     }

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <map>
 
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
 
 constexpr double kRelative = 1e-6;  // of hand-written numbers: right angles, moments of inertia
 
-const Place& place_of(const Node& map, const char* key) {
+const SourceLocation& place_of(const Node& map, const char* key) {
   const Node* value = map.find(key);
   return value == nullptr ? map.place : value->place;
 }
@@ -110,7 +110,7 @@ class ModuleCheck {
 
   void check_body(std::size_t index) {
     const BodyType& b = type_.bodies[index];
-    const Place& place = places_.bodies[index];
+    const SourceLocation& place = places_.bodies[index];
     if (b.mass > 0) {
       check_inertia(b, place);
     } else if (parent_[index] == kNone || !is_parent_[index]) {
@@ -120,7 +120,7 @@ class ModuleCheck {
     }
   }
 
-  void check_inertia(const BodyType& b, const Place& place) {
+  void check_inertia(const BodyType& b, const SourceLocation& place) {
     // Scaled to 1, so that neither tiny nor huge numbers leave the range of a double on the way.
     const double scale = b.inertia.cwiseAbs().maxCoeff();
     const Vec3 moments =
@@ -175,7 +175,7 @@ class ModuleCheck {
     }
   }
 
-  void duplicate(const Place& place, const std::string& what, const Place& first) {
+  void duplicate(const SourceLocation& place, const std::string& what, const SourceLocation& first) {
     problems_.add(place, what).notes.emplace_back(first, "it is given here first");
   }
 

@@ -9,8 +9,8 @@ namespace gaitlab {
 
 /// Where the parts of a module type stand in its text, in the type's order.
 struct ModulePlaces {
-  std::vector<Place> bodies;        ///< of their names
-  std::vector<Node> hinges, faces;  ///< their maps
+  std::vector<SourceLocation> bodies;  ///< of their names
+  std::vector<Node> hinges, faces;     ///< their maps
 };
 
 /// Checks, normalises directions and sets `type.root`.

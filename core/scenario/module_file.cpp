@@ -9,17 +9,13 @@
 
 #include "core/scenario/module_check.h"
 #include "core/scenario/reader.h"
-#include "core/scenario/scenario.h"
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
-constexpr double kPositive = std::numeric_limits<double>::denorm_min();
 constexpr std::array<const char*, 2> kGenders{"active", "passive"};
-
-std::span<double> span_of(Vec3& v) { return {v.data(), 3}; }
 
 void length(Fields& f, const char* key, Vec3& value, const char* about) {
   f.vector(key, span_of(value), {"m", -kAny, kAny, about});

@@ -11,8 +11,9 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "core/scenario/number_syntax.h"
 #include "core/scenario/text_file.h"
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
@@ -72,13 +73,13 @@ class TreeBuilder final : public YAML::EventHandler {
     std::unordered_map<std::string, std::size_t> index = {};  ///< of the keys so far: linear look-up would be quadratic
   };
 
-  [[nodiscard]] Place at(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
+  [[nodiscard]] SourceLocation at(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
   [[nodiscard]] char character(const YAML::Mark& mark) const {
     const auto position = static_cast<std::size_t>(mark.pos);
     return mark.pos >= 0 && position < text_->size() ? (*text_)[position] : '\0';
   }
 
-  [[noreturn]] void stop(Place place, std::string what) {
+  [[noreturn]] void stop(SourceLocation place, std::string what) {
     problems_.add(std::move(place), std::move(what));
     throw Stop();
   }
@@ -106,7 +107,7 @@ class TreeBuilder final : public YAML::EventHandler {
     return !stack_.empty() && stack_.back().node.kind == Node::Kind::map && !stack_.back().has_key;
   }
 
-  [[noreturn]] void refuse_key(Place place, const std::string& kind) {
+  [[noreturn]] void refuse_key(SourceLocation place, const std::string& kind) {
     stop(std::move(place), "found " + kind + " as a key; expected a name");
   }
 
@@ -166,7 +167,8 @@ std::optional<Node> build(const std::string& text, const std::string& file, Prob
     return {};
   } catch (const YAML::Exception& e) {
     const bool placed = !e.mark.is_null();
-    problems.add(placed ? Place{file, e.mark.line + 1, e.mark.column + 1} : Place{file}, "not valid YAML: " + e.msg);
+    problems.add(placed ? SourceLocation{file, e.mark.line + 1, e.mark.column + 1} : SourceLocation{file},
+                 "not valid YAML: " + e.msg);
     return {};
   }
 }
@@ -201,6 +203,21 @@ Node parse_yaml(const std::string& text, const std::string& file) {
   return std::move(*node);
 }
 
-Node read_yaml(const std::string& path, const Place& asked_at) { return parse_yaml(read_text(path, asked_at), path); }
+Node read_yaml(const std::string& path, const SourceLocation& asked_at) { return parse_yaml(read_text(path, asked_at), path); }
+
+std::string found(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::null:
+      return "empty";
+    case Node::Kind::list:
+      return "a list";
+    case Node::Kind::map:
+      return "a map";
+    case Node::Kind::scalar:
+      break;
+  }
+  if (node.quoted) return "\"" + clipped(node.text) + "\" in quotes";
+  return looks_like_a_number(node.text) ? clipped(node.text) : in_quotes(node.text);
+}
 
 }  // namespace gaitlab

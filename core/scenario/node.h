@@ -12,17 +12,20 @@ namespace gaitlab {
 
 struct Node {
   enum class Kind { null, scalar, list, map } kind = Kind::null;
-  Place place = {};
-  std::string text = {};                                 ///< scalar
-  bool quoted = false;                                   ///< scalar in quotes: always a text, never a number
-  bool flow = false;                                     ///< list or map in one line: { } [ ]
-  std::vector<Node> items = {};                          ///< list; values of a map, in file order
-  std::vector<std::pair<std::string, Place>> keys = {};  ///< map: key of items[i]
-  std::shared_ptr<const std::string> source = {};        ///< scalar read from a text: that text
-  std::size_t position = 0;                              ///< scalar: where it starts in `source`
+  SourceLocation place = {};
+  std::string text = {};                                          ///< scalar
+  bool quoted = false;                                            ///< scalar in quotes: always a text, never a number
+  bool flow = false;                                              ///< list or map in one line: { } [ ]
+  std::vector<Node> items = {};                                   ///< list; values of a map, in file order
+  std::vector<std::pair<std::string, SourceLocation>> keys = {};  ///< map: key of items[i]
+  std::shared_ptr<const std::string> source = {};                 ///< scalar read from a text: that text
+  std::size_t position = 0;                                       ///< scalar: where it starts in `source`
 
   [[nodiscard]] const Node* find(const std::string& key) const;  ///< value of a map's key, or nullptr
 };
+
+/// What a node is, for a message: `'fast'`, `a list`, `empty`.
+std::string found(const Node& node);
 
 /// Parses one YAML document whose root is a map. Throws InputError (syntax, duplicate key, anchor, alias, tag, second document,
 /// deeper than 32, larger than 1 MB, not UTF-8 text, ...).
@@ -33,7 +36,7 @@ Node parse_yaml(const std::string& text, const std::string& file);
 std::optional<Node> parse_yaml(const std::string& text, const std::string& file, Problems& problems);
 
 /// The same from a file; a missing file is an InputError at `asked_at` (or the file itself).
-Node read_yaml(const std::string& path, const Place& asked_at = {});
+Node read_yaml(const std::string& path, const SourceLocation& asked_at = {});
 
 /// YAML text of a node, indented by `indent`; parse_yaml gives the same node but for places.
 std::string print_yaml(const Node& node, int indent = 0);

@@ -20,7 +20,7 @@ std::size_t length_of(const std::string& source, std::size_t at, char quote, cha
 }
 
 /// In one line, in quotes or without.
-Place in_line(const Node& scalar, std::size_t offset) {
+SourceLocation in_line(const Node& scalar, std::size_t offset) {
   const std::string& source = *scalar.source;
   const char first = source[scalar.position];
   const char quote = scalar.quoted && (first == '"' || first == '\'') ? first : '\0';
@@ -30,7 +30,7 @@ Place in_line(const Node& scalar, std::size_t offset) {
     if (length == 0) return scalar.place;
     at += length;
   }
-  Place place = scalar.place;
+  SourceLocation place = scalar.place;
   place.column += static_cast<int>(at - scalar.position);
   return place;
 }
@@ -51,7 +51,7 @@ std::size_t first_content(const std::string& text, std::size_t line) {
 }
 
 /// In a block after `|`: every line of the text is a line of the source, moved to the right by the block's indentation.
-Place in_block(const Node& scalar, std::size_t offset) {
+SourceLocation in_block(const Node& scalar, std::size_t offset) {
   const std::string& source = *scalar.source;
   const std::size_t end_of_header = source.find('\n', scalar.position);
   const std::size_t in_text = first_content(scalar.text, 0);
@@ -68,7 +68,7 @@ Place in_block(const Node& scalar, std::size_t offset) {
 
 }  // namespace
 
-Place place_in(const Node& scalar, std::size_t offset) {
+SourceLocation place_in(const Node& scalar, std::size_t offset) {
   if (scalar.kind != Node::Kind::scalar || scalar.source == nullptr || scalar.position >= scalar.source->size()) {
     return scalar.place;
   }
@@ -80,7 +80,7 @@ Place place_in(const Node& scalar, std::size_t offset) {
 }
 
 void add_in(const Node& scalar, std::size_t offset, std::string_view what, Problems& problems) {
-  const Place place = place_in(scalar, offset);
+  const SourceLocation place = place_in(scalar, offset);
   const bool followed = offset == 0 || to_string(place) != to_string(scalar.place);
   problems.add(place, followed ? std::string(what) : fmt::format("{} (at character {} of the text)", what, offset + 1));
 }

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/plugin/plugin_instance.h"
 #include "core/scenario/explainer.h"
-#include "core/scenario/plugin_instance.h"
 #include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
@@ -18,12 +19,12 @@ constexpr std::size_t kMaxPath = 16;
 struct Setting {
   std::vector<std::string> path;
   Node value;
-  Place place;
+  SourceLocation place;
 };
 
 bool is_set(const Node& node) { return node.place.file.starts_with(kOption); }
 
-void move_to(Node& node, const Place& place) {
+void move_to(Node& node, const SourceLocation& place) {
   node.place = place;
   node.source.reset();
   for (Node& item : node.items) move_to(item, place);
@@ -43,7 +44,7 @@ std::vector<std::string> split(const std::string& path) {
 }
 
 /// The value as YAML, or nothing with a problem.
-std::optional<Node> parse_value(const std::string& text, const Place& place, Problems& problems) {
+std::optional<Node> parse_value(const std::string& text, const SourceLocation& place, Problems& problems) {
   if (text.find('\n') != std::string::npos) {
     problems.add(place, "the value has several lines; expected one");
     return {};
@@ -60,7 +61,7 @@ std::optional<Node> parse_value(const std::string& text, const Place& place, Pro
 }
 
 std::optional<Setting> parse_set(const std::string& text, Problems& problems) {
-  const Place place{std::string(kOption) + clipped(text)};
+  const SourceLocation place{std::string(kOption) + clipped(text)};
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) {
     problems.add(place, "found no '='; expected KEY.PATH=VALUE, for example physics.step=2.5e-05");
@@ -80,7 +81,7 @@ std::optional<Setting> parse_set(const std::string& text, Problems& problems) {
   return Setting{std::move(path), std::move(*value), place};
 }
 
-Node* list_item(Node& list, const std::string& key, const std::string& where, const Place& place, Problems& problems) {
+Node* list_item(Node& list, const std::string& key, const std::string& where, const SourceLocation& place, Problems& problems) {
   Node number{Node::Kind::scalar, place};
   number.text = key;
   const Reading<std::int64_t> index = read_integer(number);
@@ -92,7 +93,7 @@ Node* list_item(Node& list, const std::string& key, const std::string& where, co
   return nullptr;
 }
 
-Node& map_item(Node& map, const std::string& key, const Place& place) {
+Node& map_item(Node& map, const std::string& key, const SourceLocation& place) {
   for (std::size_t i = 0; i < map.keys.size(); ++i) {
     if (map.keys[i].first == key) return map.items[i];
   }
@@ -122,7 +123,7 @@ void apply(Node& root, Setting& setting, Problems& problems) {
 }
 
 bool sets_type(const Setting& setting) {
-  return setting.path.size() == 2 && !default_type(setting.path[0]).empty() && setting.path[1] == "type";
+  return setting.path.size() == 2 && find_kind(setting.path[0]) != nullptr && setting.path[1] == "type";
 }
 
 std::optional<Retyped> retype(const Node& root, const Setting& setting) {
@@ -130,7 +131,7 @@ std::optional<Retyped> retype(const Node& root, const Setting& setting) {
   const Node* given = root.find(section);
   if (given == nullptr || given->kind != Node::Kind::map) return {};
   const Node* type = given->find("type");
-  std::string from = type == nullptr ? default_type(section) : type->text;
+  std::string from = type == nullptr ? find_kind(section)->default_type : type->text;
   if (from == setting.value.text) return {};
   return Retyped{section, std::move(from), setting.value.text};
 }
@@ -185,12 +186,6 @@ std::string drop_from(Node& section, bool cpg, const std::vector<std::string>& k
 
 }  // namespace
 
-std::string default_type(const std::string& section) {
-  if (section == "actuator") return "dc_motor";
-  if (section == "controller") return "pid";
-  return section == "cpg" ? "phase_oscillator" : "";
-}
-
 std::vector<Retyped> apply_sets(Node& root, const std::vector<std::string>& sets, Problems& problems) {
   std::vector<Setting> settings;
   for (const std::string& text : sets) {
@@ -210,13 +205,12 @@ std::vector<Retyped> apply_sets(Node& root, const std::vector<std::string>& sets
 std::vector<std::string> drop_old_keys(Node& root, const std::vector<Retyped>& retyped, const Catalog& catalog) {
   std::vector<std::string> notes;
   for (const Retyped& change : retyped) {
-    const bool cpg = change.section == "cpg";
-    const Kind kind = cpg ? Kind::cpg : change.section == "actuator" ? Kind::actuator : Kind::controller;
+    const Kind kind = find_kind(change.section)->kind;
     const Entry* entry = catalog.find(kind, change.to);
     if (entry == nullptr) continue;  // an unknown type is reported when the section is read
     for (std::size_t i = 0; i < root.keys.size(); ++i) {
       if (root.keys[i].first != change.section) continue;
-      const std::string dropped = drop_from(root.items[i], cpg, known_keys(*entry));
+      const std::string dropped = drop_from(root.items[i], kind == Kind::cpg, known_keys(*entry));
       if (dropped.empty()) continue;
       notes.push_back(fmt::format("{}: type changed from {} to {}; dropped {}", change.section, clipped(change.from),
                                   clipped(change.to), dropped));

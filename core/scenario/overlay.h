@@ -18,10 +18,7 @@ struct Retyped {
 std::vector<Retyped> apply_sets(Node& root, const std::vector<std::string>& sets, Problems& problems);
 
 /// What of a retyped section the new type does not know is taken out, unless it was itself given by --set: keys of the old
-/// type, and all of the old CPG's `model`. Returns one line for the user a section that lost something.
+/// type, and all of the old CPG's `model`. Returns a line for the user per section that lost something.
 std::vector<std::string> drop_old_keys(Node& root, const std::vector<Retyped>& retyped, const Catalog& catalog);
-
-/// The default of a section's `type`.
-std::string default_type(const std::string& section);
 
 }  // namespace gaitlab

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
@@ -102,7 +102,8 @@ std::vector<double> fitting_periods(double period, double step) {
   return out;
 }
 
-void check_periods(const std::vector<Period>& periods, const Period& step, const Place& otherwise, Problems& problems) {
+void check_periods(const std::vector<Period>& periods, const Period& step, const SourceLocation& otherwise,
+                   Problems& problems) {
   std::vector<double> all;
   all.reserve(periods.size());
   for (const Period& period : periods) all.push_back(period.value);

@@ -28,11 +28,11 @@ std::vector<double> fitting_periods(double period, double step);
 struct Period {
   std::string name;
   double value = 0;
-  std::optional<Place> given = {};  ///< where; nothing: it is a default
+  std::optional<SourceLocation> given = {};  ///< where; nothing: it is a default
 };
 
 /// A problem for each period that is not a whole multiple of the step: at the period's place, or the step's where only that is
 /// given, or `otherwise`.
-void check_periods(const std::vector<Period>& periods, const Period& step, const Place& otherwise, Problems& problems);
+void check_periods(const std::vector<Period>& periods, const Period& step, const SourceLocation& otherwise, Problems& problems);
 
 }  // namespace gaitlab

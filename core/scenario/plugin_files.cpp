@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/scenario/reader.h"
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
@@ -26,7 +26,7 @@ struct PluginEntry {
 };
 
 /// Reads an entry; `place`: the path's. False with a problem.
-bool read_entry(const Node& node, PluginEntry& entry, Place& place, Problems& problems) {
+bool read_entry(const Node& node, PluginEntry& entry, SourceLocation& place, Problems& problems) {
   const std::size_t before = problems.size();
   place = node.place;
   if (node.kind == Node::Kind::map) {
@@ -43,7 +43,7 @@ bool read_entry(const Node& node, PluginEntry& entry, Place& place, Problems& pr
   return problems.size() == before;
 }
 
-void load(const PluginEntry& entry, const Place& place, const std::string& folder, Catalog& catalog,
+void load(const PluginEntry& entry, const SourceLocation& place, const std::string& folder, Catalog& catalog,
           std::vector<PluginFile>& files, Problems& problems) {
   const std::string path = path_from(folder, entry.path);
   std::error_code failure;
@@ -96,7 +96,7 @@ std::vector<PluginFile> read_plugins(const Node& node, const std::string& folder
   }
   for (const Node& item : node.items) {
     PluginEntry entry;
-    Place place;
+    SourceLocation place;
     if (read_entry(item, entry, place, problems)) load(entry, place, folder, catalog, files, problems);
   }
   return files;
@@ -105,7 +105,7 @@ std::vector<PluginFile> read_plugins(const Node& node, const std::string& folder
 void load_plugin_file(const std::string& path, Catalog& catalog) {
   Problems problems;
   std::vector<PluginFile> files;
-  load({path, {}}, Place{path}, ".", catalog, files, problems);
+  load({path, {}}, SourceLocation{path}, ".", catalog, files, problems);
   problems.raise();
 }
 

@@ -9,11 +9,12 @@
 #include "core/scenario/node_places.h"
 #include "core/scenario/text_file.h"
 #include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
 
-Node empty_map(const Place& place) { return {Node::Kind::map, place}; }
+Node empty_map(const SourceLocation& place) { return {Node::Kind::map, place}; }
 
 std::string element(const std::string& key, std::size_t index) { return fmt::format("{}[{}]", key, index); }
 
@@ -29,7 +30,7 @@ Reader::Reader(const Node& node, const std::string& name, Problems& problems, Jo
   if (tolerant_) problems_.add(node.place, fmt::format("{} is {}; expected a map", name, found(node)));
 }
 
-Reader::Reader(const Place& place, Problems& problems, JointNames joints, std::string folder)
+Reader::Reader(const SourceLocation& place, Problems& problems, JointNames joints, std::string folder)
     : empty_(empty_map(place)), map_(&empty_), problems_(problems), joints_(joints), folder_(std::move(folder)) {}
 
 const Node* Reader::take(const char* key) {

@@ -20,7 +20,7 @@ class Reader final : public Fields {
   /// `folder`: where the paths of files start.
   Reader(const Node& node, const std::string& name, Problems& problems, JointNames joints, std::string folder = {});
   /// A map that is absent: every field keeps its default. `place`: its parent's.
-  Reader(const Place& place, Problems& problems, JointNames joints, std::string folder = {});
+  Reader(const SourceLocation& place, Problems& problems, JointNames joints, std::string folder = {});
 
   void visit(const Field& field) override;
   void problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) override;
@@ -65,7 +65,7 @@ class Reader final : public Fields {
   void read_named(const Node& node, const std::string& what, NamedValues kind, Named& value);
   void read_named_numbers(const Node& node, const std::string& what, PerJoint& value);
   /// Number of a joint by its name, or -1 with a problem.
-  std::int64_t joint_number(const std::string& name, const Place& place);
+  std::int64_t joint_number(const std::string& name, const SourceLocation& place);
 
   Node empty_;  ///< stands in for a map that is absent or no map
   const Node* map_;

@@ -5,6 +5,7 @@
 
 #include "core/scenario/reader.h"
 #include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 
@@ -52,7 +53,7 @@ void Reader::read_joint_map(const Node& node, const std::string& key, const Spec
   value = std::move(read);
 }
 
-std::int64_t Reader::joint_number(const std::string& name, const Place& place) {
+std::int64_t Reader::joint_number(const std::string& name, const SourceLocation& place) {
   if (joints_ == nullptr) return -1;
   const auto it = std::find(joints_->begin(), joints_->end(), name);
   if (it != joints_->end()) return it - joints_->begin();

@@ -1,8 +1,7 @@
-// The scenario written out in full.
+#include "core/scenario/resolved.h"
+
 #include "core/scenario/robot_section.h"
-#include "core/scenario/scenario.h"
 #include "core/scenario/sections.h"
-#include "core/scenario/value.h"
 #include "core/scenario/writer.h"
 
 namespace gaitlab {

@@ -11,6 +11,7 @@
 #include "core/scenario/text_file.h"
 #include "core/scenario/type_library.h"
 #include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 #include "core/scenario/writer.h"
 
 namespace gaitlab {
@@ -128,7 +129,7 @@ void keep_used(TypeLibrary& library, std::vector<std::size_t>& type_of_module) {
   library.documents = std::move(documents);
 }
 
-bool too_large(const TypeLibrary& library, const std::vector<std::size_t>& type_of_module, const Place& place,
+bool too_large(const TypeLibrary& library, const std::vector<std::size_t>& type_of_module, const SourceLocation& place,
                Problems& problems) {
   std::size_t bodies = 0;
   for (const std::size_t type : type_of_module) bodies += library.types[type].bodies.size();
@@ -155,7 +156,7 @@ Node modules_node(const Robot& robot, const std::vector<std::string>& names) {
   Node node{Node::Kind::map};
   node.flow = true;
   const auto add = [&](const std::string& key, std::size_t type) {
-    node.keys.emplace_back(key, Place{});
+    node.keys.emplace_back(key, SourceLocation{});
     node.items.push_back(scalar_node(names[type]));
   };
   add("default", common);
@@ -183,7 +184,7 @@ Node docks_node(const Robot& robot) {
 
 }  // namespace
 
-RobotParts read_robot(Reader& reader, const Place& place, const std::string& folder, Problems& problems) {
+RobotParts read_robot(Reader& reader, const SourceLocation& place, const std::string& folder, Problems& problems) {
   const std::size_t before = problems.size();
   RobotParts parts;
   TypeLibrary library(folder, problems);
@@ -215,7 +216,7 @@ std::vector<std::pair<std::string, Node>> robot_nodes(const Robot& robot, const 
   const std::vector<std::string> names = unique_names(robot);
   Node types{Node::Kind::map};
   for (std::size_t i = 0; i < names.size(); ++i) {
-    types.keys.emplace_back(names[i], Place{});
+    types.keys.emplace_back(names[i], SourceLocation{});
     types.items.push_back(documents[i]);
   }
   return {{"types", std::move(types)}, {"modules", modules_node(robot, names)}, {"docks", docks_node(robot)}};

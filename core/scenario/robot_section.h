@@ -18,7 +18,7 @@ struct RobotParts {
 };
 
 /// `reader` stands at the map `robot`; `folder` is the scenario file's.
-RobotParts read_robot(Reader& reader, const Place& place, const std::string& folder, Problems& problems);
+RobotParts read_robot(Reader& reader, const SourceLocation& place, const std::string& folder, Problems& problems);
 
 /// The same keys again, self-contained: `types` in full, `modules` by name, `docks`.
 std::vector<std::pair<std::string, Node>> robot_nodes(const Robot& robot, const std::vector<Node>& documents);

@@ -1,4 +1,5 @@
-// Everything the user said, validated, SI, defaults filled in. Reading: read_scenario; writing it out in full: resolved.
+// Everything the user said, validated, SI, defaults filled in: the value. It is read by read_scenario.h, written out by
+// resolved.h.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -9,16 +10,10 @@
 #include "core/laws/contact.h"
 #include "core/laws/ground.h"
 #include "core/model/robot.h"
-#include "core/plugin/catalog.h"
+#include "core/plugin/plugin_instance.h"
 #include "core/scenario/node.h"
 
 namespace gaitlab {
-
-/// A plugin chosen by name, with its settings filled in. entry == nullptr: none.
-struct Choice {
-  const Entry* entry = nullptr;
-  std::shared_ptr<void> settings = {};
-};
 
 struct Initial {
   PerJoint angles, speeds;                    ///< rad, rad/s
@@ -40,14 +35,14 @@ struct Physics {
   void refine(double by) { (adapts() ? accuracy : step) /= by; }
 };
 
-enum class ContactLaw { penalty, bullet };
+enum class ContactLaw { penalty, solver };  ///< forces of penetration and velocity, or constraints of the engine's own solver
 
 struct ContactSettings {
   ContactLaw law = ContactLaw::penalty;
   ContactSet on = ContactSet::feet;
   PenaltyContact penalty;
-  [[nodiscard]] bool solver() const { return law == ContactLaw::bullet; }  ///< constraints, not forces
-  [[nodiscard]] bool moves_boxes() const { return solver(); }              ///< whether the law knows boxes that have a mass
+  [[nodiscard]] bool solver() const { return law == ContactLaw::solver; }
+  [[nodiscard]] bool moves_boxes() const { return solver(); }  ///< whether the law knows boxes that have a mass
   void fields(Fields& f);
 };
 
@@ -77,7 +72,7 @@ struct Scenario {
   Physics physics;
   Ground ground;
   ContactSettings contact;
-  Choice actuator, controller, cpg;
+  PluginSelection actuator, controller, cpg;
   double control_period = 0.015;  ///< s
   double cpg_step = 0;            ///< s, RK4 sub-step of the CPG
   double duration = 0;            ///< s
@@ -85,32 +80,17 @@ struct Scenario {
   std::int64_t seed = 1;
   std::vector<std::string> notes;  ///< one line each for stderr: what --set dropped, how the CPG was set up
   /// Where the user gave a key: `physics.step`, `trace.columns` ...; of a rollout of a template first its own.
-  using Places = std::map<std::string, Place>;
+  using Places = std::map<std::string, SourceLocation>;
   Places own_places;
   std::shared_ptr<const Places> places = std::make_shared<const Places>();
 
   /// For errors found later: where `key` was given, or else the file.
-  [[nodiscard]] Place place(const std::string& key) const {
+  [[nodiscard]] SourceLocation place(const std::string& key) const {
     for (const Places* known : {&own_places, places.get()}) {
       if (const auto at = known->find(key); at != known->end()) return at->second;
     }
-    return Place{file};
+    return SourceLocation{file};
   }
 };
-
-/// Reads and checks a scenario file. `sets` are `key.path=value` texts in order. Loads the scenario's plugins into the catalog.
-/// Throws InputError with every problem found, each at FILE:LINE:COL.
-Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog);
-
-/// The self-contained YAML text: every default written out, module types and docks inlined, plugins by path and hash.
-/// Reading it again and resolving that gives the same bytes.
-std::string resolved(const Scenario& scenario);
-
-/// Reads a module type file.
-struct ModuleFile {
-  ModuleType type;
-  Node document;
-};
-ModuleFile read_module_file(const std::string& path);
 
 }  // namespace gaitlab

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/scenario/section_places.h"
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 
@@ -32,7 +32,7 @@ void ScenarioChecks::law() {
   }
 }
 
-Place ScenarioChecks::angle_place(std::size_t joint) const {
+SourceLocation ScenarioChecks::angle_place(std::size_t joint) const {
   const Node* initial = root_.find("initial");
   const Node* angles = initial == nullptr ? nullptr : initial->find("angles");
   if (angles == nullptr) return place_of(root_, "initial", "angles");
@@ -48,7 +48,7 @@ void ScenarioChecks::initial_angles() {
   const PerJoint& angles = scenario_.initial.angles;
   if (!angles.each.empty() && angles.each.size() != joints.size()) return;
   struct Outside {
-    Place place;
+    SourceLocation place;
     std::string text;
     int more = 0;
   };
@@ -56,7 +56,7 @@ void ScenarioChecks::initial_angles() {
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const double angle = angles[j];
     if (angle >= joints[j].lo - 1e-9 && angle <= joints[j].hi + 1e-9) continue;
-    const Place place = angle_place(j);
+    const SourceLocation place = angle_place(j);
     const auto [it, fresh] = findings.emplace(to_string(place), Outside{place, {}});
     if (fresh) {
       it->second.text = fmt::format("the initial angle of joint '{}' is {} rad; allowed are {} to {} rad", joints[j].name,

@@ -25,8 +25,8 @@ class ScenarioChecks {
   void rotors(const Actuator& actuator);
 
  private:
-  /// Place of a joint's initial angle.
-  [[nodiscard]] Place angle_place(std::size_t joint) const;
+  /// SourceLocation of a joint's initial angle.
+  [[nodiscard]] SourceLocation angle_place(std::size_t joint) const;
 
   const Node& root_;
   const Scenario& scenario_;

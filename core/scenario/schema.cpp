@@ -126,13 +126,13 @@ class Alternatives {
 Json plugin_section(const PluginFields& section, const Json& head, const Catalog& catalog, const std::string& preset) {
   Alternatives all(head, "type", preset);
   for (const std::string& name : catalog.names(section.kind)) {
-    Choice choice;
-    PluginFields one{section.kind, choice, name, &catalog, section.host};
+    PluginSelection selection;
+    PluginFields one{section.kind, selection, name, &catalog, section.host};
     SchemaFields fields;
     one.fields(fields);
-    all.add(name, std::move(fields.properties()), first_line(choice.entry->manual));
+    all.add(name, std::move(fields.properties()), first_line(selection.entry->manual));
   }
-  if (section.kind == Kind::actuator) all.add("none", Json::object(), "No motor: the joints are free.");
+  if (describe(section.kind).may_be_none) all.add("none", Json::object(), "No motor: the joints are free.");
   return all.take();
 }
 
@@ -166,7 +166,7 @@ Json robot_section() {
 
 std::string scenario_schema(const Catalog& catalog) {
   Scenario scenario;
-  SectionFields sections(scenario, &catalog, nullptr, default_type("actuator"));
+  SectionFields sections(scenario, &catalog, nullptr, describe(Kind::actuator).default_type);
   for (PluginFields* plugin : {&sections.actuator, &sections.controller, &sections.cpg}) plugin->own_keys = false;
   SchemaFields fields;
   sections.fields(fields);
@@ -178,8 +178,9 @@ std::string scenario_schema(const Catalog& catalog) {
   properties["physics"] = physics_section(heads["physics"], catalog);
   // The module type may name another motor than the default's, so that without a type the keys may be any motor's.
   properties["actuator"] = plugin_section(sections.actuator, heads["actuator"], catalog, "");
-  properties["controller"] = plugin_section(sections.controller, heads["controller"], catalog, default_type("controller"));
-  properties["cpg"] = plugin_section(sections.cpg, heads["cpg"], catalog, default_type("cpg"));
+  properties["controller"] =
+      plugin_section(sections.controller, heads["controller"], catalog, describe(Kind::controller).default_type);
+  properties["cpg"] = plugin_section(sections.cpg, heads["cpg"], catalog, describe(Kind::cpg).default_type);
   properties["duration"].erase("default");
   properties["sensors"] = {{"type", "array"}, {"maxItems", 0}, {"description", "There are no sensor types yet."}};
 

@@ -13,7 +13,7 @@ Json scalar() { return {{"type", {"string", "number", "boolean"}}}; }
 Json bounded(const char* type, const Spec& spec) {
   Json json{{"type", type}};
   // The smallest number above 0 stands for "more than 0".
-  if (spec.min == std::numeric_limits<double>::denorm_min()) {
+  if (spec.min == kPositive) {
     json["exclusiveMinimum"] = 0;
   } else if (std::isfinite(spec.min)) {
     json["minimum"] = spec.min;

@@ -12,22 +12,22 @@ constexpr std::size_t kMostProblems = 200;  // more help nobody
 
 }  // namespace
 
-std::optional<Place> given(const Node& root, const std::string& section, const std::string& key) {
+std::optional<SourceLocation> given(const Node& root, const std::string& section, const std::string& key) {
   for (std::size_t i = 0; i < root.keys.size(); ++i) {
     if (root.keys[i].first != section) continue;
     if (key.empty()) return root.keys[i].second;
     const Node* value = root.items[i].find(key);
-    return value == nullptr ? std::nullopt : std::optional<Place>(value->place);
+    return value == nullptr ? std::nullopt : std::optional<SourceLocation>(value->place);
   }
   return {};
 }
 
-Place place_of(const Node& root, const std::string& section, const std::string& key) {
-  if (const std::optional<Place> exact = given(root, section, key)) return *exact;
+SourceLocation place_of(const Node& root, const std::string& section, const std::string& key) {
+  if (const std::optional<SourceLocation> exact = given(root, section, key)) return *exact;
   return given(root, section).value_or(root.place);
 }
 
-void note_places(const Node& map, const std::string& prefix, std::map<std::string, Place>& places) {
+void note_places(const Node& map, const std::string& prefix, std::map<std::string, SourceLocation>& places) {
   for (std::size_t i = 0; i < map.keys.size(); ++i) {
     const std::string key = prefix + map.keys[i].first;
     places[key] = map.items[i].kind == Node::Kind::map ? map.keys[i].second : map.items[i].place;

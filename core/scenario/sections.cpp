@@ -6,20 +6,18 @@
 #include <array>
 #include <limits>
 
+#include "core/plugin/plugin_instance.h"
 #include "core/scenario/overlay.h"
-#include "core/scenario/plugin_instance.h"
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
 
-constexpr double kPositive = std::numeric_limits<double>::denorm_min();
+constexpr const char* kNone = "none";
 constexpr const char* kDefaultEngine = "bullet";
 constexpr std::array<const char*, 3> kBases{"floating", "fixed", "planar"};
-constexpr std::array<const char*, 2> kLaws{"penalty", "bullet"};
+constexpr std::array<const char*, 2> kLaws{"penalty", "bullet"};  // the second: Bullet's solver
 constexpr std::array<const char*, 3> kContactSets{"none", "feet", "all"};
-
-std::span<double> span_of(Vec3& v) { return {v.data(), 3}; }
 
 /// Texts as the interface wants them; they live as long as this.
 struct Names {
@@ -33,18 +31,6 @@ struct Names {
 };
 
 std::size_t count(const Problems* problems) { return problems == nullptr ? 0 : problems->size(); }
-
-const char* about_type(Kind kind) {
-  switch (kind) {
-    case Kind::actuator:
-      return "Motor model; its own keys: gaitlab explain actuator TYPE.";
-    case Kind::controller:
-      return "Joint controller; its own keys: gaitlab explain controller TYPE.";
-    case Kind::cpg:
-      break;
-  }
-  return "Oscillator model or gait; its own keys: gaitlab explain cpg TYPE.";
-}
 
 }  // namespace
 
@@ -151,16 +137,16 @@ void PluginFields::choose(Fields& f) {
   } else if (choice.entry != nullptr) {
     known.emplace_back(choice.entry->name);
   }
-  if (kind == Kind::actuator) known.emplace_back("none");
+  if (describe(kind).may_be_none) known.emplace_back(kNone);
   const Names names(std::move(known));
   std::string name = choice.entry != nullptr ? std::string(choice.entry->name) : type;
-  f.one_of("type", name, names.pointers, about_type(kind));
+  f.one_of("type", name, names.pointers, describe(kind).about_type);
   if (!names.has(name)) {
     f.problem("type",
               "type is missing, and the default " + in_quotes(type) + " is not registered" + offer(type, names.texts, "names"));
     return;
   }
-  none = kind == Kind::actuator && name == "none";
+  none = describe(kind).may_be_none && name == kNone;
   if (none || catalog == nullptr) return;
   choice.entry = catalog->find(kind, name);
   choice.settings = default_settings(*choice.entry);
@@ -190,8 +176,8 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
     : scenario(s),
       physics{s.physics, catalog, problems},
       actuator{Kind::actuator, s.actuator, actuator_type, catalog},
-      controller{Kind::controller, s.controller, default_type("controller"), catalog},
-      cpg{Kind::cpg, s.cpg, default_type("cpg"), catalog} {
+      controller{Kind::controller, s.controller, describe(Kind::controller).default_type, catalog},
+      cpg{Kind::cpg, s.cpg, describe(Kind::cpg).default_type, catalog} {
   actuator.problems = controller.problems = cpg.problems = problems;
   controller.host = [&s](Fields& f) {
     f.number("period", s.control_period,
@@ -209,9 +195,13 @@ void SectionFields::fields(Fields& f) {
   f.group("physics", physics, "How time is integrated.");
   f.group("ground", ground, "What the robot stands on.");
   f.group("contact", scenario.contact, "How the robot touches the ground.");
-  f.group("actuator", actuator, "The motor of every joint.");
-  if (!actuator.none) f.group("controller", controller, "Controller of the joints: from set points to commands.");
-  if (has_cpg) f.group("cpg", cpg, "Pattern generator; without this section the initial angles are held.");
+  const auto group = [&f](PluginFields& section) {
+    const PluginKind& kind = describe(section.kind);
+    f.group(kind.section, section, kind.about);
+  };
+  group(actuator);
+  if (!actuator.none) group(controller);
+  if (has_cpg) group(cpg);
   f.number("duration", scenario.duration, {"s", kPositive, 1e6, "Simulated time; required."});
   f.group("trace", scenario.trace, "The recorded trace.");
   f.integer("seed", scenario.seed, {"", 0, 9e18, "Seed of the random number generator."});

@@ -28,7 +28,7 @@ struct PhysicsFields {
 /// `actuator`, `controller` or `cpg`: a plugin by its type, its settings, and the host's own key.
 struct PluginFields {
   Kind kind;
-  Choice& choice;
+  PluginSelection& choice;
   std::string type;        ///< where the scenario names none; "none": no plugin
   const Catalog* catalog;  ///< may be absent when writing
   std::function<void(Fields&)> host = {};

@@ -9,15 +9,15 @@
 #include "core/scenario/reader.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/text_file.h"
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 
 namespace {
 
-constexpr double kAny = std::numeric_limits<double>::max();
+constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr double kUnit = 1e-6;  // six digits typed by hand
-constexpr Spec kMetres{"m", -kAny, kAny, ""};
+constexpr Spec kMetres{"m", -kLargest, kLargest, ""};
 
 std::span<double> entries(Vec3& v) { return {v.data(), 3}; }
 
@@ -28,17 +28,17 @@ struct BaseMotion {
   void fields(Fields& f) {
     f.vector("position", entries(state.position), kMetres);
     std::array<double, 4> q{state.orientation.w(), state.orientation.x(), state.orientation.y(), state.orientation.z()};
-    f.vector("quaternion", q, {"", -kAny, kAny, ""});
+    f.vector("quaternion", q, {"", -kLargest, kLargest, ""});
     const Quat read(q[0], q[1], q[2], q[3]);
     if (!(std::abs(read.norm() - 1) < kUnit)) {
       f.problem("quaternion", fmt::format("quaternion has the length {}; expected 1", number_text(read.norm())));
     } else {
       state.orientation = read.normalized();
     }
-    f.vector("velocity", entries(state.velocity), {"m/s", -kAny, kAny, ""});
-    f.vector("angular_velocity", entries(state.angular_velocity), {"rad/s", -kAny, kAny, ""});
-    f.vector("acceleration", entries(acceleration.linear), {"m/s^2", -kAny, kAny, ""});
-    f.vector("angular_acceleration", entries(acceleration.angular), {"rad/s^2", -kAny, kAny, ""});
+    f.vector("velocity", entries(state.velocity), {"m/s", -kLargest, kLargest, ""});
+    f.vector("angular_velocity", entries(state.angular_velocity), {"rad/s", -kLargest, kLargest, ""});
+    f.vector("acceleration", entries(acceleration.linear), {"m/s^2", -kLargest, kLargest, ""});
+    f.vector("angular_acceleration", entries(acceleration.angular), {"rad/s^2", -kLargest, kLargest, ""});
   }
 
   /// A base moves only as it can.
@@ -63,13 +63,13 @@ struct WrenchFields {
   void fields(Fields& f) {
     f.text("body", body, "");
     f.vector("point", entries(point), kMetres);
-    f.vector("force", entries(force), {"N", -kAny, kAny, ""});
-    f.vector("torque", entries(torque), {"N m", -kAny, kAny, ""});
+    f.vector("force", entries(force), {"N", -kLargest, kLargest, ""});
+    f.vector("torque", entries(torque), {"N m", -kLargest, kLargest, ""});
   }
 };
 
 /// Line and column (bytes, from 1) of the byte before `end`, where nlohmann's parser stopped.
-Place place_of(const std::string& text, std::size_t end, const std::string& file) {
+SourceLocation place_of(const std::string& text, std::size_t end, const std::string& file) {
   const std::string before = text.substr(0, std::min(end == 0 ? 0 : end - 1, text.size()));
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
   return {file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
@@ -96,7 +96,7 @@ Node parse_json(std::string text, const std::string& file) {
 
 void read_joints(Reader& reader, const char* key, const char* unit, std::vector<double>& values) {
   PerJoint read{0, values};
-  reader.per_joint(key, read, {unit, -kAny, kAny, ""});
+  reader.per_joint(key, read, {unit, -kLargest, kLargest, ""});
   for (std::size_t j = 0; j < values.size(); ++j) values[j] = read[j];
 }
 

@@ -14,7 +14,7 @@ struct DynamicsInput {
   Acceleration acceleration;  ///< inverse dynamics only
   std::vector<double> tau;    ///< N m; forward dynamics only
   std::vector<BodyWrench> wrenches;
-  Place place = {};  ///< of what the joints' angles come from: `q` in the file, or the file
+  SourceLocation place = {};  ///< of what the joints' angles come from: `q` in the file, or the file
 };
 
 /// {q, qd, qdd, tau: a list, a number or {default, JOINT: x}; base: {position, quaternion: [w, x, y, z], velocity,

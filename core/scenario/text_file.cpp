@@ -10,7 +10,7 @@
 namespace gaitlab {
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const Place& asked_at, const std::string& what) {
+[[noreturn]] void refuse(const std::string& path, const SourceLocation& asked_at, const std::string& what) {
   if (asked_at.file.empty()) throw InputError({path}, what);
   throw InputError(asked_at, fmt::format("file '{}' {}", path, what));
 }
@@ -46,7 +46,7 @@ std::string bad_character(const std::string& text, std::size_t at) {
 
 }  // namespace
 
-std::string read_text(const std::string& path, const Place& asked_at) {
+std::string read_text(const std::string& path, const SourceLocation& asked_at) {
   std::error_code failure;
   const auto status = std::filesystem::status(path, failure);
   if (failure || !std::filesystem::exists(status)) {

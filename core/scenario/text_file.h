@@ -10,7 +10,7 @@ inline constexpr std::size_t kMaxTextSize = std::size_t{1} << 20;  ///< bytes of
 
 /// Reads a regular file of at most kMaxTextSize. Throws InputError at `asked_at`, the place that names the file, or at the file
 /// itself where asked_at is empty.
-std::string read_text(const std::string& path, const Place& asked_at = {});
+std::string read_text(const std::string& path, const SourceLocation& asked_at = {});
 
 /// Throws InputError at the first byte that no text has: invalid UTF-8, NUL or another control character, a CR without LF.
 void check_text(const std::string& text, const std::string& file);

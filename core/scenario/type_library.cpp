@@ -9,7 +9,7 @@
 #include "core/scenario/module_file.h"
 #include "core/scenario/plugin_files.h"
 #include "core/scenario/text_file.h"
-#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
@@ -87,7 +87,7 @@ std::optional<std::size_t> TypeLibrary::find_name(const Node& node) {
   return {};
 }
 
-std::optional<std::size_t> TypeLibrary::read_file(const std::string& path, const Place& asked_at) {
+std::optional<std::size_t> TypeLibrary::read_file(const std::string& path, const SourceLocation& asked_at) {
   const auto [seen, fresh] = seen_.emplace(file_key(path), Index{});
   if (!fresh) return seen->second;
   try {

@@ -32,7 +32,7 @@ class TypeLibrary {
   using Index = std::optional<std::size_t>;
 
   Index find_name(const Node& node);
-  Index read_file(const std::string& path, const Place& asked_at);
+  Index read_file(const std::string& path, const SourceLocation& asked_at);
   Index read(const Node& document, bool versioned);
   [[nodiscard]] std::vector<std::string> search_folders() const;
 

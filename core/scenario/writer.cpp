@@ -1,6 +1,7 @@
 #include "core/scenario/writer.h"
 
 #include "core/scenario/value.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 
@@ -24,7 +25,7 @@ Node numbers_node(std::span<const double> values) {
 }
 
 void Writer::add(const std::string& key, Node value) {
-  map_.keys.emplace_back(key, Place{});
+  map_.keys.emplace_back(key, SourceLocation{});
   map_.items.push_back(std::move(value));
 }
 

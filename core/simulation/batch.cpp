@@ -4,13 +4,13 @@
 #include <exception>
 
 #include "core/parallel.h"
-#include "core/scenario/scenario_template.h"
+#include "core/scenario/read_scenario.h"
 
 namespace gaitlab {
 
 namespace {
 
-using Pack = std::vector<std::size_t>;  ///< indices of rollouts; one that stands twice fills a lane that nobody needs
+using LaneGroup = std::vector<std::size_t>;  ///< indices of rollouts; one that stands twice fills a lane that nobody needs
 
 /// How many lanes to take for so many rollouts that are left: all that the widest gives, or the fewest that hold the rest.
 std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::size_t most) {
@@ -23,25 +23,25 @@ std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::si
   return best;
 }
 
-std::vector<Pack> packs(std::span<const Scenario> rollouts, std::size_t most) {
-  std::vector<Pack> groups;
+std::vector<LaneGroup> lane_groups(std::span<const Scenario> rollouts, std::size_t most) {
+  std::vector<LaneGroup> groups;
   for (std::size_t i = 0; i < rollouts.size(); ++i) {
-    const auto group =
-        std::find_if(groups.begin(), groups.end(), [&](const Pack& g) { return can_share(rollouts[g.front()], rollouts[i]); });
+    const auto group = std::find_if(groups.begin(), groups.end(),
+                                    [&](const LaneGroup& g) { return can_share(rollouts[g.front()], rollouts[i]); });
     if (group == groups.end()) {
       groups.push_back({i});
     } else {
       group->push_back(i);
     }
   }
-  std::vector<Pack> all;
-  for (const Pack& group : groups) {
+  std::vector<LaneGroup> all;
+  for (const LaneGroup& group : groups) {
     const std::vector<std::size_t>& widths = rollouts[group.front()].physics.engine->lanes;
     for (std::size_t from = 0; from < group.size();) {
       const std::size_t lanes = width(widths, group.size() - from, most);
-      Pack pack;
-      for (std::size_t l = 0; l < lanes; ++l) pack.push_back(group[std::min(from + l, group.size() - 1)]);
-      all.push_back(pack);
+      LaneGroup together;
+      for (std::size_t l = 0; l < lanes; ++l) together.push_back(group[std::min(from + l, group.size() - 1)]);
+      all.push_back(together);
       from += lanes;
     }
   }
@@ -52,7 +52,7 @@ std::vector<Pack> packs(std::span<const Scenario> rollouts, std::size_t most) {
 
 void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings,
                const std::function<void(std::size_t, Recording&&)>& end) {
-  const std::vector<Pack> all = packs(rollouts, settings.lanes);
+  const std::vector<LaneGroup> all = lane_groups(rollouts, settings.lanes);
   std::vector<std::exception_ptr> refused(rollouts.size());
   const auto alone = [&](std::size_t i) {
     try {
@@ -71,13 +71,13 @@ void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings
     }
   };
   parallel(all.size(), settings.threads, [&](std::size_t p) {
-    Pack pack = all[p];
+    LaneGroup together = all[p];
     std::vector<Scenario> lanes;
-    for (const std::size_t i : pack) lanes.push_back(rollouts[i]);
-    pack.erase(std::unique(pack.begin(), pack.end()), pack.end());
+    for (const std::size_t i : together) lanes.push_back(rollouts[i]);
+    together.erase(std::unique(together.begin(), together.end()), together.end());
     std::unique_ptr<Simulation> simulation;
     try {
-      if (pack.size() > 1) {
+      if (together.size() > 1) {
         simulation = std::make_unique<Simulation>(lanes);
         simulation->run();
       }
@@ -86,12 +86,12 @@ void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings
     } catch (const InputError&) {
       simulation.reset();
     }
-    for (std::size_t l = 0; l < pack.size(); ++l) {
+    for (std::size_t l = 0; l < together.size(); ++l) {
       if (simulation == nullptr) {
-        alone(pack[l]);
+        alone(together[l]);
         continue;
       }
-      end(pack[l], simulation->take_recording(l));
+      end(together[l], simulation->take_recording(l));
     }
   });
   for (const std::exception_ptr& error : refused) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario/plugin_instance.h"
+#include "core/plugin/plugin_instance.h"
 #include "core/simulation/lane_clock.h"
 #include "core/simulation/simulation.h"
 

@@ -29,7 +29,7 @@ Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()), time_(lane
   for (auto* values : {&recent_peak_, &weight_, &share_, &seen_}) values->assign(lo_.size(), 0.0);
 }
 
-void Meter::add(double time, const Applied::Part& part, In setpoint, const Actuator::Report& report, In measured) {
+void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In measured) {
   const std::size_t n = lo_.size();
   const In angle = part.angle;
   const In speed = part.speed;

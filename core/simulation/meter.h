@@ -16,7 +16,7 @@ class Meter {
 
   /// One part of the step that starts at `time` (s): motion, torque and the actuator law there. measured: one number per lane,
   /// 1 where the part counts, else 0.
-  void add(double time, const Applied::Part& part, In setpoint, const Actuator::Report& report, In measured);
+  void add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In measured);
   [[nodiscard]] JointStatistics statistics(std::size_t joint, std::size_t lane) const;
   /// What Recording::ticks has of each joint, into `row`; its peaks start anew.
   void tick(std::size_t lane, Out row);

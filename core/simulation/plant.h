@@ -48,8 +48,8 @@ struct PlantSettings : LaneSettings {
   bool solver = false;                 ///< contact.law: bullet; `law` is not used
 };
 
-/// Stateless but for caches, unless it says otherwise (memoryless): the simulation owns the numbers and binds them once; a
-/// snapshot is a copy of them.
+/// Stateless but for caches, unless it says otherwise (state_is_complete): the simulation owns the numbers and binds them once;
+/// a snapshot is a copy of them.
 class Plant {
  public:
   virtual ~Plant() = default;
@@ -60,19 +60,19 @@ class Plant {
   virtual void bind(Out state, Out history) = 0;
   /// One step of h seconds under held commands (joint * lanes + lane), asking the actuator at every stage the integrator needs.
   virtual void advance(In command, double h) = 0;
-  [[nodiscard]] virtual Applied applied() const = 0;
+  [[nodiscard]] virtual StepEffort applied() const = 0;
   /// All but the torque error.
   virtual void tally(std::size_t /*lane*/, StepTally& /*out*/) const {}
-  /// Actuator::report, by an engine that evaluates the law itself; false: it does not.
-  virtual bool report(In, In, const Actuator::Report&) { return false; }
+  /// Actuator::electrical, by an engine that evaluates the law itself; false: it does not.
+  virtual bool evaluate_motors(In, In, const Actuator::Electrical&) { return false; }
   /// Whether the bound numbers are all it goes by, so that a copy of them is a snapshot and forces follow from them.
-  [[nodiscard]] virtual bool memoryless() const { return true; }
+  [[nodiscard]] virtual bool state_is_complete() const { return true; }
   /// Forward dynamics by the engine's own algorithm at `state`, not the bound one: accelerations under these joint torques, N
   /// m, and wrenches on bodies. Weight acts; motors, stops and contacts do not, but for the motors' rotors.
   virtual void accelerate(std::size_t lane, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
                           Acceleration& out) = 0;
   /// Takes the present state for contacts and com, all lanes at once.
-  virtual void look() {}
+  virtual void update_contacts() {}
   /// Centre of mass, world, m; none: the engine does not have it at hand.
   [[nodiscard]] virtual std::optional<Vec3> com(std::size_t lane) const = 0;
   /// Forces of every contact element; of a plant with a memory, those of its last step.

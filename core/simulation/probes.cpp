@@ -25,7 +25,7 @@ Sample::Sample(const Robot& robot, std::size_t contacts_count, std::size_t cpg_s
   ground_.reserve(contacts_count);
 }
 
-void Sample::place(const Robot& robot) {
+void Sample::forward_kinematics(const Robot& robot) {
   kinematics.update(robot, state);
   orientation[0] = state.orientation;
   for (std::size_t i = 1; i < robot.links.size(); ++i) {
@@ -52,7 +52,7 @@ void Sample::place_boxes(const Plant& plant) {
   before_.clear();
 }
 
-void Sample::react(const std::vector<ContactElement>& elements, Plant& plant, std::size_t lane) {
+void Sample::compute_reactions(const std::vector<ContactElement>& elements, Plant& plant, std::size_t lane) {
   for (std::size_t j = 0; j < applied_.size(); ++j) applied_[j] = torque[j] + stop_torque[j];
   ground_.clear();
   for (std::size_t c = 0; c < elements.size(); ++c) {

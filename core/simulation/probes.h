@@ -14,12 +14,12 @@ namespace gaitlab {
 /// One lane at a trace tick: the state at t_k and the actuator law at that state under the command in force just before t_k.
 struct Sample {
   explicit Sample(const Robot& robot, std::size_t contacts, std::size_t cpg_states);
-  void place(const Robot& robot);        ///< fills kinematics, link orientations and sums from state
-  void set_boxes(const Ground& ground);  ///< as they start
+  void forward_kinematics(const Robot& robot);  ///< fills kinematics, link orientations and sums from state
+  void set_boxes(const Ground& ground);         ///< as they start
   /// The ground's boxes as `plant` has them; the signs of their quaternions continuous.
   void place_boxes(const Plant& plant);
   /// Fills reactions from what is known here and the accelerations that `plant` gives for it.
-  void react(const std::vector<ContactElement>& elements, Plant& plant, std::size_t lane);
+  void compute_reactions(const std::vector<ContactElement>& elements, Plant& plant, std::size_t lane);
 
   double t = 0;
   RobotState state;
@@ -55,7 +55,7 @@ class Probes {
   [[nodiscard]] const std::vector<Column>& rest_columns() const { return rest_columns_; }
   /// Whether a column reads Sample::reactions.
   [[nodiscard]] bool want_reactions() const { return want_reactions_; }
-  /// Whether a column reads what Sample::place fills in, the centre of mass aside.
+  /// Whether a column reads what Sample::forward_kinematics fills in, the centre of mass aside.
   [[nodiscard]] bool want_places() const { return want_places_; }
   void fill(Out row, Out rest) const;  ///< from the sample as it is now
 

@@ -33,7 +33,7 @@ Simulation::Simulation(std::span<const Scenario> lanes) try
       h_(scenarios_.at(0).physics.step),
       layout_{scenarios_[0].robot->joints.size(), scenarios_.size()},
       meter_(scenarios_) {
-  std::vector<const Choice*> actuators;
+  std::vector<const PluginSelection*> actuators;
   for (const Scenario& s : scenarios_) {
     if (!can_share(scenarios_[0], s)) throw std::invalid_argument("these scenarios cannot run side by side");
     actuators.push_back(&s.actuator);
@@ -115,7 +115,7 @@ void Simulation::set_start() {
     Sample& sample = lane.sample;
     sample.gravity = s.physics.gravity;
     place_at_start(lane);
-    sample.place(lane.robot);
+    sample.forward_kinematics(lane.robot);
     lane.energy_at_start = energy(lane);
     sample.set_boxes(s.ground);
     if (lane.cpg != nullptr) lane.cpg->start(lane.cpg_state);
@@ -143,7 +143,7 @@ void Simulation::set_start() {
 void Simulation::watch_error() {
   const Physics& physics = scenarios_[0].physics;
   const bool known = physics.adapts() || physics.integrator->order > 0;
-  if (actuator_ == nullptr || !known || !plant_->memoryless() || layout_.joints == 0) return;
+  if (actuator_ == nullptr || !known || !plant_->state_is_complete() || layout_.joints == 0) return;
   const std::int64_t control_every = std::llround(scenarios_[0].control_period / h_);
   PlantSettings settings = plant_settings();
   StepTwin twin;

@@ -104,10 +104,10 @@ void Simulation::end(Lane& lane) {
 }
 
 /// The actuator law at these speeds under the commands in force.
-void Simulation::report(In speeds) {
+void Simulation::evaluate_motors(In speeds) {
   if (actuator_ == nullptr) return;
-  const Actuator::Report into{voltage_, current_, saturation_, power_in_, copper_, gear_};
-  if (!plant_->report(command_, speeds, into)) actuator_->report(command_, speeds, into);
+  const Actuator::Electrical into{voltage_, current_, saturation_, power_in_, copper_, gear_};
+  if (!plant_->evaluate_motors(command_, speeds, into)) actuator_->electrical(command_, speeds, into);
 }
 
 /// Kinetic and potential, rotors included, J.
@@ -129,7 +129,7 @@ Sample& Simulation::take_sample(Lane& lane, bool whole) {
   s.t = time();
   layout_.read(plant_state_, l, s.state);
   const std::optional<Vec3> com = plant_->com(l);
-  if (whole || !com || lane.probes->want_places()) s.place(lane.robot);
+  if (whole || !com || lane.probes->want_places()) s.forward_kinematics(lane.robot);
   if (com) s.sums.com = *com;
   plant_->contacts(l, s.contacts);
   s.place_boxes(*plant_);
@@ -157,16 +157,16 @@ Sample& Simulation::take_sample(Lane& lane, bool whole) {
 }
 
 /// The left limit of what is not the plant's state: the actuator law under the command in force.
-void Simulation::look() {
-  report(plant_state_.subspan(layout_.speeds(), command_.size()));
+void Simulation::observe() {
+  evaluate_motors(plant_state_.subspan(layout_.speeds(), command_.size()));
   if (actuator_ != nullptr) {
     actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
   }
-  plant_->look();
+  plant_->update_contacts();
 }
 
 void Simulation::record() {
-  look();
+  observe();
   for (const auto& lane : lanes_) {
     if (!trace_tick(*lane)) continue;
     record(*lane);
@@ -176,7 +176,7 @@ void Simulation::record() {
 
 void Simulation::record(Lane& lane) {
   Sample& s = take_sample(lane, false);
-  if (lane.probes->want_reactions()) s.react(lane.contacts, *plant_, lane.index);
+  if (lane.probes->want_reactions()) s.compute_reactions(lane.contacts, *plant_, lane.index);
   Recording& r = lane.recording;
   for (Trace* table : {&r.trace, &r.rest}) table->values.resize(table->values.size() + table->columns.size());
   lane.probes->fill(Out(r.trace.values).last(r.trace.columns.size()), Out(r.rest.values).last(r.rest.columns.size()));
@@ -201,7 +201,7 @@ void Simulation::record_within_step() {
       if (ends(*lane)) ended_.push_back(lane.get());
     }
     within_ = row;
-    look();
+    observe();
     for (const auto& lane : lanes_) {
       if (next(*lane) <= row) record(*lane);
     }
@@ -225,7 +225,7 @@ void Simulation::sense() {
   if (actuator_ != nullptr) {
     actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
   }
-  plant_->look();
+  plant_->update_contacts();
   for (const auto& one : lanes_) {
     Lane& lane = *one;
     const std::size_t l = lane.index;
@@ -307,11 +307,11 @@ void Simulation::watch_stability() {
 /// A step of the plant, into the ledger, which is part of the state, and into the figures of the lanes that `measured` is told.
 void Simulation::advance(double h, const std::function<bool(const Lane&)>& measured) {
   plant_->advance(command_, h);
-  const Applied applied = plant_->applied();
+  const StepEffort applied = plant_->applied();
   const std::size_t lanes = lanes_.size();
   for (std::size_t l = 0; l < lanes; ++l) measured_[l] = measured(*lanes_[l]) ? 1 : 0;
-  for (const Applied::Part& part : applied.parts) {
-    report(part.speed);
+  for (const StepEffort::Part& part : applied.parts) {
+    evaluate_motors(part.speed);
     meter_.add(time(), part, setpoint_, {voltage_, current_, saturation_, power_in_, copper_, gear_}, measured_);
     if (part.instant) continue;
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -370,7 +370,7 @@ SimulationError Simulation::diverged(const Lane& lane) const {
 /// What is known of it at this step, beside the rows.
 void Simulation::close(Lane& lane) {
   lane.closed = true;
-  plant_->look();
+  plant_->update_contacts();
   record_tick(lane);
   Recording& recording = lane.recording;
   recording.steps = step_number();
@@ -384,7 +384,7 @@ void Simulation::close(Lane& lane) {
 }
 
 Out Simulation::state() {
-  if (plant_->memoryless()) return state_;
+  if (plant_->state_is_complete()) return state_;
   throw InputError(scenarios_[0].place("contact.law"),
                    "contact.law: bullet gives no snapshot: its contact points and boxes are no part of the state");
 }

@@ -52,7 +52,7 @@ class Simulation {
 
   /// Everything that changes: step counter, plant, held set points and commands, plugins' states, the ledger's sums. A copy is
   /// a snapshot (what was recorded is not part of it: a run that is put back records on). Throws InputError where the plant
-  /// keeps more than that (Plant::memoryless).
+  /// keeps more than that (Plant::state_is_complete).
   Out state();
   [[nodiscard]] std::int64_t step_number() const { return static_cast<std::int64_t>(state_[0]); }
   [[nodiscard]] double time() const { return static_cast<double>(step_number()) * h_ + within_; }
@@ -83,8 +83,8 @@ class Simulation {
   void check_standing();
   void watch_error();
   void watch_stability();
-  void report(In speeds);
-  void look();
+  void evaluate_motors(In speeds);
+  void observe();
   [[nodiscard]] double energy(const Lane& lane) const;
   Sample& take_sample(Lane& lane, bool whole);
   template <class Work>

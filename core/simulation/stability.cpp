@@ -2,21 +2,22 @@
 
 #include <cmath>
 
+#include "core/laws/hinge_stop.h"
 #include "core/simulation/support.h"
 
 namespace gaitlab {
 
-void stand(const LaneSettings& s, const Kinematics& k, std::vector<ContactSlope>& out) {
+void static_contact_slopes(const LaneSettings& s, const Kinematics& k, std::vector<ContactSlope>& out) {
   out.clear();
   if (s.ground.kind == Ground::Kind::none) return;
-  std::vector<Support> elements;
+  std::vector<SupportElement> elements;
   std::vector<Ground::Touch> touches;
   for (std::size_t e = 0; e < s.contacts.size(); ++e) {
     const Ground::Touch touch = s.ground.query(k.point(s.contacts[e].link, s.contacts[e].centre), s.contacts[e].radius);
     elements.push_back({e, -touch.penetration, touch.point});
     touches.push_back(touch);
   }
-  for (const Support& on : standing_on(std::move(elements), sums(*s.robot, k, s.gravity).com)) {
+  for (const SupportElement& on : support_elements(std::move(elements), sums(*s.robot, k, s.gravity).com)) {
     const Ground::Touch& touch = touches[on.element];
     out.push_back({on.element, s.contacts[on.element].link, on.point, touch.normal, Vec3::Zero(), touch.friction, 0});
   }
@@ -40,6 +41,12 @@ RateMonitor::RateMonitor(const Robot& robot)
       omega_(robot.links.size()),
       force_(robot.links.size()),
       moment_(robot.links.size()) {}
+
+void RateMonitor::stop_at(const Robot& robot, const RobotState& state) {
+  for (std::size_t j = 0; j < stop.size(); ++j) {
+    stop[j] = HingeStop::at(state.q[j], state.qd[j], robot.joints[j].lo, robot.joints[j].hi).damping;
+  }
+}
 
 Vec3 RateMonitor::velocity_at(const Kinematics& k, const ContactSlope& c) const {
   return v_[c.link] + omega_[c.link].cross(c.point - k.p[c.link]);

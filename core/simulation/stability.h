@@ -32,7 +32,7 @@ struct ContactSlope {
 
 /// Slopes of a robot that stands: its weight in equal parts on its support (support.h), at the penetration that carries it.
 /// Replaces `out`; empty where there is no ground.
-void stand(const LaneSettings& settings, const Kinematics& kinematics, std::vector<ContactSlope>& out);
+void static_contact_slopes(const LaneSettings& settings, const Kinematics& kinematics, std::vector<ContactSlope>& out);
 
 /// Power iteration on A = M^-1 (B + sum J^T G J), Rayleigh quotient in the norm of (B + sum J^T G J): from below, and right to
 /// second order in the vector's error. Cold start, fixed number of iterations: the same state gives the same answer.
@@ -44,9 +44,29 @@ class RateMonitor {
   std::vector<double> motor, stop;     ///< damping slopes, N m s/rad
   std::vector<ContactSlope> contacts;  ///< capacity is reserved by the caller
 
+  /// The rate that limits the step, of an engine that has filled `motor` (standing: with the slopes at rest, for a robot that
+  /// stands does not turn its motors, and at speed they may be saturated, their slope 0). `touching` fills `contacts` at the
+  /// present state; a robot that stands has those that carry it, whatever touches at the start.
+  template <class Touching>
+  [[nodiscard]] Stability rule(const LaneSettings& lane, Base base, const Kinematics& kinematics, const RobotState& state,
+                               bool standing, InverseMass& inverse_mass, Touching touching) {
+    stop_at(*lane.robot, state);
+    contacts.clear();
+    if (standing && base != Base::fixed) {
+      static_contact_slopes(lane, kinematics, contacts);
+    } else {
+      touching();
+    }
+    return largest(*lane.robot, kinematics, inverse_mass, standing ? kStartIterations : kMonitorIterations);
+  }
   [[nodiscard]] Stability largest(const Robot& robot, const Kinematics& kinematics, InverseMass& inverse_mass, int iterations);
 
+  /// The rate is right to second order in the vector's error: 20 give 1 % and better.
+  static constexpr int kMonitorIterations = 20;
+  static constexpr int kStartIterations = 200;  ///< once, before the run
+
  private:
+  void stop_at(const Robot& robot, const RobotState& state);
   void damp(const Robot& robot, const Kinematics& k, In velocity, Out force);
   [[nodiscard]] Vec3 velocity_at(const Kinematics& k, const ContactSlope& c) const;
   [[nodiscard]] Stability attribute(const Kinematics& k, In velocity, double rate) const;

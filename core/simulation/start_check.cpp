@@ -17,7 +17,7 @@ constexpr double kNothing = 1e-12;
 }  // namespace
 
 void check_inertia(const Scenario& scenario, const Kinematics& kinematics, In rotors, std::size_t lanes, std::size_t lane,
-                   const Place& place) {
+                   const SourceLocation& place) {
   const Robot& robot = *scenario.robot;
   MassMatrix mass(robot, scenario.base);
   mass.update(kinematics);

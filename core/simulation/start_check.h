@@ -10,6 +10,6 @@ namespace gaitlab {
 /// hinges whose axes are in line turns freely. `kinematics`: at the start; `rotors`: reflected inertia of joint j, kg m^2, at
 /// j * lanes + lane, or empty. InputError naming the joint, at `place`.
 void check_inertia(const Scenario& scenario, const Kinematics& kinematics, In rotors, std::size_t lanes, std::size_t lane,
-                   const Place& place);
+                   const SourceLocation& place);
 
 }  // namespace gaitlab

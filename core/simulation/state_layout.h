@@ -26,7 +26,7 @@ struct StateLayout {
 };
 
 /// What the last step applied, for the ledger and not for the trace.
-struct Applied {
+struct StepEffort {
   /// Motors and joints at one moment within the step, and how the moment counts.
   struct Part {
     In torque;             ///< of the motors, N m (joint * lanes + lane)
@@ -40,7 +40,7 @@ struct Applied {
   In contact, friction, stops;  ///< a lane: J that the robot gave the ground along its normal, along it, and the hinge stops
 };
 
-/// Applied of a plant of one lane that takes its step in one.
+/// StepEffort of a plant of one lane that takes its step in one.
 class OnePart {
  public:
   void set(In torque, In speed, In angle, double h) {
@@ -48,13 +48,13 @@ class OnePart {
     part_ = {torque, speed, angle, {&h_, 1}, {&h_, 1}};
   }
   /// works: contact, friction, stops, J
-  [[nodiscard]] Applied applied(In works) const {
+  [[nodiscard]] StepEffort applied(In works) const {
     return {{&part_, 1}, works.subspan(0, 1), works.subspan(1, 1), works.subspan(2, 1)};
   }
 
  private:
   double h_ = 0;
-  Applied::Part part_;
+  StepEffort::Part part_;
 };
 
 }  // namespace gaitlab

@@ -12,7 +12,7 @@
 namespace gaitlab::oracle {
 namespace {
 
-constexpr double kRounding = 1e-13;  // a few hundred operations on numbers of size 1 to 10
+constexpr double kOracleRounding = 1e-13;  // a few hundred operations on numbers of size 1 to 10
 
 /// Fourth-order central difference: error h^4 f^(5) / 30 and rounding 1e-16 / h, 1e-11 together for h = 1e-3 and f of size 1.
 template <class F>
@@ -27,24 +27,24 @@ TEST(Oracle, EllipticFunctions) {
     EXPECT_NEAR(elliptic_k(k), std::comp_ellint_1(k), 1e-13 * elliptic_k(k));
     for (const double u : {0.1, 0.7, 1.3}) {
       const Jacobi j = jacobi(u, k);
-      EXPECT_NEAR(std::ellint_1(k, std::atan2(j.sn, j.cn)), u, kRounding) << k;
-      EXPECT_NEAR(j.dn * j.dn + k * k * j.sn * j.sn, 1, kRounding);
+      EXPECT_NEAR(std::ellint_1(k, std::atan2(j.sn, j.cn)), u, kOracleRounding) << k;
+      EXPECT_NEAR(j.dn * j.dn + k * k * j.sn * j.sn, 1, kOracleRounding);
       EXPECT_NEAR(derivative([&](double x) { return jacobi(x, k).sn; }, u), j.cn * j.dn, 1e-10) << k;
     }
-    EXPECT_NEAR(jacobi(5 * elliptic_k(k), k).sn, 1, kRounding) << "a period later";
+    EXPECT_NEAR(jacobi(5 * elliptic_k(k), k).sn, 1, kOracleRounding) << "a period later";
   }
 }
 
 TEST(Oracle, ExtrapolationReachesRounding) {
   const auto swing = [](const std::array<double, 2>& x) { return std::array<double, 2>{x[1], -x[0]}; };
   const auto end = integrate(swing, std::array<double, 2>{1, 0}, 10, 20);
-  EXPECT_NEAR(end[0], std::cos(10), kRounding);
-  EXPECT_NEAR(end[1], -std::sin(10), kRounding);
+  EXPECT_NEAR(end[0], std::cos(10), kOracleRounding);
+  EXPECT_NEAR(end[1], -std::sin(10), kOracleRounding);
 }
 
 TEST(Oracle, PendulumObeysItsEquation) {
   const Pendulum pendulum(3, 2.5);
-  EXPECT_NEAR(pendulum.angle(0), 2.5, kRounding);
+  EXPECT_NEAR(pendulum.angle(0), 2.5, kOracleRounding);
   EXPECT_NEAR(pendulum.angle(pendulum.period()), 2.5, 1e-12);
   EXPECT_NEAR(Pendulum(3, 1e-4).period(), 2 * std::numbers::pi / 3, 2e-9);  // small: longer by amplitude^2 / 16
   for (const double t : {0.2, 0.9, 1.7}) {
@@ -79,7 +79,7 @@ TEST(Oracle, FreeTopObeysEulersEquations) {
 
 TEST(Oracle, HeavyTopHangsTogether) {
   const HeavyTop top{0.3, 0.1, 2};
-  EXPECT_NEAR(top.lean(0.7, 1.5, top.spin_for(1.5, 0.7)), 0, kRounding);
+  EXPECT_NEAR(top.lean(0.7, 1.5, top.spin_for(1.5, 0.7)), 0, kOracleRounding);
   // Where it turns back its energy is what it was: (A W^2 sin^2 - 2 mgl (cos theta0 - cos theta)) / 2 = 0, with the
   // precession from the angular momentum about the vertical.
   const double w3 = 30;
@@ -136,8 +136,8 @@ TEST(Oracle, StopBounceObeysItsEquation) {
     return std::array<double, 2>{x[1], -(stop.ks * x[0] + stop.cs * x[1]) / stop.J};
   };
   const auto end = integrate(pushed, std::array<double, 2>{0, 2}, stop.lasts(), 10);
-  EXPECT_NEAR(end[0], stop.at(stop.lasts(), 2)[0], kRounding);
-  EXPECT_NEAR(end[1], stop.at(stop.lasts(), 2)[1], kRounding);
+  EXPECT_NEAR(end[0], stop.at(stop.lasts(), 2)[0], kOracleRounding);
+  EXPECT_NEAR(end[1], stop.at(stop.lasts(), 2)[1], kOracleRounding);
   EXPECT_NEAR(stop.ks * end[0] + stop.cs * end[1], 0, 1e-11);
   EXPECT_LT(end[1], 0);
   EXPECT_GT(end[0], 0);

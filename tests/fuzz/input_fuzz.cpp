@@ -7,6 +7,8 @@
 
 #include "app/app.h"
 #include "core/errors.h"
+#include "core/scenario/read_scenario.h"
+#include "core/scenario/resolved.h"
 #include "tests/folder.h"
 
 namespace gaitlab {

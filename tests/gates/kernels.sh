@@ -4,7 +4,7 @@
 # usage: kernels.sh PROGRAM_BUILD_DIR
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
-for object in pack_avx2 pack_avx512; do
+for object in kernel_avx2 kernel_avx512; do
   file=$(find "$1" -name "$object.cpp.o" -print -quit)
   [[ -n $file ]] || fail "no $object.cpp.o in $1"
   own=$(nm --demangle --defined-only "$file" | grep -c ' [WV] .*Doubles<') || true

@@ -24,7 +24,7 @@ struct Rises final : Actuator {
       slope[i] = whole == torque[i] ? -s.rise : 0;
     }
   }
-  void report(In command, In speed, Report out) const override {
+  void electrical(In command, In speed, Electrical out) const override {
     effort(command, speed, out.copper, out.gear);
     for (std::size_t i = 0; i < limit.size(); ++i) {
       out.power_in[i] = out.copper[i] * speed[i];

@@ -56,7 +56,7 @@ struct ThrowingActuator final : Actuator {
   std::string_view command_unit() const override { return "V"; }
   In command_limit() const override { return limit; }
   void effort(In, In, Out, Out) const override { s.at("effort"); }
-  void report(In, In, Report) const override { s.at("report"); }
+  void electrical(In, In, Electrical) const override { s.at("electrical"); }
   std::vector<double> limit;
   Settings s;
 };

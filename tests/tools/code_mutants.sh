@@ -65,12 +65,12 @@ defect "articulated: the ledger gains what stops take" physics_articulated/impli
 
 build() {
   [[ -f $build/build.ninja ]] || (cd -- "$clone" && expect 0 cmake --preset release)
-  expect 0 cmake --build "$build" --target gaitlab core_tests lab_tests
+  expect 0 cmake --build "$build" --target gaitlab core_tests program_tests
 }
 # The names of the failed tests.
 red() {
   local tests
-  for tests in core_tests lab_tests; do
+  for tests in core_tests program_tests; do
     timeout 600 "$build/bin/$tests" --gtest_filter="$left_out" --gtest_brief=1 2>&1 |
       sed -nE 's/^\[  FAILED  \] ([A-Za-z0-9_]+[.\/][A-Za-z0-9_.\/]+).*/\1/p' | sort -u || true
   done

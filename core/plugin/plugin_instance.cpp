@@ -1,0 +1,166 @@
+#include "core/plugin/plugin_instance.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+namespace gaitlab {
+namespace {
+
+std::string title(const Entry& entry) {
+  const bool built_in = entry.origin.empty() || entry.origin == kBuiltIn;
+  return fmt::format("{} '{}'{}", word(entry.kind), entry.name, built_in ? "" : fmt::format(" ({})", entry.origin));
+}
+
+/// Calls a plugin's own code, which may throw anything. `function` empty: its constructor, whose text speaks for itself.
+template <class Call>
+auto guarded(const Entry& entry, const char* function, Call call) {
+  const auto before = [&] { return *function == '\0' ? std::string() : fmt::format("{} threw: ", function); };
+  try {
+    return call();
+  } catch (const std::exception& error) {
+    throw PluginError(entry, before() + error.what());
+  } catch (...) {
+    throw PluginError(entry, before() + "something that is not derived from std::exception");
+  }
+}
+
+template <class T>
+std::unique_ptr<T> made(const Entry& entry, const RobotInfo& robot, std::span<const void* const> settings) {
+  return guarded(entry, "", [&] { return std::unique_ptr<T>(static_cast<T*>(entry.make(robot, settings))); });
+}
+
+class GuardedCpg final : public Cpg {
+ public:
+  GuardedCpg(const Entry& entry, std::unique_ptr<Cpg> cpg) : entry_(entry), cpg_(std::move(cpg)) {}
+  [[nodiscard]] std::size_t states() const override {
+    return guarded(entry_, "states", [&] { return cpg_->states(); });
+  }
+  [[nodiscard]] std::string state_name(std::size_t index) const override {
+    return guarded(entry_, "state_name", [&] { return cpg_->state_name(index); });
+  }
+  void start(Out x) const override {
+    guarded(entry_, "start", [&] { cpg_->start(x); });
+  }
+  void derivative(const Measured& m, In x, Out rate) const override {
+    guarded(entry_, "derivative", [&] { cpg_->derivative(m, x, rate); });
+  }
+  void event(const Measured& m, Out x) const override {
+    guarded(entry_, "event", [&] { cpg_->event(m, x); });
+  }
+  void output(double t, In x, Out setpoint) const override {
+    guarded(entry_, "output", [&] { cpg_->output(t, x, setpoint); });
+  }
+  [[nodiscard]] std::string note() const override {
+    return guarded(entry_, "note", [&] { return cpg_->note(); });
+  }
+
+ private:
+  const Entry& entry_;
+  std::unique_ptr<Cpg> cpg_;
+};
+
+class GuardedController final : public Controller {
+ public:
+  GuardedController(const Entry& entry, std::unique_ptr<Controller> controller)
+      : entry_(entry), controller_(std::move(controller)) {}
+  [[nodiscard]] std::string_view command_unit() const override {
+    return guarded(entry_, "command_unit", [&] { return controller_->command_unit(); });
+  }
+  [[nodiscard]] std::size_t states() const override {
+    return guarded(entry_, "states", [&] { return controller_->states(); });
+  }
+  void start(Out x) const override {
+    guarded(entry_, "start", [&] { controller_->start(x); });
+  }
+  void update(const Measured& m, In setpoint, In limit, Out x, Out command) const override {
+    guarded(entry_, "update", [&] { controller_->update(m, setpoint, limit, x, command); });
+  }
+
+ private:
+  const Entry& entry_;
+  std::unique_ptr<Controller> controller_;
+};
+
+class GuardedActuator final : public Actuator {
+ public:
+  GuardedActuator(const Entry& entry, std::unique_ptr<Actuator> actuator, std::size_t size)
+      : entry_(entry), actuator_(std::move(actuator)), size_(size) {}
+  [[nodiscard]] std::string_view command_unit() const override {
+    return guarded(entry_, "command_unit", [&] { return actuator_->command_unit(); });
+  }
+  [[nodiscard]] In command_limit() const override {
+    return sized("command_limit", guarded(entry_, "command_limit", [&] { return actuator_->command_limit(); }));
+  }
+  [[nodiscard]] In reflected_inertia() const override {
+    const In inertia = guarded(entry_, "reflected_inertia", [&] { return actuator_->reflected_inertia(); });
+    return inertia.empty() ? inertia : sized("reflected_inertia", inertia);
+  }
+  void effort(In command, In speed, Out torque, Out slope) const override {
+    guarded(entry_, "effort", [&] { actuator_->effort(command, speed, torque, slope); });
+  }
+  void electrical(In command, In speed, Electrical out) const override {
+    guarded(entry_, "electrical", [&] { actuator_->electrical(command, speed, out); });
+  }
+  void unlimited(In command, In speed, Out torque, Out slope) const override {
+    guarded(entry_, "unlimited", [&] { actuator_->unlimited(command, speed, torque, slope); });
+  }
+  [[nodiscard]] const DcMotor* dc_motors() const override {
+    return guarded(entry_, "dc_motors", [&] { return actuator_->dc_motors(); });
+  }
+
+ private:
+  [[nodiscard]] In sized(const char* function, In values) const {
+    if (values.size() == size_) return values;
+    throw PluginError(entry_,
+                      fmt::format("{} has {} numbers; expected {}, one per joint and lane", function, values.size(), size_));
+  }
+
+  const Entry& entry_;
+  std::unique_ptr<Actuator> actuator_;
+  std::size_t size_;
+};
+
+template <class Guard, class T>
+std::unique_ptr<T> make(const PluginSelection& selection, const RobotInfo& robot) {
+  if (selection.entry == nullptr) return {};
+  const void* const settings = selection.settings.get();
+  return std::make_unique<Guard>(*selection.entry, made<T>(*selection.entry, robot, {&settings, 1}));
+}
+
+}  // namespace
+
+PluginError::PluginError(const Entry& entry, const std::string& what)
+    : RunError(title(entry) + ": " + what), kind(entry.kind) {}
+
+std::shared_ptr<void> default_settings(const Entry& entry) {
+  return guarded(entry, "Settings", [&] { return entry.settings(); });
+}
+
+void visit_settings(const Entry& entry, void* settings, Fields& fields) {
+  guarded(entry, "fields", [&] { entry.fields(settings, fields); });
+}
+
+std::unique_ptr<Cpg> make_cpg(const PluginSelection& selection, const RobotInfo& robot) {
+  return make<GuardedCpg, Cpg>(selection, robot);
+}
+
+std::unique_ptr<Controller> make_controller(const PluginSelection& selection, const RobotInfo& robot) {
+  return make<GuardedController, Controller>(selection, robot);
+}
+
+std::unique_ptr<Actuator> make_actuator(std::span<const PluginSelection* const> lanes, const RobotInfo& robot) {
+  const Entry* entry = lanes.front()->entry;
+  if (entry == nullptr) return {};
+  std::vector<const void*> settings;
+  for (const PluginSelection* lane : lanes) settings.push_back(lane->settings.get());
+  return std::make_unique<GuardedActuator>(*entry, made<Actuator>(*entry, robot, settings), robot.joints.size() * lanes.size());
+}
+
+std::unique_ptr<Actuator> make_actuator(const PluginSelection& selection, const RobotInfo& robot) {
+  const PluginSelection* const one = &selection;
+  return make_actuator({&one, 1}, robot);
+}
+
+}  // namespace gaitlab

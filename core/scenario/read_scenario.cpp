@@ -1,0 +1,364 @@
+// read_scenario: the file, --set, plugins, robot and sections in this order; then what only the whole can show.
+#include "core/scenario/read_scenario.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "core/plugin/plugin_instance.h"
+#include "core/scenario/ground_section.h"
+#include "core/scenario/overlay.h"
+#include "core/scenario/periods.h"
+#include "core/scenario/plugin_files.h"
+#include "core/scenario/reader.h"
+#include "core/scenario/robot_section.h"
+#include "core/scenario/scenario_checks.h"
+#include "core/scenario/section_places.h"
+#include "core/scenario/sections.h"
+#include "core/scenario/text_file.h"
+#include "core/scenario/wording.h"
+
+namespace gaitlab {
+
+/// The default motor that the module types name.
+struct TypeMotor {
+  std::string type = describe(Kind::actuator).default_type;
+  const Node* map = nullptr;  ///< its keys, where all types that have a motor agree
+  bool agreed = true;
+};
+
+static TypeMotor motor_of(const std::vector<Node>& documents) {
+  TypeMotor motor;
+  for (const Node& document : documents) {
+    const Node* map = document.find("actuator");
+    if (map == nullptr || map->kind != Node::Kind::map) continue;
+    const Node* type = map->find("type");
+    if (motor.map == nullptr) {
+      motor.map = map;
+      if (type != nullptr) motor.type = type->text;
+    } else if (print_yaml(*map) != print_yaml(*motor.map)) {
+      motor.agreed = false;
+    }
+  }
+  return motor;
+}
+
+class ScenarioReader {
+ public:
+  ScenarioReader(const std::string& path, Catalog& catalog) : path_(path), catalog_(catalog) {
+    scenario_.file = path;
+    folder_ = std::filesystem::path(path).parent_path().string();
+    if (folder_.empty()) folder_ = ".";
+  }
+
+  /// Reads the file; afterwards with() makes rollouts of it.
+  const Scenario& read(const std::vector<std::string>& sets) {
+    const std::string text = read_text(path_);
+    std::optional<Node> root = parse_yaml(text, path_, problems_);
+    if (!root) raise();
+    root_ = std::move(*root);
+    const std::vector<Retyped> retyped = apply_sets(root_, sets, problems_);
+    Reader head(root_, "the scenario", problems_, nullptr);
+    if (!head.version("gaitlab")) raise();  // another version's keys mean something else
+    if (const Node* plugins = root_.find("plugins")) {
+      scenario_.plugins = read_plugins(*plugins, folder_, catalog_, problems_);
+      raise();  // what a library would have registered would be reported as unknown
+    }
+    attempt([&] { scenario_.notes = drop_old_keys(root_, retyped, catalog_); });
+    read_name(head);
+    read_body();
+    read_sections();
+    raise();
+    Scenario::Places places;
+    note_places(root_, "", places);
+    scenario_.places = std::make_shared<const Scenario::Places>(std::move(places));
+    return scenario_;
+  }
+
+  [[nodiscard]] bool driven() const { return scenario_.actuator.entry != nullptr; }
+
+  /// The scenario with more settings, of sections other than the robot's; only what they touch is read anew.
+  [[nodiscard]] Scenario with(const std::vector<std::string>& sets) const {
+    if (sets.empty()) return scenario_;
+    ScenarioReader own = *this;
+    apply_sets(own.root_, sets, own.problems_);
+    own.raise();
+    for (const std::string& set : sets) own.touched_.push_back(set.substr(0, set.find_first_of(".=")));
+    own.follow_dependencies();
+    own.read_sections();
+    own.raise();
+    own.note_own_places();
+    return std::move(own.scenario_);
+  }
+
+ private:
+  void raise() const {
+    if (!problems_.empty()) throw InputError(in_order(problems_.list(), path_));
+  }
+
+  /// Where the touched keys are given, as far as that differs from the template's own.
+  void note_own_places() {
+    Node touched{Node::Kind::map};
+    for (std::size_t i = 0; i < root_.keys.size(); ++i) {
+      if (!reads(root_.keys[i].first)) continue;
+      touched.keys.push_back(root_.keys[i]);
+      touched.items.push_back(root_.items[i]);
+    }
+    note_places(touched, "", scenario_.own_places);
+    std::erase_if(scenario_.own_places, [&](const auto& own) {
+      const auto common = scenario_.places->find(own.first);
+      return common != scenario_.places->end() && to_string(common->second) == to_string(own.second);
+    });
+  }
+
+  void read_name(Reader& reader) {
+    scenario_.name = std::filesystem::path(path_).stem().string();
+    reader.text("name", scenario_.name, "");
+    const Node* node = root_.find("name");
+    if (is_name(scenario_.name, "_.-") && scenario_.name[0] != '.') return;
+    if (node != nullptr && node->kind != Node::Kind::scalar) return;
+    problems_.add(node != nullptr ? node->place : SourceLocation{path_},
+                  "name " + in_quotes(scenario_.name) + " is not allowed; expected letters, digits, _ . and -, not a . first" +
+                      (node != nullptr ? "" : " (it is the file's name; give another with name:)"));
+  }
+
+  void read_body() {
+    const Node* node = root_.find("robot");
+    if (node == nullptr) {
+      problems_.add(root_.place, "missing key 'robot'");
+      return;
+    }
+    Reader reader(*node, "robot", problems_, nullptr);
+    if (node->kind != Node::Kind::map) return;
+    RobotParts parts = read_robot(reader, node->place, folder_, problems_);
+    BaseFields base{scenario_};
+    base.fields(reader);
+    reader.finish();
+    const bool counted = base.numbers == 2 || base.numbers == 3;
+    const Node* position = node->find("position");
+    if (position != nullptr && counted) check_height(*position, base.numbers == 3, node->find("on_ground"));
+    scenario_.robot = std::move(parts.robot);
+    scenario_.module_documents = std::make_shared<const std::vector<Node>>(std::move(parts.documents));
+    if (scenario_.robot) joints_ = std::make_shared<const std::vector<std::string>>(joint_names(*scenario_.robot));
+  }
+
+  [[nodiscard]] bool reads(const std::string& section) const {
+    return touched_.empty() || std::ranges::find(touched_, section) != touched_.end();
+  }
+
+  /// Sections whose defaults or checks depend on what was touched; each starts from its defaults again.
+  void follow_dependencies() {
+    constexpr std::array<std::pair<const char*, const char*>, 4> kFollows{
+        {{"contact", "physics"}, {"contact", "ground"}, {"controller", "cpg"}, {"actuator", "controller"}}};
+    for (const auto& [first, second] : kFollows) {
+      if (reads(first)) touched_.emplace_back(second);
+    }
+    const Scenario fresh;
+    if (reads("initial")) scenario_.initial = fresh.initial;
+    if (reads("physics")) scenario_.physics = fresh.physics;
+    if (reads("ground")) scenario_.ground = fresh.ground;
+    if (reads("contact")) scenario_.contact = fresh.contact;
+    if (reads("trace")) scenario_.trace = fresh.trace;
+    if (reads("actuator")) scenario_.actuator = fresh.actuator;
+    if (reads("controller")) {
+      scenario_.controller = fresh.controller;
+      scenario_.control_period = fresh.control_period;
+    }
+    if (reads("cpg")) {
+      scenario_.cpg = fresh.cpg;
+      scenario_.cpg_step = fresh.cpg_step;
+    }
+  }
+
+  /// A height and on_ground exclude one another; whoever gives a height need not turn on_ground off.
+  void check_height(const Node& position, bool given, const Node* on_ground) {
+    if (on_ground != nullptr && scenario_.on_ground == given) {
+      problems_
+          .add(position.place, given ? "position has a height and on_ground is true; expected [x, y], or no on_ground"
+                                     : "position has no height and on_ground is false; expected [x, y, z], or no on_ground")
+          .notes.emplace_back(on_ground->place, "on_ground is here");
+    }
+    scenario_.on_ground = !given;
+  }
+
+  void read_sections() {
+    const JointNames joints = joints_.get();
+    Reader reader(root_, "the scenario", problems_, joints, folder_);
+    if (!touched_.empty()) reader.only(touched_);
+    for (const char* known : {"gaitlab", "name", "plugins", "robot", "controller", "cpg"}) reader.take(known);
+    reader.require({"duration"});
+    if (const Node* sensors = reader.take("sensors")) check_sensors(*sensors);
+    const TypeMotor motor = motor_of(*scenario_.module_documents);
+    SectionFields sections(scenario_, &catalog_, &problems_, motor.type);
+    sections.has_cpg = root_.find("cpg") != nullptr;
+    sections.physics.solver = asks_for_solver();
+    sections.actuator.presets = [&](const Entry& entry, void* settings) {
+      if (motor.map == nullptr || !motor.agreed || entry.name != motor.type) return;
+      Reader preset(*motor.map, "actuator", problems_, joints);
+      preset.take("type");
+      preset.take("source");
+      visit_settings(entry, settings, preset);
+      preset.finish();
+    };
+    sections.actuator.none = !reads("actuator") && scenario_.actuator.entry == nullptr;
+    sections.fields(reader);
+    reader.finish();
+    if (const Node* ground = root_.find("ground"); ground != nullptr && reads("ground"))
+      finish_ground(*ground, folder_, scenario_, problems_);
+    ScenarioChecks checks(root_, scenario_, catalog_, problems_);
+    check_motors(motor);
+    checks.law();
+    if (sections.actuator.none) refuse_controller();
+    checks.initial_angles();
+    checks.base_velocity();
+    check_all_periods();
+    const auto concerns = [&](const char* section) { return reads(section); };
+    constexpr std::array kOfPlugins{"physics", "contact", "actuator", "controller", "cpg"};
+    if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
+  }
+
+  void check_sensors(const Node& node) {
+    if (node.kind == Node::Kind::list && node.items.empty()) return;
+    const std::string what = node.kind == Node::Kind::list ? fmt::format("a list of {}", node.items.size()) : found(node);
+    problems_.add(node.place, fmt::format("sensors is {}; expected [], there are no sensor types yet", what));
+  }
+
+  /// Before its section is read: the step's default is above it.
+  [[nodiscard]] bool asks_for_solver() const {
+    const Node* contact = root_.find("contact");
+    const Node* law = contact == nullptr ? nullptr : contact->find("law");
+    return law != nullptr && law->text == "bullet";
+  }
+
+  void check_motors(const TypeMotor& motor) {
+    if (motor.agreed || given(root_, "actuator")) return;
+    Problem& problem =
+        problems_.add(given(root_, "robot").value_or(root_.place),
+                      "the module types have different actuators; say which one holds: add actuator: {type: ...}");
+    for (const Node& document : *scenario_.module_documents) {
+      if (const Node* map = document.find("actuator")) problem.notes.emplace_back(map->place, "one is here");
+    }
+  }
+
+  void refuse_controller() {
+    if (const std::optional<SourceLocation> place = given(root_, "controller")) {
+      problems_.add(*place, "a controller is given, but there is no actuator to command; remove this section")
+          .notes.emplace_back(place_of(root_, "actuator", "type"), "the actuator is none");
+    }
+  }
+
+  void check_all_periods() {
+    // Nothing is commanded: the control tick only watches the step.
+    if (scenario_.actuator.entry == nullptr && root_.find("cpg") == nullptr) {
+      scenario_.control_period = scenario_.physics.adaptive_step ? kLongestStep : scenario_.trace.period;
+      scenario_.cpg_step = scenario_.control_period;
+    }
+    Physics& physics_ = scenario_.physics;
+    if (physics_.engine != nullptr && !physics_.adapts())
+      ScenarioChecks(root_, scenario_, catalog_, problems_).automatic_step();
+    if (physics_.adaptive_step) {
+      physics_.step = longest_step(scenario_.control_period);
+      return check_cpg_period();
+    }
+    const Period step{"step", scenario_.physics.step, given(root_, "physics", "step")};
+    const Period control{"control period", scenario_.control_period, given(root_, "controller", "period")};
+    const SourceLocation physics = place_of(root_, "physics", "step");
+    std::vector<Period> periods{control, {"trace period", scenario_.trace.period, given(root_, "trace", "period")}};
+    if (const Node* duration = root_.find("duration"); duration != nullptr && scenario_.duration > 0) {
+      periods.push_back({"duration", scenario_.duration, duration->place});
+    }
+    if (step.value > 0) check_periods(periods, step, physics, problems_);
+    check_cpg_period();
+  }
+  void check_cpg_period() {
+    if (!(scenario_.cpg_step > 0)) return;
+    const Period control{"control period", scenario_.control_period, given(root_, "controller", "period")};
+    const Period cpg{"CPG step", scenario_.cpg_step, given(root_, "cpg", "step")};
+    check_periods({control}, cpg, place_of(root_, "cpg", "step"), problems_);
+  }
+  /// Uses a plugin; what it throws is bad input like any other.
+  template <class Use>
+  void attempt(Use use) {
+    try {
+      use();
+    } catch (const PluginError& error) {
+      problems_.add(place_of(root_, word(error.kind), "type"), error.what());
+    }
+  }
+
+  void make_plugins(const SectionFields& sections) {
+    if (!scenario_.robot) return;
+    if (!cpg_note_.empty()) std::erase(scenario_.notes, cpg_note_);  // that of the template's CPG
+    const RobotInfo robot = info(*scenario_.robot);
+    std::unique_ptr<Actuator> actuator;
+    std::unique_ptr<Controller> controller;
+    attempt([&] {
+      if (sections.actuator.sound) actuator = make_actuator(scenario_.actuator, robot);
+    });
+    attempt([&] {
+      if (sections.controller.sound && !sections.actuator.none) controller = make_controller(scenario_.controller, robot);
+    });
+    attempt([&] {
+      if (!sections.has_cpg || !sections.cpg.sound) return;
+      const auto cpg = make_cpg(scenario_.cpg, robot);
+      if (!cpg || cpg->note().empty()) return;
+      cpg_note_ = "cpg: " + cpg->note();
+      scenario_.notes.push_back(cpg_note_);
+    });
+    attempt([&] {
+      if (actuator && controller) ScenarioChecks(root_, scenario_, catalog_, problems_).units(*actuator, *controller);
+    });
+    attempt([&] {
+      if (actuator) ScenarioChecks(root_, scenario_, catalog_, problems_).rotors(*actuator);
+    });
+  }
+
+  std::string path_, folder_;
+  Catalog& catalog_;
+  Problems problems_;
+  Node root_;
+  Scenario scenario_;
+  std::shared_ptr<const std::vector<std::string>> joints_;  ///< nullptr: there is no robot
+  std::string cpg_note_;
+  std::vector<std::string> touched_;  ///< sections to read; none: all
+};
+
+Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog) {
+  return ScenarioReader(path, catalog).read(sets);
+}
+
+ScenarioTemplate::ScenarioTemplate(std::string path, std::vector<std::string> sets, Catalog& catalog)
+    : path_(std::move(path)),
+      sets_(std::move(sets)),
+      catalog_(catalog),
+      reader_(std::make_unique<ScenarioReader>(path_, catalog)) {
+  reader_->read(sets_);
+}
+
+ScenarioTemplate::~ScenarioTemplate() = default;
+
+Scenario ScenarioTemplate::with(const std::vector<std::string>& own) const {
+  // What decides which keys there are, or needs the robot again.
+  const auto whole = [&](const std::string& set) {
+    const std::string key = set.substr(0, set.find('='));
+    const std::string section = key.substr(0, key.find('.'));
+    constexpr std::array kWhole{"gaitlab", "name", "plugins", "robot"};
+    if (std::ranges::find(kWhole, section) != kWhole.end() || key.ends_with(".type")) return true;
+    if (key == section && find_kind(section) != nullptr) return true;  // a whole section of a plugin
+    // The template's own type dropped the model of the old one, which may be meant.
+    const auto types = [&](const std::string& one) { return one.starts_with(section + ".type="); };
+    return key.starts_with(section + ".model") && std::ranges::any_of(sets_, types);
+  };
+  // Without a motor the control period is not what the sections say.
+  if (!reader_->driven() || std::ranges::any_of(own, whole)) {
+    std::vector<std::string> all = sets_;
+    all.insert(all.end(), own.begin(), own.end());
+    return read_scenario(path_, all, catalog_);
+  }
+  return reader_->with(own);
+}
+
+}  // namespace gaitlab

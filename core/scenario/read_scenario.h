@@ -1,0 +1,39 @@
+// Reading scenarios: one from a file, or many that differ in a few settings.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scenario/scenario.h"
+
+namespace gaitlab {
+
+class ScenarioReader;
+
+/// Reads and checks a scenario file. `sets` are `key.path=value` texts in order. Loads the scenario's plugins into the catalog.
+/// Throws InputError with every problem found, each at FILE:LINE:COL.
+Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog);
+
+/// A scenario that is parsed, assembled and checked once, for many rollouts that differ in a few settings.
+class ScenarioTemplate {
+ public:
+  /// Throws what read_scenario throws.
+  ScenarioTemplate(std::string path, std::vector<std::string> sets, Catalog& catalog);
+  ~ScenarioTemplate();
+  ScenarioTemplate(const ScenarioTemplate&) = delete;
+  ScenarioTemplate& operator=(const ScenarioTemplate&) = delete;
+
+  /// The scenario with more `key.path=value` texts behind the template's own: what read_scenario gives for all of them. The
+  /// sections that `own` names, and those that depend on them, are read anew; the robot and all else are shared. The whole file
+  /// is read again where `own` sets the robot, the plugins, a type or a `.model` whose type the template set, and for robots
+  /// without a motor. Throws InputError with every problem found. One thread at a time.
+  [[nodiscard]] Scenario with(const std::vector<std::string>& own) const;
+
+ private:
+  std::string path_;
+  std::vector<std::string> sets_;
+  Catalog& catalog_;
+  std::unique_ptr<ScenarioReader> reader_;
+};
+
+}  // namespace gaitlab

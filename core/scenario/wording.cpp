@@ -1,0 +1,80 @@
+#include "core/scenario/wording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/scenario/number_syntax.h"
+
+namespace gaitlab {
+namespace {
+
+bool unbounded(double limit) { return !(std::abs(limit) < 1e300); }
+
+}  // namespace
+
+std::string number_text(double value) { return fmt::format("{}", value); }
+
+std::string with_unit(double value, const std::string& unit) {
+  return unit.empty() ? number_text(value) : number_text(value) + " " + unit;
+}
+
+std::string in_unit(const Spec& spec) { return *spec.unit == '\0' ? "" : std::string(" in ") + spec.unit; }
+
+std::string counted(std::size_t n, const std::string& what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+
+std::string range_text(const Spec& spec) {
+  const bool low = !unbounded(spec.min);
+  const bool high = !unbounded(spec.max);
+  const bool positive = spec.min == kPositive;
+  const std::string unit = spec.unit;
+  if (positive && high) return "more than 0 and up to " + with_unit(spec.max, unit);
+  if (positive) return "more than " + with_unit(0, unit);
+  if (low && high) return number_text(spec.min) + " to " + with_unit(spec.max, unit);
+  if (low) return "at least " + with_unit(spec.min, unit);
+  if (high) return "at most " + with_unit(spec.max, unit);
+  return {};
+}
+
+std::string clipped(const std::string& text) {
+  constexpr std::size_t kLongest = 60;
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const bool starts_character = (c & 0xC0U) != 0x80;
+    if (out.size() >= kLongest && starts_character) return out + "...";
+    out += c < 0x20 || c == 0x7F ? fmt::format("\\x{:02x}", c) : std::string(1, text[i]);
+  }
+  return out;
+}
+
+std::string in_quotes(const std::string& text) { return "'" + clipped(text) + "'"; }
+
+std::string joined(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 24;
+  std::string out;
+  for (std::size_t i = 0; i < names.size() && i < kMost; ++i) out += (i > 0 ? ", " : "") + clipped(names[i]);
+  if (names.size() > kMost) out += fmt::format(" and {} more", names.size() - kMost);
+  return out;
+}
+
+std::string offer(const std::string& found, const std::vector<std::string>& known, const std::string& kind) {
+  // A name far too long is near to none, and its edit distance costs time.
+  const std::string near = found.size() > 200 ? std::string{} : nearest(found, known);
+  if (!near.empty()) return "; did you mean " + in_quotes(near) + "?";
+  return known.empty() ? "; there are no " + kind : "; known " + kind + ": " + joined(known);
+}
+
+std::vector<std::string> to_strings(std::span<const char* const> names) { return {names.begin(), names.end()}; }
+
+void add_all(const InputError& error, Problems& problems) {
+  for (const Problem& problem : error.problems()) problems.add(problem.place, problem.text).notes = problem.notes;
+}
+
+bool is_name(const std::string& text, const std::string& also) {
+  const auto fits = [&](char c) { return is_letter(c) || is_digit(c) || also.find(c) != std::string::npos; };
+  return !text.empty() && text.size() <= 100 && std::all_of(text.begin(), text.end(), fits);
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,41 @@
+// Words of messages: names and numbers as they appear there; numbers are written so that they read back the same in every
+// locale.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/plugin/fields.h"
+
+namespace gaitlab {
+
+/// The shortest text that reads back to the same double; the same in every locale.
+std::string number_text(double value);
+/// The same with its unit: `25 Hz`.
+std::string with_unit(double value, const std::string& unit);
+/// A range in words: `0 to 20 Hz`, `at least 0 s`, `more than 0 s`; empty where every number will do.
+std::string range_text(const Spec& spec);
+
+/// The unit of a number as a message says it: ` in Hz`; empty where it has none.
+std::string in_unit(const Spec& spec);
+/// `2 numbers`, `1 number`.
+std::string counted(std::size_t n, const std::string& what);
+
+/// The text without control characters and not too long for a message.
+std::string clipped(const std::string& text);
+/// The same in single quotes.
+std::string in_quotes(const std::string& text);
+/// `a, b, c`, shortened where it is long.
+std::string joined(const std::vector<std::string>& names);
+/// How a message on an unknown name ends: `; did you mean 'x'?` or `; known KIND: a, b, c`.
+std::string offer(const std::string& found, const std::vector<std::string>& known, const std::string& kind);
+std::vector<std::string> to_strings(std::span<const char* const> names);
+
+/// Adds what an error found to what is known already.
+void add_all(const InputError& error, Problems& problems);
+
+/// Letters, digits and the characters of `also`; not empty, at most 100 bytes.
+bool is_name(const std::string& text, const std::string& also);
+
+}  // namespace gaitlab

@@ -1,0 +1,86 @@
+#include "physics_articulated/lane_model.h"
+
+#include <algorithm>
+
+#include "physics_articulated/eigen.h"
+
+namespace gaitlab::articulated {
+
+Touch<double> query(const Ground& ground, const Vec<double>& centre, double radius) {
+  if (ground.kind == Ground::Kind::none) return {-1, {}, {}, 0};
+  const Ground::Touch touch = ground.query(vec3(centre), radius);
+  return {touch.penetration, vec(touch.normal), vec(touch.point), touch.friction};
+}
+
+Rollout rollout(const LaneSettings& lane, Base base) {
+  return {tree(*lane.robot, base, lane.contacts),
+          vec(lane.gravity),
+          lane.law,
+          lane.ground.kind == Ground::Kind::plane,
+          lane.ground.friction,
+          lane.accuracy,
+          &lane.ground};
+}
+
+LaneModel::LaneModel(const PlantSettings& settings, const LaneSettings& own, std::size_t lane, std::size_t lanes)
+    : settings_(settings),
+      own_(own),
+      lane_(lane),
+      lanes_(lanes),
+      constants_(rollout(own, settings.base)),
+      environment_{constants_.gravity, constants_.law, constants_.plane, constants_.friction, {constants_.ground}, query},
+      body_(constants_.tree, environment_.gravity),
+      contacts_(constants_.tree, environment_),
+      rotor_(own.robot->joints.size()),
+      a_(6 + rotor_.size()),
+      zero_(rotor_.size()),
+      kinematics_(*own.robot),
+      monitor_(*own.robot) {
+  for (auto* values : {&command_, &speed_, &torque_, &slope_}) values->resize(rotor_.size() * lanes);
+  const In inertia = settings.actuator == nullptr ? In() : settings.actuator->reflected_inertia();
+  for (std::size_t j = 0; j < rotor_.size() && !inertia.empty(); ++j) rotor_[j] = inertia[j * lanes + lane];
+  monitor_.contacts.reserve(own.contacts.size());
+}
+
+void LaneModel::accelerate(In x, const RobotState& state, In torque, std::span<const BodyWrench> wrenches, Acceleration& out) {
+  body_.forward_kinematics(x);
+  body_.solve(torque, rotor_, a_, [&](std::size_t link, Body<double>::Load load) {
+    for (const BodyWrench& w : wrenches) {
+      if (own_.robot->bodies[w.body].link != link) continue;
+      load.add_force(vec(w.point - state.position), vec(w.force));
+      load.add_moment(vec(w.torque));
+    }
+  });
+  out.linear = Vec3(a_[0], a_[1], a_[2]);
+  out.angular = Vec3(a_[3], a_[4], a_[5]);
+  std::copy(a_.begin() + 6, a_.end(), out.joints.begin());
+}
+
+void LaneModel::ask(In command, In speed) {
+  for (std::size_t j = 0; j < rotor_.size(); ++j) {
+    command_[j * lanes_ + lane_] = command[j * lanes_ + lane_];
+    speed_[j * lanes_ + lane_] = speed[j];
+  }
+  settings_.actuator->effort(command_, speed_, torque_, slope_);
+}
+
+Stability LaneModel::stability(In x, const RobotState& state, In command, bool standing) {
+  kinematics_.update(*own_.robot, state);
+  body_.forward_kinematics(x);
+  contacts_.find(body_, 0, 0);
+  contacts_.begin(0);
+  body_.solve(zero_, rotor_, a_, [](std::size_t, Body<double>::Load) {});  // factorises the mass matrix for apply
+  if (settings_.actuator != nullptr) {
+    if (standing) std::fill(command_.begin(), command_.end(), 0.0);
+    ask(standing ? In(command_) : command, standing ? In(zero_) : In(state.qd));
+  }
+  for (std::size_t j = 0; j < rotor_.size(); ++j) monitor_.motor[j] = slope_[j * lanes_ + lane_];
+  return monitor_.rule(own_, settings_.base, kinematics_, state, standing, *this, [&] {
+    for (const Contact<double>& c : contacts_.touching()) {
+      monitor_.contacts.push_back(
+          {c.element, c.link, vec3(c.touch.point), vec3(c.n), vec3(c.slip_direction), c.tangential_damping, c.normal_damping});
+    }
+  });
+}
+
+}  // namespace gaitlab::articulated

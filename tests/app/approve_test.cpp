@@ -1,0 +1,145 @@
+// What users see of `gaitlab approve`: what it shows, what it keeps, what it refuses.
+#include "tests/app/golden_command.h"
+
+namespace gaitlab::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ApproveCommand : public GoldenCommand {};
+
+TEST_F(ApproveCommand, ApproveShowsTheChangeAndWantsAReason) {
+  const std::string before = bytes("good.golden");
+  const std::string wanted =
+      "; say in a sentence why these numbers are right: it is kept in the golden's history. Nothing was written\n";
+  Result result = call("approve good.yaml");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.out, "since approval 1 (first golden):\n  nothing has changed\n");
+  EXPECT_EQ(result.err, "--reason: error: is missing" + wanted);
+  folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
+  result = call("approve good.yaml --reason ' '");
+  EXPECT_EQ(result.code, 2);
+  expect_contains(result.out, "\n  joint.3.torque ");
+  EXPECT_EQ(result.err, "--reason: error: is empty" + wanted);
+  EXPECT_EQ(bytes("good.golden"), before);
+  folder.write("new.yaml", kCaterpillar);
+  expect_refused("approve new.yaml", "--reason: error: is missing" + wanted.substr(0, wanted.size() - 1));
+}
+
+TEST_F(ApproveCommand, ApproveKeepsTheBandsOfTheSameGaitAlone) {
+  const Golden before = read_golden(folder / "good.golden");
+  Result result = call("approve good.yaml --reason 'nothing new'");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_TRUE(result.out.starts_with("since approval 1 (first golden):\n  nothing has changed\ngood.golden: approval 2: "));
+  expect_contains(result.out, "; bands kept\n");
+  Golden after = read_golden(folder / "good.golden");
+  for (std::size_t i = 0; i < before.bands.size(); ++i) EXPECT_EQ(after.bands[i].width(), before.bands[i].width());
+
+  const std::string other_motor = kCaterpillar + "actuator: {Kt: 0.0039895}\n";
+  folder.write("good.yaml", other_motor);
+  result = call("approve good.yaml --reason 'the motor that we bought'");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_TRUE(result.out.starts_with("since approval 2 (nothing new):\n  scenario: its resolved text is another\n  column "))
+      << result.out;
+  expect_contains(result.out, "; bands made\n");
+  after = read_golden(folder / "good.golden");
+  ASSERT_EQ(after.history.size(), 3U);
+  EXPECT_EQ(after.history[2].reason, "the motor that we bought");
+  EXPECT_EQ(after.history[2].number, 3);
+  EXPECT_NE(after.bands[1].width(), before.bands[1].width());
+  EXPECT_EQ(call("test good.yaml").code, 0);
+  folder.write("good.yaml", other_motor + "physics: {step: 1.25e-5}\n");
+  EXPECT_EQ(call("test good.yaml").code, 0);  // an innocent: its bands are made for it
+
+  std::string smaller = kCaterpillar;
+  smaller.replace(smaller.find("0.6,"), 4, "0.3,");
+  folder.write("good.yaml", smaller);
+  result = call("approve good.yaml --reason 'small waves'");
+  EXPECT_EQ(result.code, 0) << result.err;
+  expect_contains(result.out, "\n  band of ");
+
+  folder.write("good.yaml", kCaterpillar + "trace: {period: 0.025}\n");
+  result = call("approve good.yaml --reason 'fewer rows'");
+  EXPECT_EQ(result.code, 0);
+  expect_contains(result.out, "\n  a row every 0.025 s, in the golden every 0.02 s\n");
+  expect_contains(result.out, "; bands made\n");
+}
+
+TEST_F(ApproveCommand, ApproveReplacesAGoldenThatCannotBeReadWhereTold) {
+  folder.write("good.golden/golden.json", "{}");
+  expect_refused("approve good.yaml --reason 'made anew'",
+                 "good.golden/golden.json: error: is not a golden of gaitlab; it stays as it is. approve --replace makes a new "
+                 "one, whose history begins with it");
+  EXPECT_EQ(read(folder / "good.golden/golden.json"), "{}");
+  EXPECT_EQ(call("approve good.yaml --reason 'made anew' --replace").code, 0);
+  EXPECT_EQ(read_golden(folder / "good.golden").history.size(), 1U);
+}
+
+TEST_F(ApproveCommand, ApproveLooksAtItsTargetFirst) {
+  folder.write("new.yaml", kCaterpillar);
+  folder.write("new.golden", "a file");
+  expect_refused("approve new.yaml --reason 'mine'", "new.golden: error: is not a folder, and a golden is one; move it away");
+  fs::remove(folder / "good.golden/golden.json");
+  expect_refused("approve good.yaml --reason 'made anew'",
+                 "good.golden/golden.json: error: is missing: the golden is only half there; it stays as it is. approve "
+                 "--replace makes a new one, whose history begins with it");
+  fs::create_symlink("loop.yaml", folder / "loop.yaml");
+  expect_refused("test loop.yaml", "loop.yaml: error: cannot be read: Too many levels of symbolic links");
+  const Result folder_with_it = call("test .");  // the others are still tested
+  EXPECT_EQ(folder_with_it.code, 2);
+  expect_contains(folder_with_it.err, "./loop.yaml: error: cannot be read: Too many levels of symbolic links\n");
+  expect_contains(folder_with_it.out, "0 passed, 0 failed, ");
+}
+
+// Where a robot hardly moves, the cost of its transport is noise: on neither side of the limit is it a regression.
+TEST_F(ApproveCommand, AStepAcrossTheLimitOfTransportIsNone) {
+  const std::string text =
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"
+      "cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.40458984374999996, phase_lag: 1.2}\n"
+      "duration: 0.1\n";  // 1.0001 mm, with half the step 0.99995 mm
+  folder.write("edge.yaml", text);
+  ASSERT_EQ(call("approve edge.yaml --reason 'on the edge'").code, 0);
+  const std::string once = bytes("edge.golden");
+  for (const Band& band : read_golden(folder / "edge.golden").number_bands) EXPECT_LT(band.width(), 1);
+  fs::remove_all(folder / "edge.golden");
+  ASSERT_EQ(call("approve edge.yaml --reason 'on the edge' -j 2").code, 0);
+  EXPECT_EQ(bytes("edge.golden"), once);
+  folder.write("edge.yaml", text + "physics: {step: 1.25e-5}\n");
+  EXPECT_EQ(call("test edge.yaml").code, 0);
+}
+
+TEST_F(ApproveCommand, ApproveRefusesBandsThatWouldNoticeNothing) {
+  folder.write("chaos.yaml", kCaterpillar + "controller: {Kp: 400}\n");  // past the sampled loop's limit: it hammers
+  const Result result = call("approve chaos.yaml --reason 'why not'");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_TRUE(result.err.starts_with("chaos.yaml: error: the band of joint.")) << result.err;
+  expect_contains(result.err, " % of its range, more than 0.2 %: max(ensemble ");
+  expect_contains(result.err, "Nothing was written\n");
+  EXPECT_FALSE(fs::exists(folder / "chaos.golden"));
+
+  const std::string before = bytes("good.golden");  // an old golden's bands are no way around it
+  folder.write("good.yaml", kCaterpillar + "controller: {Kp: 400}\n");
+  EXPECT_EQ(call("approve good.yaml --reason 'why not'").code, 2);
+  EXPECT_EQ(bytes("good.golden"), before);
+}
+
+TEST_F(ApproveCommand, AnyNumberOfThreadsWritesTheSameBytes) {
+  const std::string before = bytes("good.golden");
+  for (const char* jobs : {"1", "2", "7"}) {
+    fs::remove_all(folder / "good.golden");
+    ASSERT_EQ(call(std::string("approve good.yaml --reason 'first golden' -j ") + jobs).code, 0);
+    EXPECT_EQ(bytes("good.golden"), before) << jobs;
+  }
+  fs::copy(folder / "good.golden", folder / "other.golden");
+  folder.write("other.yaml", kCaterpillar + "controller: {Kp: 102}\nname: good\n");
+  const Result one = call("test . --out a");
+  const Result two = call("test . --out b -j 2");
+  EXPECT_EQ(one.code, 4);
+  EXPECT_EQ(two.code, 4);
+  EXPECT_EQ(one.out.substr(0, one.out.find("figure")), two.out.substr(0, two.out.find("figure")));
+  EXPECT_EQ(read(folder / "a/good.svg"), read(folder / "b/good.svg"));
+  EXPECT_NE(read(folder / "a/good.svg"), "");
+}
+
+}  // namespace
+}  // namespace gaitlab::test

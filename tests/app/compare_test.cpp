@@ -1,0 +1,194 @@
+// What users see of compare and export, and of traces as HDF5: whole outputs, whole messages.
+#include <nlohmann/json.hpp>
+
+#include "core/recording/csv.h"
+#include "core/recording/h5.h"
+#include "core/recording/run_files.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+class CompareCommand : public ::testing::Test {
+ protected:
+  Result compare(const std::string& arguments) { return gaitlab("compare " + arguments, folder / ""); }
+  void expect_report(const std::string& arguments, const std::string& text) {
+    const Result result = compare(arguments);
+    EXPECT_EQ(result.code, 0);
+    EXPECT_EQ(result.out, text);
+    EXPECT_EQ(result.err, "");
+  }
+  void expect_refused(const std::string& arguments, const std::string& message) {
+    const Result result = compare(arguments);
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.err, message + "\n");
+    EXPECT_EQ(result.out, "");
+  }
+  /// A run folder with this trace, and this summary if there is any.
+  void make_run(const std::string& name, const std::string& csv, const std::string& summary = "") {
+    std::filesystem::create_directory(folder / name);
+    folder.write(name + "/trace.csv", csv);
+    if (!summary.empty()) folder.write(name + "/summary.json", summary);
+  }
+
+  Folder folder;
+};
+
+const std::string kSummaryA =
+    R"({"name": "a", "engine": "bullet", "step": 2.5e-05, "distance": 0.5, "speed": 0.25, "displacement": [0.5, 0],
+        "per_joint": {"m0/active": {"torque": {"peak": 0.1, "rms": 0.05}}, "m1/passive": {"torque": {"peak": 1.5, "rms": 0.5}}},
+        "limit_cycle": {"found": false, "period": 0}, "stability": {"max": 0.4}, "trace_hash": "00000000000000aa"})";
+const std::string kSummaryB =
+    R"({"name": "a", "engine": "bullet", "step": 1.25e-05, "distance": 0.51, "speed": 0.25, "displacement": [0.5, 0.1],
+        "per_joint": {"m0/active": {"torque": {"peak": 9.5, "rms": 0.05}}, "m1/passive": {"torque": {"peak": 1.2, "rms": 0.5}}},
+        "limit_cycle": {"found": true, "period": 4}, "stability": {"max": 0.2}, "trace_hash": "00000000000000bb"})";
+
+TEST_F(CompareCommand, TableAndSummary) {
+  make_run("a", "t,joint.0.angle,joint.0.speed,base.x\n0,0,0,1\n0.5,1,0,2\n1,2,0,3\n", kSummaryA);
+  make_run("b", "t,joint.0.angle,joint.0.speed,base.x\n0,0,0,1\n0.5,1.5,0,2\n1,2,0,3.25\n", kSummaryB);
+  expect_report("a b",
+                "A: a/trace.csv (3 rows)\n"
+                "B: b/trace.csv (3 rows)\n"
+                "\n"
+                "column         unit          RMS        max  RMS/range  max/range    from t =  late by\n"
+                "joint.0.angle              0.289        0.5     14.4 %       25 %       0.5 s  -\n"
+                "base.x                     0.144       0.25     7.22 %     12.5 %         1 s  -\n"
+                "1 of 3 columns are equal to the bit in 3 rows\n"
+                "first to part: joint.0.angle at t = 0.5 s\nfarthest apart: joint.0.angle, RMS 14.4 % of its range\n"
+                "\n"
+                "summary                                      A                  B  B - A\n"
+                "step, s                                2.5e-05           1.25e-05  -50 %\n"
+                "distance, m                                0.5               0.51  +2 %\n"
+                "displacement x, m                          0.5                0.5  equal\n"
+                "displacement y, m                            0                0.1  +0.1\n"
+                "speed, m/s                                0.25               0.25  equal\n"
+                "limit cycle found                        false               true  differs\n"
+                "limit cycle period, s                        0                  4  +4\n"
+                "m1/passive torque peak, N m                1.5                1.2  -20 %\n"
+                "m1/passive torque RMS, N m                 0.5                0.5  equal\n"
+                "stability max                              0.4                0.2  -50 %\n"
+                "trace hash                    00000000000000aa   00000000000000bb  differs\n");
+}
+
+TEST_F(CompareCommand, ColumnsAndTraceFiles) {
+  make_run("a", "t,joint.0.angle,base.x\n0,1,1\n0.5,2,2\n", kSummaryA);
+  folder.write("b.csv", "t,joint.0.angle,base.x,base.y\n0,1,1,7\n0.5,3,3,7\n1,4,4,7\n");
+  expect_report("a b.csv --columns 'base.*'",
+                "A: a/trace.csv (2 rows)\n"
+                "B: b.csv (3 rows)\n"
+                "1 column in B only: base.y\n"
+                "A has 2 rows, B has 3\n"
+                "\n"
+                "column  unit          RMS        max  RMS/range  max/range    from t =  late by\n"
+                "base.x              0.707          1     70.7 %      100 %       0.5 s  -\n"
+                "0 of 1 columns are equal to the bit in 2 rows\n"
+                "first to part: base.x at t = 0.5 s\nfarthest apart: base.x, RMS 70.7 % of its range\n"
+                "\n"
+                "summary numbers: not compared, a trace file has none\n");
+  expect_report("b.csv b.csv",
+                "A: b.csv (3 rows)\n"
+                "B: b.csv (3 rows)\n"
+                "\n"
+                "3 of 3 columns are equal to the bit in 3 rows\n"
+                "\n"
+                "summary numbers: not compared, a trace file has none\n");
+  expect_refused("a b.csv --columns base.z --columns 'joint.*' --columns nonsense",
+                 "--columns: error: 'base.z' matches no column of either trace; did you mean 'base.x'?\n"
+                 "--columns: error: 'nonsense' matches no column of either trace");
+}
+
+TEST_F(CompareCommand, UnreadableInput) {
+  make_run("a", "t,x\n0,1\n", kSummaryA);
+  expect_refused("a nowhere", "nowhere: error: there is no such run folder or trace file");
+  std::filesystem::create_directory(folder / "empty");
+  expect_refused("empty a", "empty: error: holds neither trace.h5 nor trace.csv: it is not a run folder");
+  folder.write("notes.txt", "t,x\n");
+  expect_refused("a notes.txt", "notes.txt: error: is neither a run folder nor a trace file (.h5, .csv)");
+  make_run("unfinished", "t,x\n0,1\n");
+  expect_refused("a unfinished", "unfinished/summary.json: error: cannot be read: No such file or directory");
+  make_run("cut", "t,x\n0,1\n", kSummaryA.substr(0, 140));
+  expect_refused("a cut", "cut/summary.json:2:32: error: is not JSON from here on: it is truncated or damaged");
+  make_run("list", "t,x\n0,1\n", "[1, 2]\n");
+  expect_refused("a list", "list/summary.json:1:1: error: holds no JSON object: it is not a summary");
+  make_run("huge", "t,x\n0,1\n", R"({"distance": 1e999})");
+  expect_refused("a huge", "huge/summary.json: error: holds a number that is outside the range of a double");
+  folder.write("half.csv", "t,x\n0,1\n0.5,");
+  expect_refused("a half.csv", "half.csv:3:5: error: the last line does not end: the file is truncated");
+  folder.write("half.h5", "gaitlab-trace-1\n");
+  expect_refused("a half.h5", "half.h5: error: is truncated: 16 bytes");
+  EXPECT_EQ(compare("a").code, 2);
+}
+
+TEST_F(CompareCommand, SummaryOfOtherTypesIsShownAsItIs) {
+  make_run("a", "t,x\n0,1\n", R"({"distance": "far", "displacement": 3, "per_joint": [1, {"torque": 2}], "stability": null})");
+  const Result result = compare("a a");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("far                far  equal\n"), std::string::npos) << result.out;
+}
+
+class Formats : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
+    folder.write("good.yaml", "gaitlab: 1\nrobot: {modules: mtran}\nduration: 0.1\ncpg: {type: sine}\n");
+    ASSERT_EQ(gaitlab("run good.yaml --seed 12 --quiet --out h5", folder / "").code, 0);
+    ASSERT_EQ(gaitlab("run good.yaml --seed 12 --quiet --out csv --format csv", folder / "").code, 0);
+  }
+  Result gaitlab_here(const std::string& arguments) { return gaitlab(arguments, folder / ""); }
+
+  Folder folder;
+};
+
+TEST_F(Formats, HoldTheSameTrace) {
+  EXPECT_FALSE(std::filesystem::exists(folder / "csv/trace.h5"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "h5/trace.csv"));
+  const StoredTrace stored = read_h5(folder / "h5/trace.h5");
+  EXPECT_EQ(stored.origin.scenario, read(folder / "h5/scenario.resolved.yaml"));
+  EXPECT_EQ(stored.origin.seed, 12);
+  const nlohmann::json summary = read_summary(folder / "h5");
+  EXPECT_EQ(stored.origin.build, summary["build"]);
+  EXPECT_EQ(hash(stored.trace), summary["trace_hash"]);
+  const std::size_t torque = stored.trace.find("joint.0.torque");
+  ASSERT_LT(torque, stored.trace.columns.size());
+  EXPECT_EQ(stored.trace.columns[torque].unit, "N m");
+  EXPECT_FALSE(stored.trace.columns[torque].definition.empty());
+  EXPECT_EQ(hash(read_csv(folder / "csv/trace.csv")), hash(stored.trace));
+  const Result result = gaitlab_here("compare h5 csv");
+  EXPECT_NE(result.out.find(" columns are equal to the bit in 21 rows\n\nsummary"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("column "), std::string::npos) << result.out;
+}
+
+TEST_F(Formats, TheFilesLineNamesTheTrace) {
+  const auto files = [&](const std::string& arguments) {
+    const std::string out = gaitlab_here("run good.yaml " + arguments).out;
+    return out.substr(out.find("  files"));
+  };
+  EXPECT_EQ(files("--out x"), "  files         x: trace.h5, summary.json, scenario.resolved.yaml, figure.svg\n");
+  EXPECT_EQ(files("--out y --format csv"),
+            "  files         y: trace.csv, recording.h5, summary.json, scenario.resolved.yaml, figure.svg\n");
+  const Result result = gaitlab_here("run good.yaml --format xml --out z");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "--format: xml not in {h5,csv}\nRun with --help for more information.\n");
+}
+
+TEST_F(Formats, ExportWritesWhatFormatCsvWrites) {
+  Result result = gaitlab_here("export h5 --to csv new.csv");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(read(folder / "new.csv"), read(folder / "csv/trace.csv"));
+  const std::size_t columns = read_h5(folder / "h5/trace.h5").trace.columns.size();
+  EXPECT_EQ(result.out, fmt::format("new.csv: 21 rows of {} columns\n", columns));
+
+  folder.write("mine.csv", "do not touch");
+  result = gaitlab_here("export h5 --to csv mine.csv");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "mine.csv: error: exists; nothing was written\n");
+  EXPECT_EQ(read(folder / "mine.csv"), "do not touch");
+  EXPECT_EQ(gaitlab_here("export h5 --to csv no/where.csv").err,
+            "no/where.csv: error: cannot be written: its folder does not exist\n");
+  EXPECT_EQ(gaitlab_here("export nothing --to csv x.csv").err, "nothing: error: there is no such run folder or trace file\n");
+  EXPECT_EQ(gaitlab_here("export h5 --to xml x.csv").code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "x.csv"));
+}
+
+}  // namespace
+}  // namespace gaitlab::test

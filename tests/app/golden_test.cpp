@@ -1,0 +1,290 @@
+// What users see of `gaitlab test`: whole messages, exit codes, and goldens that notice what has changed.
+#include "core/scenario/read_scenario.h"
+#include "core/scenario/resolved.h"
+#include "tests/app/golden_command.h"
+
+namespace gaitlab::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST_F(GoldenCommand, ApprovedIsGreen) {
+  EXPECT_TRUE(told.starts_with("good.golden: approval 1: 19 columns of 6 rows, 17 numbers, ")) << told;
+  expect_contains(told, " kB; bands made\n  widest band: joint.");
+  const Golden golden = read_golden(folder / "good.golden");
+  EXPECT_EQ(golden.origin.engine, "bullet");
+  EXPECT_EQ(golden.origin.integrator, "semi_implicit");
+  EXPECT_EQ(golden.origin.step, 2.5e-5);
+  EXPECT_EQ(golden.origin.scenario, hash(resolved(read_scenario(folder / "good.yaml", {}, catalog()))));
+  EXPECT_NE(golden.origin.build.find("(" + golden.origin.compiler), std::string::npos);
+  EXPECT_EQ(golden.history.front().reason, "first golden");
+  EXPECT_EQ(golden.run.trace.columns[1].name, "joint.0.angle");
+  EXPECT_LT(golden.run.trace.find("joint.3.torque"), golden.run.trace.columns.size());
+  EXPECT_LT(golden.run.trace.find("base.qw"), golden.run.trace.columns.size());
+  for (const Band& band : golden.bands) EXPECT_LE(band.width(), 0.002);
+  EXPECT_EQ(fs::exists(folder / "good.golden/trace.golden.next"), false);
+
+  const Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.out,
+            "scenario   worst column   RMS/band  worst number change/band  verdict\n"
+            "good.yaml  joint.0.angle         0  distance               0  passed\n"
+            "\n"
+            "1 passed, 0 failed\n");
+  EXPECT_EQ(result.err, "");
+  EXPECT_FALSE(fs::exists(folder / "runs"));
+}
+
+TEST_F(GoldenCommand, AnotherMotorIsARegression) {
+  folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
+  const Result result = call("test good.yaml --junit result.xml");
+  EXPECT_EQ(result.code, 4);
+  EXPECT_EQ(result.err, "");
+  expect_contains(result.out, " of 19 columns and ");
+  expect_contains(result.out,
+                  " of 17 numbers outside their bands\nsince approval 1 (first golden):\n"
+                  "  scenario: its resolved text is another\n  column ");
+  expect_contains(result.out, "\n  joint.3.torque ");
+  expect_contains(result.out, "\n  m1/passive.torque.peak ");
+  expect_contains(result.out, "\n  figure: runs/test/good.svg\n");
+  expect_contains(result.out, "\n0 passed, 1 failed\n");
+  const std::string figure = read(folder / "runs/test/good.svg");
+  expect_contains(figure, "good: ");
+  expect_contains(figure, "outside from ");
+  const std::string junit = read(folder / "result.xml");
+  expect_contains(junit,
+                  "<testsuite name=\"gaitlab test\" tests=\"1\" failures=\"1\" errors=\"0\" skipped=\"0\">\n"
+                  "<testcase classname=\"golden\" name=\"good.yaml\"><failure message=\"");
+  expect_contains(junit, "\n  joint.3.torque ");
+  expect_contains(junit, "\n  figure: runs/test/good.svg\n");
+  EXPECT_TRUE(junit.ends_with("</failure></testcase>\n</testsuite>\n</testsuites>\n")) << junit;
+}
+
+TEST_F(GoldenCommand, HalfTheStepIsNone) {
+  folder.write("good.yaml", kCaterpillar + "physics: {step: 1.25e-5}\n");
+  const Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 0) << result.out;  // a third of every band at most, by calibration
+}
+
+TEST_F(GoldenCommand, AnotherScenarioWithAGivenGolden) {
+  folder.write("stiff.yaml", kCaterpillar + "controller: {Kp: 102}\nname: stiff&<feet>\n");
+  EXPECT_EQ(call("test stiff.yaml --golden good.golden").code, 2);  // that is not a name
+  folder.write("stiff.yaml", kCaterpillar + "controller: {Kp: 102}\nname: stiff\n");
+  Result result = call("test stiff.yaml --golden good.golden --out figures");
+  EXPECT_EQ(result.code, 4);
+  expect_contains(result.out, "\n  figure: figures/stiff.svg\n");
+  expect_refused("test stiff.yaml --golden good.golden --out figures", "--out figures: error: exists and is not empty");
+  expect_refused("test . --golden good.golden",
+                 "--golden: error: is the golden of one scenario; name exactly one scenario with it");
+  result = call("test stiff.yaml --golden no.golden");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "no.golden: error: there is no such golden; gaitlab approve makes it\n");
+}
+
+TEST_F(GoldenCommand, OtherTextSameRunIsANote) {
+  folder.write("good.yaml", kCaterpillar + "name: renamed\n");
+  const Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err, "good.yaml: note: its resolved text is no longer that of the golden\n");
+}
+
+TEST_F(GoldenCommand, OtherFormIsARegression) {
+  folder.write("good.yaml", kCaterpillar + "trace: {period: 0.025}\n");
+  Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 4);
+  expect_contains(result.out, "\n  a row every 0.025 s, in the golden every 0.02 s\n");
+  std::string shorter = kCaterpillar;
+  shorter.replace(shorter.find("0.1"), 3, "0.08");
+  folder.write("good.yaml", shorter);
+  result = call("test good.yaml");
+  EXPECT_EQ(result.code, 4);
+  expect_contains(result.out, "\n  5 rows, in the golden 6\n");
+}
+
+TEST_F(GoldenCommand, NoGolden) {
+  folder.write("new.yaml", kCaterpillar);
+  Result result = call("test new.yaml");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err,
+            "new.yaml: error: has no golden (new.golden does not exist); make it: gaitlab approve new.yaml --reason TEXT\n");
+  result = call("test good.yaml new.yaml");
+  EXPECT_EQ(result.code, 2);
+  expect_contains(result.out, "1 passed, 0 failed, 1 not tested\n");
+  result = call("test . --junit result.xml");
+  EXPECT_EQ(result.code, 0);
+  expect_contains(result.out, "./new.yaml   -                     -  -                      -  skipped: no golden\n");
+  expect_contains(result.out, "\n1 passed, 0 failed, 1 skipped\n");
+  expect_contains(read(folder / "result.xml"),
+                  "<testcase classname=\"golden\" name=\"./new.yaml\"><skipped message=\"no golden\"></skipped></testcase>\n");
+  fs::remove_all(folder / "good.golden");
+  result = call("test .");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "gaitlab: error: nothing was tested: no scenario has a golden; make one with gaitlab approve\n");
+  expect_refused("test", "scenarios: error: there is no such scenario or folder");
+  fs::create_directory(folder / "empty");
+  expect_refused("test empty good.yaml", "empty: error: holds no scenario (*.yaml, *.yml)");
+  folder.write("good.golden", "no folder");
+  EXPECT_EQ(call("test good.yaml").err, "good.golden: error: is not a golden: a golden is a folder\n");
+}
+
+TEST_F(GoldenCommand, UnreadableGoldenOrScenarioIsNotTested) {
+  folder.write("other.yaml", kCaterpillar + "name: good\n");  // the default is the file's
+  fs::copy(folder / "good.golden", folder / "other.golden");
+  folder.write("good.golden/trace.golden", read(folder / "good.golden/trace.golden").substr(0, 500));
+  Result result = call("test .");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_TRUE(result.err.starts_with("./good.golden/trace.golden: error: is truncated: 500 of ")) << result.err;
+  expect_contains(result.out, "  NOT TESTED\n");
+  expect_contains(result.out, "\n1 passed, 0 failed, 1 not tested\n");
+  folder.write("other.yaml", kCaterpillar + "durtion: 1\n");
+  result = call("test other.yaml");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "other.yaml:6:1: error: unknown key 'durtion'; did you mean 'duration'?\n");
+}
+
+TEST_F(GoldenCommand, ARunThatDiverges) {
+  const std::string wild =
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.1\nactuator: {type: torque}\n"
+      "controller: {type: hold, period: 0.05, command: {default: 0, m1/passive: 1e6}}\n";
+  folder.write("good.yaml", wild);
+  Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_TRUE(result.err.starts_with("good.yaml: error: diverged at step 1, t = 2.5e-05 s: joint m1/passive turns at"));
+  folder.write("wild.yaml", wild);
+  result = call("approve wild.yaml --reason 'it flies'");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_TRUE(result.err.starts_with("gaitlab: error: wild.yaml: diverged at step 1, ")) << result.err;
+  EXPECT_FALSE(fs::exists(folder / "wild.golden"));
+}
+
+TEST_F(GoldenCommand, Engines) {
+  EXPECT_EQ(call("test good.yaml --engine bullet").code, 0);
+  expect_refused("test good.yaml --engine bulet", "--engine: error: engine 'bulet' is unknown; did you mean 'bullet'?");
+}
+
+TEST_F(GoldenCommand, AnotherRobotsGoldenIsForeign) {
+  fs::rename(folder / "good.golden", folder / "other.golden");
+  fs::remove(folder / "good.yaml");
+  std::string longer = kCaterpillar;
+  longer.replace(longer.find("]]"), 2, "], [1, 2, 4, 1, 0]]");
+  folder.write("other.yaml", longer);
+  const std::string foreign =
+      "other.golden: error: is the golden of 'good', and other.yaml ('other') is another run; gaitlab approve --replace makes "
+      "its own";
+  Result result = call("test other.yaml");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, foreign + "\n");
+  const std::string before = bytes("other.golden");
+  result = call("approve other.yaml --reason 'mine'");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, foreign + "\n");
+  EXPECT_EQ(bytes("other.golden"), before);
+  EXPECT_EQ(call("approve other.yaml --reason 'mine' --replace").code, 0);
+  EXPECT_EQ(read_golden(folder / "other.golden").history.size(), 1U);
+}
+
+TEST_F(GoldenCommand, ARenamedAndChangedScenarioIsARegression) {
+  fs::rename(folder / "good.golden", folder / "better.golden");
+  fs::remove(folder / "good.yaml");
+  folder.write("better.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
+  Result result = call("test better.yaml");
+  EXPECT_EQ(result.code, 4);
+  expect_contains(result.out, "\n  name: then good, now better\n");
+  expect_contains(result.out, "\n  joint.3.torque ");
+  result = call("approve better.yaml --reason 'whose history?'");
+  EXPECT_EQ(result.code, 2);
+  expect_contains(result.err, "better.golden: error: is the golden of 'good', and better.yaml ('better') is another run");
+}
+
+TEST_F(GoldenCommand, ARenamedScenarioKeepsItsGolden) {
+  fs::rename(folder / "good.golden", folder / "better.golden");
+  fs::rename(folder / "good.yaml", folder / "better.yaml");
+  EXPECT_EQ(call("test better.yaml").code, 0);
+  const Result result = call("approve better.yaml --reason 'a better name'");
+  EXPECT_EQ(result.code, 0);
+  expect_contains(result.out, "\n  name: then good, now better\n");
+  EXPECT_EQ(read_golden(folder / "better.golden").history.size(), 2U);
+}
+
+TEST_F(GoldenCommand, NoScenarioAndNoGoldenVanishesUnseen) {
+  EXPECT_EQ(call("test . --strict").code, 0);
+  fs::create_symlink("good.yaml", folder / "link.yaml");  // another name: another scenario, without a golden
+  folder.write("short.yml", kCaterpillar);
+  Result result = call("test .");
+  EXPECT_EQ(result.code, 0);
+  expect_contains(result.out, "\n./link.yaml ");
+  expect_contains(result.out, "\n./short.yml ");
+  expect_contains(result.out, "\n1 passed, 0 failed, 2 skipped\n");
+  result = call("test . --strict");
+  EXPECT_EQ(result.code, 2);
+  expect_contains(result.err, "./link.yaml: error: has no golden (./link.golden does not exist); make it: ");
+  fs::remove(folder / "link.yaml");
+  fs::remove(folder / "short.yml");
+
+  fs::copy(folder / "good.golden", folder / "gone.golden");
+  result = call("test .");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err,
+            "./gone.golden: error: has no scenario (./gone.yaml does not exist); was it renamed or removed? Do the same with "
+            "its golden\n");
+  expect_contains(result.out, "\n1 passed, 0 failed, 1 not tested\n");
+  fs::remove_all(folder / "gone.golden");
+
+  fs::create_directories(folder / "sub/deeper");
+  folder.write("sub/deeper/module.yaml", "no scenario");
+  fs::copy(folder / "good.golden", folder / "sub/deeper/walk.golden");
+  folder.write("sub/deeper/walk.yaml", "gaitlab: 1\nrobto: {}\n");
+  result = call("test .");
+  EXPECT_EQ(result.code, 2);
+  expect_contains(result.err, "./sub/deeper/walk.yaml:2:1: error: unknown key 'robto'");
+  expect_contains(result.out, "\n1 passed, 0 failed, 1 not tested\n");
+  fs::remove_all(folder / "sub");
+  fs::create_symlink("nothing", folder / "gone.yaml");
+  fs::create_symlink("nothing", folder / "good.golden.old");
+  result = call("test .");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "./gone.yaml: error: is a link to nothing\n");
+  fs::remove(folder / "gone.yaml");
+
+  folder.write("good.yml", kCaterpillar);
+  const std::string shared = "good.yml: error: would share its golden, good.golden, with good.yaml; rename one of them";
+  EXPECT_EQ(call("test good.yml").err, shared + "\n");
+  EXPECT_EQ(call("test good.yml").code, 2);
+  expect_refused("approve good.yml --reason 'mine'", shared);
+}
+
+TEST_F(GoldenCommand, AFileThatCannotBeWrittenHidesNothing) {
+  expect_refused("test good.yaml --junit no/where.xml",
+                 "--junit no/where.xml: error: cannot be written: No such file or directory");
+  const std::string before = bytes("good.golden");
+  expect_refused("test good.yaml --junit good.golden/golden.json",
+                 "--junit good.golden/golden.json: error: is there and is not XML; it would be overwritten");
+  EXPECT_EQ(bytes("good.golden"), before);
+  EXPECT_EQ(call("test good.yaml --junit ''").code, 2);
+  expect_refused("test good.yaml --junit modules", "--junit modules: error: is a folder");
+  folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
+  folder.write("runs", "a file");  // where the figure's folder should be
+  const Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 4);
+  expect_contains(result.out, "\n0 passed, 1 failed\n");
+  expect_contains(result.err, "runs");
+  const std::string command = "cd '" + folder.path().string() + "' && '" + std::string(GAITLAB_BINARY_DIR) +
+                              "/bin/gaitlab' check good.yaml >/dev/full 2>full";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+  EXPECT_EQ(read(folder / "full").find("defect"), std::string::npos) << read(folder / "full");
+  expect_contains(read(folder / "full"), "gaitlab: error: ");
+}
+
+TEST_F(GoldenCommand, LineEndsThatGitChanged) {
+  std::string json = read(folder / "good.golden/golden.json");
+  for (std::size_t at = json.find('\n'); at != std::string::npos; at = json.find('\n', at + 2)) json.replace(at, 1, "\r\n");
+  folder.write("good.golden/golden.json", json);
+  const Result result = call("test good.yaml");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err,
+            "good.golden/golden.json: error: has other line ends than it was written with; `*.golden/** -text` in "
+            ".gitattributes keeps them\n");
+}
+
+}  // namespace
+}  // namespace gaitlab::test

@@ -1,0 +1,165 @@
+// Out-of-tree plugins through the scenario's `plugins:`.
+#include <xmmintrin.h>
+
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+const std::string kPlugins = std::string(GAITLAB_BINARY_DIR) + "/plugins/";
+
+std::string with(const std::string& library, const std::string& cpg) {
+  return "gaitlab: 1\nplugins: [" + kPlugins + library + "]\nrobot: {modules: mtran}\nduration: 0.3\ncpg: {type: " + cpg +
+         "}\n";
+}
+
+class Plugins : public ::testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules"); }
+  std::string error(const std::string& text) {
+    folder.write("s.yaml", text);
+    const Result result = gaitlab("check s.yaml", folder / "");
+    EXPECT_EQ(result.code, 2);
+    return result.err;
+  }
+  Folder folder;
+};
+
+TEST_F(Plugins, ACpgOutOfTreeMovesTheRobotAndRunsAgainFromTheResolvedScenario) {
+  folder.write("s.yaml", with("wave.so", "wave, coupling: 5"));
+  ASSERT_EQ(gaitlab("run s.yaml --quiet --out a", folder / "").code, 0);
+  ASSERT_EQ(gaitlab("run a/scenario.resolved.yaml --quiet --out b", folder / "").code, 0);
+  EXPECT_EQ(read(folder / "a/scenario.resolved.yaml"), read(folder / "b/scenario.resolved.yaml"));
+  EXPECT_NE(read(folder / "a/scenario.resolved.yaml").find("coupling: 5"), std::string::npos);
+  const auto hash = [&](const std::string& run) {
+    const std::string json = read(folder / (run + "/summary.json"));
+    return json.substr(json.find("trace_hash"));
+  };
+  EXPECT_EQ(hash("a"), hash("b"));
+}
+
+TEST_F(Plugins, AWrongSettingIsAnErrorAtItsPlace) {
+  EXPECT_EQ(error(with("wave.so", "wave, couplng: 5")),
+            "s.yaml:5:19: error: unknown key 'couplng'; did you mean 'coupling'?\n");
+}
+
+TEST_F(Plugins, AnotherAbiNamesBoth) {
+  const std::string text = error(with("other_abi.so", "sine"));
+  EXPECT_NE(text.find("was built for 'gaitlab-0, cc 1, libc 1', this program is 'gaitlab-6, "), std::string::npos) << text;
+}
+
+TEST_F(Plugins, ANameThatIsTakenNamesBothOrigins) {
+  const std::string text = error(with("sine_again.so", "sine"));
+  EXPECT_NE(text.find("cpg 'sine' is registered twice: by built in and by " + kPlugins + "sine_again.so"), std::string::npos)
+      << text;
+}
+
+TEST_F(Plugins, TwoLibrariesWithOneNameAreBothNamed) {
+  std::filesystem::copy_file(kPlugins + "wave.so", folder / "copy.so");
+  const std::string copy = std::filesystem::canonical(folder / "copy.so").string();
+  EXPECT_EQ(error("gaitlab: 1\nplugins:\n  - " + kPlugins + "wave.so\n  - ./copy.so\nrobot: {}\nduration: 1\n"),
+            "s.yaml:4:5: error: plugin './copy.so' cannot be loaded: " + copy + ": cpg 'wave' is registered twice: by " +
+                kPlugins + "wave.so and by " + copy + "\n");
+}
+
+TEST_F(Plugins, AFileThatIsNotThereNamesWhatWasTried) {
+  const std::string text = error("gaitlab: 1\nplugins: [lib/wave.so]\nrobot: {}\nduration: 1\n");
+  EXPECT_EQ(text, "s.yaml:2:11: error: plugin 'lib/wave.so' cannot be loaded: No such file or directory (tried '" +
+                      std::filesystem::canonical(folder / "").string() + "/lib/wave.so')\n");
+}
+
+TEST_F(Plugins, AStaticObjectThatThrowsIsAnError) {
+  // glibc's dlopen ends the program; a sanitizer's lets the exception through, and its own text is told.
+  const std::string ended =
+      kPlugins + "throws_at_load.so: error: a static object of this plugin threw an exception when it was loaded\n";
+  const std::string passed = "s.yaml:2:11: error: plugin '" + kPlugins + "throws_at_load.so' cannot be loaded: no luck\n";
+  const std::string said = error(with("throws_at_load.so", "sine"));
+  EXPECT_TRUE(said == ended || said == passed) << said;
+}
+
+TEST_F(Plugins, LoadingLeavesTheRoundingOfTheProcessorAsItWas) {
+  const unsigned before = _mm_getcsr();
+  Catalog all = app::standard_catalog();
+  load_plugin(kPlugins + "flushes.so", all);
+  EXPECT_EQ(_mm_getcsr() & 0xFFC0U, before & 0xFFC0U);  // all but the flags of past operations
+}
+
+/// The scenario whose `kind` throws from `where`.
+std::string throwing(const std::string& kind, const std::string& where) {
+  const std::string text =
+      "gaitlab: 1\nplugins: [" + kPlugins +
+      "throws.so]\nrobot: {modules: mtran, base: fixed}\nground: {type: none}\ncontact: {on: none}\nduration: "
+      "0.3\n";
+  return text + kind + ": {type: throws, where: " + where + "}\n";
+}
+
+TEST_F(Plugins, WhatOneThrowsBeforeTheRunIsAnErrorOfTheScenario) {
+  const std::vector<std::array<std::string, 3>> cases{
+      {"cpg", "constructor", "no luck"},
+      {"cpg", "fields", "fields threw: no luck"},
+      {"cpg", "note", "note threw: no luck"},
+      {"cpg", "start", "start threw: no luck"},
+      {"controller", "constructor", "no luck"},
+      {"controller", "command_unit", "command_unit threw: no luck"},
+      {"actuator", "constructor", "no luck"},
+      {"actuator", "fields", "fields threw: no luck"},
+      {"actuator", "effort", "effort threw: no luck"},
+      {"actuator", "size", "command_limit has 3 numbers; expected 2, one per joint and lane"}};
+  for (const auto& [kind, where, what] : cases) {
+    const std::string text = error(throwing(kind, where));
+    const std::string place = "s.yaml:7:" + std::to_string(kind.size() + 10) + ": error: ";
+    EXPECT_EQ(text, fmt::format("{}{} 'throws' ({}throws.so): {}\n", place, kind, kPlugins, what));
+    EXPECT_EQ(gaitlab("run s.yaml --quiet --out run", folder / "").code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "run")) << kind << ' ' << where;
+  }
+}
+
+TEST_F(Plugins, WhatOneThrowsInTheRunEndsItAndKeepsWhatWasSimulated) {
+  const std::vector<std::array<std::string, 3>> cases{
+      {"cpg", "output", "output threw: no luck"},
+      {"cpg", "int", "output threw: something that is not derived from std::exception"},
+      {"cpg", "derivative", "derivative threw: no luck"},
+      {"cpg", "event", "event threw: no luck"},
+      {"controller", "update", "update threw: no luck"},
+      {"actuator", "electrical", "electrical threw: no luck"}};
+  for (const auto& [kind, where, what] : cases) {
+    folder.write("s.yaml", throwing(kind, where));
+    const Result result = gaitlab(fmt::format("run s.yaml --quiet --out {}{}", kind, where), folder / "");
+    EXPECT_EQ(result.code, 1);
+    const std::string told = fmt::format("{0} 'throws' ({1}throws.so): {2}; what was simulated until then is in {0}{3}\n", kind,
+                                         kPlugins, what, where);
+    EXPECT_NE(result.err.find(told), std::string::npos) << result.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / (kind + where + "/summary.json")));
+  }
+}
+
+TEST_F(Plugins, ANewOneIsWrittenOnce) {
+  EXPECT_EQ(gaitlab("new plugin cpg ripple", folder / "").code, 0);
+  const std::string code = read(folder / "ripple/ripple.cpp");
+  EXPECT_NE(code.find("gaitlab::add_cpg<RippleCpg>(registry, \"ripple\", kManual);"), std::string::npos) << code;
+  EXPECT_EQ(code.find('@'), std::string::npos);
+  const Result again = gaitlab("new plugin actuator ripple", folder / "");
+  EXPECT_EQ(again.code, 2);
+  EXPECT_EQ(again.err, "ripple: error: exists; nothing was written\n");
+  EXPECT_EQ(read(folder / "ripple/ripple.cpp"), code);
+}
+
+TEST_F(Plugins, ANewOneNeedsANameThatCanBeOne) {
+  const auto refused = [&](const std::string& arguments) {
+    const Result result = gaitlab("new plugin " + arguments + " --out made", folder / "");
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_FALSE(std::filesystem::exists(folder / "made")) << arguments;
+    return result.err;
+  };
+  const std::string rule = " is not allowed; expected letters, digits and _, a letter first\n";
+  EXPECT_EQ(refused("cpg 3legs"), "gaitlab new plugin cpg: error: name '3legs'" + rule);
+  EXPECT_EQ(refused("cpg ../up"), "gaitlab new plugin cpg: error: name '../up'" + rule);
+  EXPECT_EQ(refused("cpg test"), "gaitlab new plugin cpg: error: name 'test' is one of CMake's own targets; choose another\n");
+  EXPECT_EQ(refused("cpg sine"),
+            "gaitlab new plugin cpg: error: cpg 'sine' is built in, and a name can be registered once; choose another\n");
+  EXPECT_EQ(refused("engine fast"),
+            "gaitlab new plugin: error: unknown kind 'engine'; known kinds: cpg, controller, actuator\n");
+}
+
+}  // namespace
+}  // namespace gaitlab::test

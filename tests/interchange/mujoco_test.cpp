@@ -1,0 +1,248 @@
+// The exported MJCF in MuJoCo: mass matrix, bias and passive motion, by a program that we did not write.
+#include <mujoco/mujoco.h>
+
+#include <memory>
+
+#include "core/dynamics/mass_matrix.h"
+#include "core/simulation/start.h"
+#include "interchange/mjcf.h"
+#include "tests/program/random_scenario.h"
+#include "tests/validation.h"
+
+namespace gaitlab::test {
+namespace {
+
+constexpr std::array<Base, 3> kBases{Base::floating, Base::fixed, Base::planar};
+
+/// A scenario's robot in MuJoCo, at its keyframe `start`.
+class InMujoco {
+ public:
+  explicit InMujoco(const Scenario& s) : scenario_(s) {
+    const Folder folder;
+    std::array<char, 1000> error{};
+    model_.reset(mj_loadXML(folder.write("robot.xml", to_mjcf(s)).c_str(), nullptr, error.data(), error.size()));
+    if (model_ == nullptr) throw std::runtime_error(error.data());
+    data_.reset(mj_makeData(model_.get()));
+    mj_resetDataKeyframe(model_.get(), data_.get(), 0);
+  }
+
+  [[nodiscard]] const mjModel& model() const { return *model_; }
+  [[nodiscard]] mjData& data() { return *data_; }
+  [[nodiscard]] int id(const std::string& joint) const { return mj_name2id(model_.get(), mjOBJ_JOINT, joint.c_str()); }
+  double& q(std::size_t joint) { return data_->qpos[model_->jnt_qposadr[id(scenario_.robot->joints[joint].name)]]; }
+  [[nodiscard]] int dof(std::size_t joint) const { return model_->jnt_dofadr[id(scenario_.robot->joints[joint].name)]; }
+
+  /// Our state as MuJoCo's; a planar base must have been turned and shifted from the start as a planar one can be.
+  void set(const RobotState& s, double x, double z, double turn) {
+    const Vec3 w = s.orientation.conjugate() * s.angular_velocity;
+    if (scenario_.base == Base::floating) {
+      const Quat& r = s.orientation;
+      const std::array<double, 7> pose{s.position.x(), s.position.y(), s.position.z(), r.w(), r.x(), r.y(), r.z()};
+      const std::array<double, 6> twist{s.velocity.x(), s.velocity.y(), s.velocity.z(), w.x(), w.y(), w.z()};
+      std::copy(pose.begin(), pose.end(), data_->qpos);
+      std::copy(twist.begin(), twist.end(), data_->qvel);
+    } else if (scenario_.base == Base::planar) {
+      const std::array<double, 3> pose{x, z, turn};
+      const std::array<double, 3> twist{s.velocity.x(), s.velocity.z(), s.angular_velocity.y()};
+      std::copy(pose.begin(), pose.end(), data_->qpos);
+      std::copy(twist.begin(), twist.end(), data_->qvel);
+    }
+    for (std::size_t j = 0; j < s.q.size(); ++j) {
+      q(j) = s.q[j];
+      data_->qvel[dof(j)] = s.qd[j];
+    }
+    mj_forward(model_.get(), data_.get());
+  }
+
+  /// MuJoCo's generalised velocity from ours: its free joint turns in body axes, its joints come depth first.
+  [[nodiscard]] Eigen::MatrixXd from_ours(const RobotState& s) const {
+    const auto base = static_cast<Eigen::Index>(base_entries(scenario_.base).size());
+    Eigen::MatrixXd T = Eigen::MatrixXd::Zero(model_->nv, model_->nv);
+    T.topLeftCorner(base, base).setIdentity();
+    if (base == 6) T.block<3, 3>(3, 3) = s.orientation.toRotationMatrix().transpose();
+    for (std::size_t j = 0; j < s.q.size(); ++j) T(dof(j), base + static_cast<Eigen::Index>(j)) = 1;
+    return T;
+  }
+
+  /// By its columns M e_i: the function for the whole matrix has other arguments in every second version.
+  Eigen::MatrixXd mass() {
+    const Eigen::MatrixXd units = Eigen::MatrixXd::Identity(model_->nv, model_->nv);
+    Eigen::MatrixXd M(model_->nv, model_->nv);
+    for (Eigen::Index i = 0; i < M.cols(); ++i) mj_mulM(model_.get(), data_.get(), M.col(i).data(), units.col(i).data());
+    return M;
+  }
+  Eigen::VectorXd bias() { return Eigen::Map<const Eigen::VectorXd>(data_->qfrc_bias, model_->nv); }
+
+ private:
+  struct Delete {
+    void operator()(mjModel* m) const { mj_deleteModel(m); }
+    void operator()(mjData* d) const { mj_deleteData(d); }
+  };
+  const Scenario& scenario_;
+  std::unique_ptr<mjModel, Delete> model_;
+  std::unique_ptr<mjData, Delete> data_;
+};
+
+/// Largest difference of two mass matrices, every entry over its own bound sqrt(M_ii M_jj).
+double apart(const Eigen::MatrixXd& theirs, const Eigen::MatrixXd& ours) {
+  const Eigen::VectorXd root = ours.diagonal().cwiseSqrt();
+  return (theirs - ours).cwiseQuotient(root * root.transpose()).cwiseAbs().maxCoeff();
+}
+
+TEST(Mujoco, HasOurMassMatrixAndBiasAtRandomStatesOfRandomAssemblies) {
+  RandomRobots random(21);
+  double mass_error = 0;
+  double bias_error = 0;
+  for (std::size_t i = 0; i < 100; ++i) {
+    const Base base = kBases[i % 3];
+    Scenario s = random_scenario(random, base);
+    if (i % 2 == 1) add_motors(random, s);
+    InMujoco mujoco(s);
+    ASSERT_EQ(mujoco.model().nv, s.robot->dof(base));
+    RobotState state = random.state(*s.robot, base);
+    const double x = random.uniform(-1, 1);
+    const double z = random.uniform(-1, 1);
+    const double turned = random.uniform(-3, 3);
+    const RobotState start = start_state(s);
+    if (base != Base::floating) state.orientation = start.orientation;
+    if (base == Base::planar) state.orientation = turn(Vec3::UnitY(), turned) * start.orientation;
+    mujoco.set(state, x, z, turned);
+
+    Kinematics k(*s.robot);
+    k.update(*s.robot, state);
+    MassMatrix mass(*s.robot, base);
+    mass.update(k);
+    InverseDynamics dynamics(*s.robot);
+    Acceleration none;
+    none.joints.assign(state.q.size(), 0.0);
+    dynamics.update(k, none, s.physics.gravity);
+    const Eigen::VectorXd bias = generalised_force(dynamics, base);
+    const Eigen::MatrixXd T = mujoco.from_ours(state);
+    const Eigen::MatrixXd theirs = T.transpose() * mujoco.mass() * T;
+    Eigen::MatrixXd ours = mass.matrix();
+    if (const auto* motors = static_cast<const actuators::DcMotorActuator::Settings*>(s.actuator.settings.get())) {
+      const auto first = ours.rows() - static_cast<Eigen::Index>(state.q.size());
+      for (std::size_t j = 0; j < state.q.size(); ++j) {
+        ours.diagonal()[first + static_cast<Eigen::Index>(j)] += motors->gear[j] * motors->gear[j] * motors->rotor_inertia[j];
+      }
+    }
+    mass_error = std::max(mass_error, apart(theirs, ours));
+    // Bounds of the entries of M a: |(M a)_i| <= sqrt(M_ii a.M a).
+    const double size = std::sqrt(bias.dot(ours.llt().solve(bias)));
+    const Eigen::VectorXd difference = T.transpose() * mujoco.bias() - bias;
+    bias_error = std::max(bias_error, difference.cwiseQuotient(ours.diagonal().cwiseSqrt()).cwiseAbs().maxCoeff() / size);
+  }
+  const std::string reason = "required by the issue; rounding of 1e-16, of sums up to 1e4 times the entry";
+  validate_below(
+      {"format.mujoco-mass-matrix", "M of the exported MJCF, every entry over sqrt(M_ii M_jj), 100 random assemblies",
+       "MuJoCo 2.2.2, composite rigid bodies", ""},
+      mass_error, 1e-9, reason);
+  validate_below({"format.mujoco-bias", "bias c of the exported MJCF, every entry over sqrt(M_ii c M^-1 c), 100 random states",
+                  "MuJoCo 2.2.2, recursive Newton-Euler", ""},
+                 bias_error, 1e-9, reason);
+}
+
+TEST(Mujoco, HasOurMassMatrixWithRotors) {
+  const Scenario s = shipped("caterpillar.yaml", {"actuator.rotor_inertia=1e-8"});
+  InMujoco mujoco(s);
+  const RobotState start = start_state(s);
+  mujoco.set(start, 0, 0, 0);
+  Kinematics k(*s.robot);
+  k.update(*s.robot, start);
+  MassMatrix mass(*s.robot, s.base);
+  mass.update(k);
+  Eigen::MatrixXd ours = mass.matrix();
+  ours.diagonal().tail(static_cast<Eigen::Index>(s.robot->joints.size())).array() += 594 * 594 * 1e-8;  // n^2 J
+  const Eigen::MatrixXd T = mujoco.from_ours(start);
+  validate_below(
+      {"format.mujoco-rotors",
+       "M of the caterpillar's MJCF with rotors of 1e-8 kg m^2 behind gears of 594, every entry over sqrt(M_ii M_jj)",
+       "MuJoCo 2.2.2: armature", ""},
+      apart(T.transpose() * mujoco.mass() * T, ours), 1e-9, "required by the issue, as without rotors");
+}
+
+TEST(Mujoco, MovesTheSameWithoutMotorsAndContacts) {
+  RandomRobots random(22);
+  double worst = 0;
+  for (std::size_t i = 0; i < 18; ++i) {
+    const Base base = kBases[i % 3];
+    Scenario s = random_scenario(random, base);
+    s.physics.integrator = s.physics.engine->integrator("rk4");
+    s.physics.step = std::array{2.5e-4, 2e-4, 1.25e-4, 1e-4}[random.below(4)];
+    s.duration = 0.2;
+    s.trace.period = s.control_period = s.cpg_step = 0.2;
+    const Recording record = run(s);
+    InMujoco mujoco(s);
+    for (std::int64_t step = 0; step < std::llround(s.duration / s.physics.step); ++step)
+      mj_step(&mujoco.model(), &mujoco.data());
+    const std::size_t joints = s.robot->joints.size();
+    for (std::size_t j = 0; j < joints; ++j) {
+      worst = std::max(worst, std::abs(record.joint(j, "angle")[1] - mujoco.q(j)));
+    }
+    const RobotState end = record.state(*s.robot, 1);
+    const double* q = mujoco.data().qpos;
+    if (base == Base::floating) {
+      worst = std::max({worst, (end.position - Vec3(q[0], q[1], q[2])).norm(),
+                        end.orientation.angularDistance(Quat(q[3], q[4], q[5], q[6]))});
+    }
+    if (base == Base::planar) {
+      const RobotState start = start_state(s);
+      worst = std::max({worst, (end.position - start.position - Vec3(q[0], 0, q[1])).norm(),
+                        end.orientation.angularDistance(turn(Vec3::UnitY(), q[2]) * start.orientation)});
+    }
+  }
+  validate_below({"format.mujoco-motion", "angles, pose after 0.2 s of passive motion, rk4, 18 random assemblies",
+                  "MuJoCo 2.2.2, RK4 at the same step", "rad, m"},
+                 worst, 1e-6, "required by the issue; both of order 4: (2.5e-4 s, the longest, * 100 rad/s)^4 is 4e-7");
+}
+
+/// RK4 stands in the place of any method of ours, and the file says of which.
+TEST(Mujoco, NamesTheIntegratorOfEitherEngine) {
+  const auto exported = [](const std::vector<std::string>& more) {
+    std::vector<std::string> sets{"physics.engine=articulated"};
+    sets.insert(sets.end(), more.begin(), more.end());
+    return to_mjcf(shipped("hexapod.yaml", sets));
+  };
+  const auto expect = [](const std::string& text, const std::string& step, const std::string& sentence) {
+    EXPECT_TRUE(text.find("timestep=\"" + step + "\"") != std::string::npos) << step;
+    EXPECT_TRUE(text.find(sentence) != std::string::npos) << sentence;
+  };
+  expect(exported({}), "0.0005", " Integrator: adaptive, accuracy 0.01; RK4 at 0.0005 s stands here, of order 4.");
+  expect(exported({"physics.step=1e-3"}), "0.001",
+         " Integrator: implicit, of order 1; RK4 at the same step stands here, of order 4.");
+  expect(exported({"physics.step=1e-3", "physics.integrator=extrapolated"}), "0.001",
+         " Integrator: extrapolated, of order 2; RK4 at the same step stands here, of order 4.");
+  const std::string rk4 = exported({"physics.step=2e-5", "physics.integrator=rk4"});
+  EXPECT_EQ(rk4.find("Integrator:"), std::string::npos);
+}
+
+/// The shipped robot as a whole: names, contact elements, motors, start.
+TEST(Mujoco, HoldsTheHexapodWithItsNames) {
+  const Scenario s = shipped("hexapod.yaml");
+  InMujoco mujoco(s);
+  const mjModel& m = mujoco.model();
+  EXPECT_EQ(m.nbody, 1 + 33);
+  EXPECT_EQ(m.nv, 28);
+  EXPECT_EQ(m.nu, 22);
+  EXPECT_EQ(m.nsite, 24);  // four points on each of six feet
+  EXPECT_DOUBLE_EQ(m.opt.timestep, s.physics.step);
+  EXPECT_NE(to_mjcf(s).find("Integrator: semi_implicit, of order 1; RK4 at the same step"), std::string::npos);
+  EXPECT_EQ(m.opt.integrator, mjINT_RK4);
+  for (int g = 0; g < m.ngeom; ++g) EXPECT_EQ(m.geom_contype[g] + m.geom_conaffinity[g], 0);
+  mj_forward(&m, &mujoco.data());
+  Kinematics k(*s.robot);
+  k.update(*s.robot, start_state(s));
+  for (const Body& body : s.robot->bodies) {
+    const int id = mj_name2id(&m, mjOBJ_BODY, body.name.c_str());
+    ASSERT_GE(id, 0) << body.name;
+    // Ten turns and sums of numbers below 1.
+    EXPECT_LT((Eigen::Map<const Vec3>(mujoco.data().xpos + std::ptrdiff_t{3} * id) - k.point(body.link, body.in_link.p)).norm(),
+              1e-14);
+  }
+  // A contact element's lowest point is on the ground at the start.
+  EXPECT_NEAR(mujoco.data().site_xpos[2], 0, 1e-14);
+  EXPECT_DOUBLE_EQ(m.actuator_ctrlrange[1], 0.7 * 0.00395 * 594 * 1.2);  // eta Kt n i_max
+}
+
+}  // namespace
+}  // namespace gaitlab::test

@@ -1,0 +1,182 @@
+// A rollout has the bits it has alone in every width of lanes, whatever the others hold: other parameters, other robots of the
+// same structure, motors at their limit, numbers that are none any more.
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "actuators/dc_motor.h"
+#include "core/simulation/plant.h"
+#include "physics_articulated/engine.h"
+#include "tests/random_robots.h"
+
+namespace gaitlab::test {
+namespace {
+
+std::string method_name(const testing::TestParamInfo<std::string>& method) { return method.param; }
+
+class Lanes : public testing::TestWithParam<std::string> {
+ protected:
+  Lanes() { register_articulated(catalog_); }
+  [[nodiscard]] const Engine& engine() const { return *catalog_.engine("articulated"); }
+
+ private:
+  Catalog catalog_;
+};
+INSTANTIATE_TEST_SUITE_P(Of, Lanes, testing::Values("adaptive", "implicit", "extrapolated", "rk4"), method_name);
+
+/// One lane: what it is made from, its numbers and commands.
+struct Lane {
+  LaneSettings settings;
+  actuators::DcMotorActuator::Settings motors;
+  std::vector<double> numbers, history, command;
+};
+
+/// EffortSums over the parts of a step: what the ledger and the meter make of them.
+struct EffortSums {
+  std::vector<double> work, torque;  ///< a joint
+  double share = 0;
+};
+
+EffortSums sums(const StepEffort& applied, std::size_t joints, std::size_t lane, std::size_t lanes) {
+  EffortSums all{std::vector<double>(joints), std::vector<double>(joints)};
+  for (const StepEffort::Part& part : applied.parts) {
+    if (part.instant) continue;
+    for (std::size_t j = 0; j < joints; ++j) {
+      const std::size_t i = j * lanes + lane;
+      all.work[j] += part.sum[lane] * part.torque[i] * part.speed[i];
+      all.torque[j] += part.share[lane] * part.torque[i];
+    }
+    all.share += part.share[lane];
+  }
+  return all;
+}
+
+/// A lane of another kind for every index, with a robot like `first` but of other masses and lengths.
+Lane lane(RandomRobots& random, const Robot& first, Base base, std::size_t index) {
+  Lane one;
+  auto robot = std::make_shared<Robot>(first);
+  for (Link& link : robot->links) {
+    const double scale = random.uniform(0.8, 1.25);
+    link.mass *= scale;
+    link.inertia *= scale;
+    link.in_parent.p *= random.uniform(0.9, 1.1);
+  }
+  one.settings.robot = robot;
+  one.settings.gravity = random.vector(10);
+  one.settings.contacts = contact_elements(*robot, ContactSet::all);
+  for (std::size_t l = 0; l < robot->links.size(); ++l) {  // made-up types have no elements of their own
+    ContactElement element;
+    element.link = l;
+    element.radius = random.uniform(0.02, 0.07);
+    one.settings.contacts.push_back(element);
+  }
+  one.settings.ground.friction = random.friction();
+  one.settings.law = random.contact();
+  one.settings.accuracy = random.scaled(1e-3, 3e-2);
+  one.motors = random.motors(robot->joints.size());
+  RobotState state = random.state(*robot, base);
+  state.position.z() = index % 3 == 2 ? 0.1 : -0.005;  // in the air there, through the ground here
+  const StateLayout alone{robot->joints.size(), 1};
+  one.numbers.resize(alone.size());
+  alone.write(state, 0, one.numbers);
+  for (std::size_t j = 0; j < robot->joints.size(); ++j) one.command.push_back(random.uniform(-8, 8));
+  return one;
+}
+
+const std::string kExplicit = "rk4";
+
+/// lambda at the start, 1/s.
+double rate(const Engine& engine, const Lane& lane, Base base) {
+  PlantSettings settings;
+  static_cast<LaneSettings&>(settings) = lane.settings;
+  settings.base = base;
+  const actuators::DcMotorActuator motors(info(*lane.settings.robot), {&lane.motors});
+  settings.actuator = &motors;
+  settings.integrator = kExplicit;
+  const std::unique_ptr<Plant> plant = engine.make(settings);
+  std::vector<double> numbers = lane.numbers;
+  plant->bind(numbers, {});
+  return plant->stability(0, lane.command, false).rate;
+}
+
+TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
+  if (engine().lanes.size() < 2) GTEST_SKIP() << "this processor has neither AVX2 nor AVX-512";
+  constexpr int kSteps = 60;
+  RandomRobots random(41);
+  double rubbed = 0;  // J: something slides in some lane
+  for (const std::size_t width : engine().lanes) {
+    for (int i = 0; i < 4; ++i) {
+      const Robot first = random.robot_of(4);
+      const std::size_t n = first.joints.size();
+      const Base base = std::array{Base::floating, Base::fixed, Base::planar, Base::floating}[static_cast<std::size_t>(i)];
+      std::vector<Lane> lanes;
+      double fastest = 0;
+      for (std::size_t l = 0; l < width; ++l) {
+        lanes.push_back(lane(random, first, base, l));
+        if (i == 3) {  // grounds of every kind in one pack
+          lanes[l].settings.ground.kind = std::array{Ground::Kind::none, Ground::Kind::boxes, Ground::Kind::plane}[l % 3];
+          lanes[l].settings.ground.boxes = {Box{.center = {0.1, 0, 0}, .size = {0.4, 0.4, 0.02}, .friction = 0.4}};
+        }
+        fastest = std::max(fastest, rate(engine(), lanes[l], base));
+      }
+      // Explicit: far below 1 / lambda, also where a contact has become ten times as deep.
+      const double h = GetParam() == kExplicit ? std::min(1e-6, 0.05 / fastest) : random.scaled(1e-4, 2e-3);
+      if (width > 1) lanes[1].numbers[StateLayout::kVelocity] = std::numeric_limits<double>::infinity();  // diverged
+
+      const StateLayout beside{n, width};
+      std::vector<double> numbers(beside.size());
+      std::vector<double> commands(width * n);
+      std::vector<const actuators::DcMotorActuator::Settings*> motors;
+      PlantSettings together;
+      together.integrator = GetParam();
+      together.base = base;
+      for (std::size_t l = 0; l < width; ++l) {
+        for (std::size_t e = 0; e < lanes[l].numbers.size(); ++e) numbers[e * width + l] = lanes[l].numbers[e];
+        for (std::size_t j = 0; j < n; ++j) commands[j * width + l] = lanes[l].command[j];
+        motors.push_back(&lanes[l].motors);
+        (l == 0 ? static_cast<LaneSettings&>(together) : together.others.emplace_back()) = lanes[l].settings;
+      }
+      const actuators::DcMotorActuator all(info(first), motors);
+      together.actuator = &all;
+      const std::unique_ptr<Plant> pack = engine().make(together);
+      std::vector<double> history(pack->history());
+      pack->bind(numbers, history);
+      for (int step = 0; step < kSteps; ++step) pack->advance(commands, h);
+
+      for (std::size_t l = 0; l < width; ++l) {
+        if (width > 1 && l == 1) continue;
+        PlantSettings own;
+        static_cast<LaneSettings&>(own) = lanes[l].settings;
+        own.integrator = GetParam();
+        own.base = base;
+        const actuators::DcMotorActuator motor(info(first), {&lanes[l].motors});
+        own.actuator = &motor;
+        const std::unique_ptr<Plant> alone = engine().make(own);
+        lanes[l].history.resize(alone->history());
+        alone->bind(lanes[l].numbers, lanes[l].history);
+        for (int step = 0; step < kSteps; ++step) alone->advance(lanes[l].command, h);
+        for (std::size_t e = 0; e < lanes[l].numbers.size(); ++e) {
+          EXPECT_EQ(std::bit_cast<std::uint64_t>(numbers[e * width + l]), std::bit_cast<std::uint64_t>(lanes[l].numbers[e]))
+              << width << " lanes, robot " << i << ", lane " << l << ", entry " << e;
+          EXPECT_LT(std::abs(lanes[l].numbers[e]), 1e5);
+        }
+        const StepEffort a = pack->applied();
+        const StepEffort b = alone->applied();
+        for (std::size_t e = 0; e < lanes[l].history.size(); ++e) EXPECT_EQ(history[e * width + l], lanes[l].history[e]);
+        const EffortSums beside_others = sums(a, n, l, width);
+        const EffortSums by_itself = sums(b, n, 0, 1);
+        EXPECT_EQ(beside_others.work, by_itself.work);
+        EXPECT_EQ(beside_others.torque, by_itself.torque);
+        EXPECT_EQ(beside_others.share, by_itself.share);
+        EXPECT_EQ(a.contact[l], b.contact[0]);
+        EXPECT_EQ(a.friction[l], b.friction[0]);
+        EXPECT_EQ(a.stops[l], b.stops[0]);
+        rubbed += b.friction[0];
+      }
+    }
+  }
+  EXPECT_GT(rubbed, 0);
+}
+
+}  // namespace
+}  // namespace gaitlab::test

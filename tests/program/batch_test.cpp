@@ -1,0 +1,97 @@
+// Rollouts side by side, in lanes and in threads: each must end as it does alone.
+#include "core/simulation/batch.h"
+
+#include <mutex>
+
+#include "tests/program/bits.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+const std::vector<std::string> kCommon{"physics.engine=articulated", "physics.integrator=extrapolated", "physics.step=5e-4",
+                                       "duration=0.45"};
+// Parameters of every section; a lane that is done early, one that diverges, one at its current limit, other ticks.
+const std::vector<std::vector<std::string>> kOwn{
+    {},
+    {"ground.friction=0.3", "contact.stiffness=2e4", "contact.exponent=1.2"},
+    {"actuator.i_max=0.1"},
+    {"duration=0.21"},
+    {"robot.on_ground=false", "robot.position=[99000, 0, 1]", "initial.base_velocity=[9999, 0, 0]", "ground.type=none"},
+    {"controller.period=0.03", "trace.period=0.01"},
+    {"cpg.frequency=0.6", "actuator.efficiency_model=directional"},
+    {"physics.gravity=[0.5, 0, -9]", "initial.angles=0.1"},
+    {"physics.integrator=implicit"},  // not in the same pack
+    {"controller.Kp=20", "actuator.rotor_inertia=1e-8"},
+    {"ground.type=none"},
+};
+
+TEST(Batch, EndsEveryRolloutAsAlone) {
+  const std::vector<Scenario> all = rollouts(kScenarios + "hexapod.yaml", kCommon, kOwn, catalog());
+  std::vector<std::string> expected;
+  expected.reserve(all.size());
+  for (const Scenario& one : all) expected.push_back(alone(one));
+  EXPECT_NE(expected[4].find("diverged"), std::string::npos) << expected[4];
+  EXPECT_NE(expected[2], expected[0]);
+  for (const std::size_t lanes : {1U, 4U, 8U}) {
+    for (const int threads : {1, 2}) {
+      std::mutex lock;
+      std::vector<std::string> ends(all.size());
+      run_batch(all, {threads, lanes}, [&](std::size_t i, Recording&& end) {
+        const std::lock_guard hold(lock);
+        EXPECT_TRUE(ends[i].empty()) << "told twice: " << i;
+        ends[i] = bits(end, end.outcome);
+      });
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_EQ(ends[i], expected[i]) << "rollout " << i << ", " << lanes << " lanes, " << threads << " threads";
+      }
+    }
+  }
+}
+
+TEST(Batch, MixesRobotsOfOneStructureAndKeepsOthersApart) {
+  const std::vector<std::string> common{"physics.engine=articulated", "duration=0.1"};
+  std::vector<Scenario> all;
+  for (const char* name : {"caterpillar.yaml", "hexapod.yaml", "rubble.yaml", "octopod.yaml", "caterpillar-equations.yaml"}) {
+    all.push_back(shipped(name, common));
+  }
+  EXPECT_TRUE(can_share(all[0], all[4]));
+  EXPECT_TRUE(can_share(all[1], all[2]));
+  EXPECT_FALSE(can_share(all[0], all[1]));
+  std::vector<std::string> ends(all.size());
+  run_batch(all, {}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome); });
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(ends[i], alone(all[i])) << i;
+}
+
+TEST(Batch, TellsOfTheOthersBesideOneThatIsRefused) {
+  // rk4 has a largest step; a motor of a tenth of the resistance needs a tenth of it.
+  const std::vector<std::vector<std::string>> own{{}, {"actuator.R=0.4"}, {}, {"ground.friction=0.7"}};
+  const std::vector<Scenario> all = rollouts(
+      kScenarios + "hexapod.yaml",
+      {"physics.engine=articulated", "physics.integrator=rk4", "physics.step=2.5e-5", "duration=0.01"}, own, catalog());
+  std::vector<std::string> ends(all.size());
+  EXPECT_THROW(run_batch(all, {}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome); }), InputError);
+  EXPECT_TRUE(ends[1].empty()) << ends[1];
+  for (const std::size_t i : {0U, 2U, 3U}) EXPECT_EQ(ends[i], alone(all[i]));
+}
+
+TEST(Batch, RunsEveryEngine) {
+  const std::vector<Scenario> all =
+      rollouts(kScenarios + "pendulum.yaml", {"duration=0.05"}, std::vector<std::vector<std::string>>(3), catalog());
+  std::vector<std::string> ends(all.size());
+  run_batch(all, {.threads = 2}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome); });
+  for (const std::string& end : ends) EXPECT_EQ(end, alone(all[0]));
+}
+
+TEST(Batch, TellsWhatIsWrongWithAllRollouts) {
+  try {
+    rollouts(kScenarios + "hexapod.yaml", {}, std::vector<std::vector<std::string>>{{"duration=-1"}, {}, {"cpg.typ=hopf"}},
+             catalog());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().size(), 2U);
+  }
+}
+
+}  // namespace
+}  // namespace gaitlab::test

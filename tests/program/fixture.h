@@ -1,0 +1,85 @@
+// Shared by the tests of the whole program: scenarios from text, runs in memory, the program as a user calls it.
+#pragma once
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "app/app.h"
+#include "core/scenario/read_scenario.h"
+#include "core/simulation/simulation.h"
+#include "tests/folder.h"
+
+namespace gaitlab::test {
+
+inline const std::string kScenarios = std::string(GAITLAB_SOURCE_DIR) + "/scenarios/";
+
+/// Lives as long as the scenarios made from it.
+inline Catalog& catalog() {
+  static Catalog all = app::standard_catalog();
+  return all;
+}
+
+inline Scenario shipped(const std::string& name, const std::vector<std::string>& sets = {}) {
+  return read_scenario(kScenarios + name, sets, catalog());
+}
+
+/// A scenario from text, with the shipped module types.
+inline Scenario scenario(const std::string& text, const std::vector<std::string>& sets = {}) {
+  const Folder folder;
+  std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
+  std::filesystem::create_directory_symlink(kScenarios + "robots", folder / "robots");
+  return read_scenario(folder.write("test.yaml", text), sets, catalog());
+}
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+inline Recording run(const Scenario& scenario) {
+  Simulation simulation({&scenario, 1});
+  simulation.run();
+  return simulation.take_recording(0);
+}
+
+/// A column by name; a missing one is a test failure.
+class Table {
+ public:
+  explicit Table(const Trace& trace) : trace_(trace) {}
+  [[nodiscard]] double operator()(double t, const std::string& name) const {
+    const double period = trace_.at(1, 0) - trace_.at(0, 0);
+    return at(static_cast<std::size_t>(std::llround(t / period)), name);
+  }
+  [[nodiscard]] double at(std::size_t row, const std::string& name) const {
+    const std::size_t column = trace_.find(name);
+    if (column == trace_.columns.size()) throw std::out_of_range("no column " + name);
+    return trace_.at(row, column);
+  }
+
+ private:
+  const Trace& trace_;
+};
+
+inline double end(const Recording& record, const std::string& column) {
+  return Table(record.trace).at(record.trace.rows() - 1, column);
+}
+
+inline const std::string kEq12 = "closed form of eq. 12 (docs/equations.md, 6)";
+
+struct Result {
+  int code = 0;
+  std::string out, err;
+};
+
+/// The program as a user calls it, in `folder`.
+inline Result gaitlab(const std::string& arguments, const std::string& folder) {
+  const Folder capture;
+  const std::string command = "cd '" + folder + "' && '" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' " + arguments +
+                              " >'" + (capture / "out") + "' 2>'" + (capture / "err") + "'";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(capture / "out"), read(capture / "err")};
+}
+
+}  // namespace gaitlab::test

@@ -1,0 +1,291 @@
+// A run read back from its folder, and what it holds beside its rows.
+#include <nlohmann/json.hpp>
+
+#include "core/recording/atomic_file.h"
+#include "core/recording/h5.h"
+#include "core/recording/recording_file.h"
+#include "core/recording/run_files.h"
+#include "core/scenario/resolved.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+struct Kept {
+  const char *name, *scenario, *arguments;
+};
+
+class ReadBack : public testing::TestWithParam<Kept> {};
+
+TEST_P(ReadBack, GivesTheSameSummaryAndFigure) {
+  const Folder folder;
+  const Result ran =
+      gaitlab(fmt::format("run '{}{}' --out run {}", kScenarios, GetParam().scenario, GetParam().arguments), folder.path());
+  const Result again = gaitlab("report run --out again", folder.path());
+  ASSERT_EQ(again.code, 0) << ran.err << again.err;
+  const std::string summary = read(folder / "run/summary.json");
+  ASSERT_FALSE(summary.empty()) << ran.err;
+  EXPECT_EQ(read(folder / "again/summary.json"), summary);
+  EXPECT_EQ(read(folder / "again/figure.svg"), read(folder / "run/figure.svg"));
+  // The terminal, but for the line with the files.
+  const auto text = [](const std::string& out) { return out.substr(0, out.find("  files ")); };
+  EXPECT_EQ(text(again.out), text(ran.out));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Runs, ReadBack,
+    testing::Values(Kept{"caterpillar", "caterpillar.yaml", "--set duration=4 --set physics.engine=articulated"},
+                    Kept{"hexapod", "hexapod.yaml", "--set duration=4 --set physics.engine=articulated"},
+                    Kept{"rubble", "rubble.yaml", "--set duration=0.4"},
+                    Kept{"no_columns", "hexapod.yaml", "--set duration=0.3 --set trace.columns=[]"},
+                    Kept{"one_column", "hexapod.yaml", "--set duration=0.1 --set trace.columns=[joint.3.angle]"},
+                    Kept{"csv", "caterpillar.yaml", "--set duration=0.3 --format csv"},
+                    Kept{"no_motors", "pendulum.yaml", "--set duration=2"},
+                    Kept{"all_columns", "hexapod.yaml", "--set duration=0.1 --set 'trace.columns=[\"*\"]' --format csv"},
+                    Kept{"csv_no_motors", "pendulum.yaml", "--set duration=0.5 --format csv"},
+                    Kept{"within_a_step", "hexapod.yaml", "--set duration=0.0303 --set physics.engine=articulated"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+// The base leaves the range of numbers after a tenth of a second.
+constexpr const char* kDiverges =
+    "--set physics.engine=articulated --set ground.type=none --set 'robot.position=[99000, 0, 1]' --set robot.on_ground=false "
+    "--set 'initial.base_velocity=[9999, 0, 0]' --set duration=1";
+
+TEST(ReadBackEarly, SaysWhyTheRunEnded) {
+  const Folder folder;
+  const Result ran = gaitlab(fmt::format("run '{}hexapod.yaml' --out run {}", kScenarios, kDiverges), folder.path());
+  ASSERT_EQ(ran.code, 1) << ran.err;
+  const StoredRecording stored = read_recording(folder / "run");
+  EXPECT_NE(stored.recording.outcome, "done");
+  EXPECT_EQ(stored.recording.outcome, read_summary(folder / "run")["outcome"]);
+  const Result again = gaitlab("report run --out again", folder.path());
+  EXPECT_EQ(again.code, 0);
+  EXPECT_TRUE(again.err.starts_with("run: note: this run ended early: diverged at step ")) << again.err;
+  EXPECT_EQ(read(folder / "again/summary.json"), read(folder / "run/summary.json"));
+  EXPECT_EQ(read(folder / "again/figure.svg"), read(folder / "run/figure.svg"));
+}
+
+/// The numbers of all steps do not depend on which rows there are.
+TEST(Ticks, AreOfAllSteps) {
+  for (const char* engine : {"bullet", "articulated"}) {
+    std::string first;
+    for (const char* period : {"5e-4", "0.005", "0.015"}) {
+      const Recording r =
+          run(shipped("hexapod.yaml", {"duration=0.9", "actuator.i_max=0.25", std::string("physics.engine=") + engine,
+                                       std::string("trace.period=") + period}));
+      if (first.empty()) first = hash(r.ticks);
+      EXPECT_EQ(hash(r.ticks), first) << engine << ' ' << period;
+      const Table table(r.ticks);
+      ASSERT_EQ(r.ticks.rows(), 61U) << "every 15 ms, and both ends";
+      double limited = 0;
+      for (std::size_t j = 0; j < r.joints.size(); ++j) {
+        const auto at = [&](std::size_t row, const char* name) { return table.at(row, fmt::format("joint.{}.{}", j, name)); };
+        double peak = 0;
+        for (std::size_t row = 0; row < r.ticks.rows(); ++row) peak = std::max(peak, at(row, "torque_peak"));
+        EXPECT_EQ(peak, r.joints[j].torque_peak) << engine << ' ' << j;
+        // 1e-12: rounding of a square, a root and a division.
+        EXPECT_NEAR(std::sqrt(at(60, "torque_square") / r.simulated), r.joints[j].torque_rms, 1e-12);
+        EXPECT_NEAR(at(60, "current_limited") / r.simulated, r.joints[j].saturated_current, 1e-12);
+        EXPECT_NEAR(at(60, "voltage_limited") / r.simulated, r.joints[j].saturated_voltage, 1e-12);
+        limited += r.joints[j].saturated_current;
+      }
+      EXPECT_GT(limited, 0.05) << "else the test shows nothing of limits";
+    }
+  }
+}
+
+/// An independent way: from rows at every step, of an integrator whose torque is that at the end of the step.
+TEST(Ticks, GiveTheRmsOfAnyStretch) {
+  const Recording r =
+      run(shipped("caterpillar.yaml", {"duration=1.5", "physics.engine=articulated", "physics.integrator=implicit",
+                                       "physics.step=5e-4", "trace.period=5e-4"}));
+  const Table ticks(r.ticks);
+  const Series time = r.series("t");
+  const double from = r.ticks.at(40, 0);
+  const double to = r.ticks.at(80, 0);
+  for (std::size_t j = 0; j < r.joints.size(); ++j) {
+    const Series torque = r.joint(j, "torque");
+    double square = 0;
+    for (std::size_t k = 0; k < time.size(); ++k) square += time[k] > from && time[k] <= to ? torque[k] * torque[k] * 5e-4 : 0;
+    const std::string name = fmt::format("joint.{}.torque_square", j);
+    // 1e-9: the difference of two sums of 1e3 terms; measured below 1e-12.
+    EXPECT_NEAR(ticks.at(80, name) - ticks.at(40, name), square, 1e-9 * square) << j;
+  }
+}
+
+TEST(Ticks, AreAtLeastTwoMillisecondsApart) {
+  const Recording r = run(shipped("hexapod.yaml", {"duration=0.02", "controller.period=5e-4", "physics.engine=articulated"}));
+  ASSERT_EQ(r.ticks.rows(), 11U);
+  EXPECT_NEAR(r.ticks.at(1, 0), 2e-3, 1e-12);
+}
+
+class OldFolder : public testing::Test {
+ protected:
+  OldFolder() { std::filesystem::copy(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/run-of-format-1", folder_ / "old"); }
+  const Folder folder_;
+};
+
+TEST_F(OldFolder, IsReadAsFarAsItGoes) {
+  const Result result = gaitlab("report old", folder_.path());
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("two-modules: 0.2 s simulated"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("distance      0.0"), std::string::npos) << result.out;
+  for (const char* unknown : {"most loaded", "tracking", "energy", "transport", "stability"})
+    EXPECT_EQ(result.out.find(unknown), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find(
+                "old: note: old/trace.h5 holds rows only: peaks, shares of time, energies and the torque error, which are "
+                "of all steps, are not known\nold: note: the trace has no column load.*\n"),
+            std::string::npos)
+      << result.err;
+  const Result refused = gaitlab("report old --out new", folder_.path());
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(refused.err.starts_with("old: error: summary and figure cannot be made anew: old/trace.h5 holds rows only"))
+      << refused.err;
+  EXPECT_TRUE(refused.err.ends_with("simulate it again: gaitlab rerun old\n")) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "new"));
+}
+
+TEST_F(OldFolder, WithoutPosesSaysNothingOfThem) {
+  const StoredTrace stored = read_h5(folder_ / "old/trace.h5");
+  Trace bare{{stored.trace.columns[0]}, {}};
+  for (std::size_t row = 0; row < stored.trace.rows(); ++row) bare.values.push_back(stored.trace.at(row, 0));
+  write_h5(bare, stored.origin, folder_ / "old/trace.h5");
+  const Result result = gaitlab("report old", folder_.path());
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.out.find("distance"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find(
+                "the trace has no column joint.*.setpoint, joint.*.angle, joint.*.torque, base.?, base.q?, com.?, load.*"),
+            std::string::npos)
+      << result.err;
+}
+
+TEST(Recordings, ThatDoNotFitTogetherAreRefused) {
+  const Folder folder;
+  const Scenario walking = shipped("hexapod.yaml", {"duration=0.05", "physics.engine=articulated"});
+  write_recording(run(walking), {"", 0, "", "done"}, "h5", folder.path());
+  const StoredTrace good = read_h5(folder / "trace.h5");
+  EXPECT_TRUE(read_recording(folder.path()).missing.empty());
+  const auto complaint = [&](const std::vector<Beside>& beside) -> std::string {
+    write_h5(good.trace, good.origin, folder / "trace.h5", beside);
+    try {
+      read_recording(folder.path());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint(good.beside), "");
+  const std::string file = folder / "trace.h5";
+  std::vector<Beside> beside = good.beside;
+  beside.erase(beside.begin());
+  EXPECT_EQ(complaint(beside), file + ": error: is corrupt: there is no table /recording/rest");
+  beside = good.beside;
+  beside[0].table.values.resize(beside[0].table.columns.size());
+  EXPECT_EQ(complaint(beside), file + ": error: is corrupt: 1 rows in /recording/rest, 11 in the trace");
+  beside = good.beside;
+  beside[2].table.columns[0].name = "torque";
+  EXPECT_EQ(complaint(beside), file + ": error: is corrupt: there is no number torque_peak");
+  beside = good.beside;
+  beside[3].table.values[beside[3].table.find("stability.index")] = -1;
+  EXPECT_EQ(complaint(beside), file + ": error: is corrupt: stability.index is -1");
+}
+
+/// More rows than are kept: two become one, and nothing of peaks and sums is lost.
+TEST(Ticks, AreHalvedWhereThereAreMany) {
+  const Scenario s = scenario(R"(
+gaitlab: 1
+name: long
+duration: 45
+robot: {base: fixed, position: [0, 0, 1]}
+cpg: {type: sine, frequency: 1}
+controller: {period: 0.002}
+physics: {engine: articulated}
+ground: {type: none}
+trace: {period: 1}
+)");
+  const Recording r = run(s);
+  const std::size_t rows = r.ticks.rows();
+  EXPECT_EQ(rows, 11251U) << "22501 ticks, every second one";
+  const Table table(r.ticks);
+  for (std::size_t k = 1; k + 1 < rows; ++k) ASSERT_NEAR(table.at(k, "t") - table.at(k - 1, "t"), 0.004, 1e-9) << k;
+  EXPECT_EQ(table.at(rows - 1, "t"), 45);
+  for (std::size_t j = 0; j < r.joints.size(); ++j) {
+    double peak = 0;
+    for (std::size_t k = 0; k < rows; ++k) peak = std::max(peak, table.at(k, fmt::format("joint.{}.torque_peak", j)));
+    EXPECT_EQ(peak, r.joints[j].torque_peak);
+    EXPECT_NEAR(std::sqrt(table.at(rows - 1, fmt::format("joint.{}.torque_square", j)) / 45), r.joints[j].torque_rms, 1e-12);
+  }
+}
+
+class RunFolders : public testing::Test {
+ protected:
+  RunFolders() {
+    const Result ran = gaitlab(
+        fmt::format("run '{}hexapod.yaml' --set duration=0.05 --format csv --out run --quiet", kScenarios), folder_.path());
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  }
+  void report(int code, const std::string& err) const {
+    const Result result = gaitlab("report run", folder_.path());
+    EXPECT_EQ(result.code, code);
+    EXPECT_EQ(result.err.substr(0, err.size()), err);
+  }
+  const Folder folder_;
+};
+
+/// The recording holds its own scenario: another file in its place changes nothing.
+TEST_F(RunFolders, NeedNoScenarioFile) {
+  const std::string before = gaitlab("report run", folder_.path()).out;
+  std::filesystem::copy_file(kScenarios + "pendulum.yaml", folder_ / "run/scenario.resolved.yaml",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(gaitlab("report run", folder_.path()).out, before);
+  std::filesystem::remove(folder_ / "run/scenario.resolved.yaml");
+  EXPECT_EQ(gaitlab("report run", folder_.path()).out, before);
+}
+
+TEST_F(RunFolders, WithAnotherTraceAreRefused) {
+  const std::string csv = read(folder_ / "run/trace.csv");
+  const std::string refused = "run/trace.csv: error: is not the file that recording.h5 belongs to, or was changed\n";
+  folder_.write("run/trace.csv", csv.substr(0, csv.find('\n', csv.find('\n') + 1) + 1));  // one row
+  report(2, refused);
+  std::string renamed = csv;
+  folder_.write("run/trace.csv", renamed.replace(renamed.find("base.x,"), 7, "base.u,"));
+  report(2, refused);
+  folder_.write("run/trace.csv", csv);
+  report(0, "");
+  std::filesystem::remove(folder_ / "run/recording.h5");
+  report(0, "run: note: run/trace.csv holds rows only");
+}
+
+TEST_F(RunFolders, WithADamagedSummaryAreRead) {
+  folder_.write("run/summary.json", "garbage");
+  report(0, "");
+  folder_.write("run/summary.json", R"({"wall_time": -1e300})");
+  const Result result = gaitlab("report run", folder_.path());
+  EXPECT_NE(result.out.find("simulated in 0.00 s"), std::string::npos) << result.out;
+  EXPECT_EQ(gaitlab("report nothing", folder_.path()).err, "nothing: error: there is no such run folder or trace file\n");
+}
+
+/// Files that somebody made up, whose hashes are right.
+TEST(Recordings, OfAnotherRobotAreRefused) {
+  const Folder folder;
+  const Recording walked = run(shipped("hexapod.yaml", {"duration=0.02", "physics.engine=articulated"}));
+  const auto complaint = [&](const Recording& recording, const char* scenario) {
+    write_recording(recording, {resolved(shipped(scenario, {"duration=0.02"})), 1, "", "done"}, "h5", folder.path());
+    const Result result = gaitlab("report .", folder.path());
+    EXPECT_EQ(result.code, 2);
+    return result.err;
+  };
+  EXPECT_EQ(complaint(walked, "pendulum.yaml"),
+            ".: error: its recording does not fit its scenario: 22 joints, 1 in the scenario\n");
+  Recording forged = walked;
+  forged.worst = {1.0, Stability::Source::contact, 1000};
+  EXPECT_EQ(complaint(forged, "hexapod.yaml"),
+            ".: error: its recording does not fit its scenario: stability.index is beyond its joints and contacts\n");
+  forged = walked;
+  forged.trace.columns[forged.trace.find("base.x")].name = "base.u";
+  EXPECT_EQ(complaint(forged, "hexapod.yaml"),
+            ".: error: its recording does not fit its scenario: columns that every recording has are not there\n");
+}
+
+}  // namespace
+}  // namespace gaitlab::test

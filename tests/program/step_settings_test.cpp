@@ -1,0 +1,196 @@
+// What may be asked of the steps: physics.step, integrator and accuracy, as read, printed and halved.
+#include <regex>
+
+#include "core/recording/convergence.h"
+#include "core/scenario/read_scenario.h"
+#include "core/scenario/resolved.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+const std::string kHead = "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.3\n";
+
+Physics physics(const std::string& keys) { return scenario(kHead + "physics: {" + keys + "}\n").physics; }
+
+/// Of `gaitlab check`.
+std::string error(const std::string& keys, const std::string& more = "") {
+  const Folder folder;
+  std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
+  folder.write("s.yaml", kHead + "physics: {" + keys + "}\n" + more);
+  const Result result = gaitlab("check s.yaml", folder / "");
+  EXPECT_EQ(result.code, result.err.empty() ? 0 : 2);
+  return result.err;
+}
+
+TEST(StepSettings, LeaveTheStepToTheAdaptiveIntegrator) {
+  for (const char* keys :
+       {"engine: articulated", "engine: articulated, step: auto", "engine: articulated, integrator: adaptive",
+        "engine: articulated, step: auto, integrator: adaptive, accuracy: 0.01"}) {
+    const Physics p = physics(keys);
+    EXPECT_TRUE(p.adaptive_step) << keys;
+    EXPECT_TRUE(p.adapts()) << keys;
+    EXPECT_EQ(p.integrator->name, "adaptive") << keys;
+    EXPECT_EQ(p.step, 0.005) << keys;  // a third of the control period
+    EXPECT_EQ(p.accuracy, 0.01) << keys;
+  }
+}
+
+TEST(StepSettings, ANumberAsksForTheIntegratorOfFirstOrder) {
+  const Physics p = physics("engine: articulated, step: 1e-3");
+  EXPECT_EQ(p.integrator->name, "implicit");
+  EXPECT_FALSE(p.adaptive_step);
+  EXPECT_EQ(p.step, 1e-3);
+  EXPECT_EQ(physics("engine: articulated, integrator: implicit").step, 5e-4);
+  EXPECT_EQ(physics("engine: bullet").integrator->name, "semi_implicit");
+}
+
+TEST(StepSettings, TheAdaptiveIntegratorTakesANumberForItsLongestStep) {
+  const Physics p = physics("engine: articulated, integrator: adaptive, step: 2.5e-3, accuracy: 1e-3");
+  EXPECT_TRUE(p.adapts());
+  EXPECT_FALSE(p.adaptive_step);
+  EXPECT_EQ(p.step, 2.5e-3);
+  EXPECT_EQ(p.accuracy, 1e-3);
+  const Scenario s = scenario(kHead + "physics: {engine: articulated, integrator: adaptive, step: 2.5e-3}\n");
+  EXPECT_EQ(run(s).steps, 120);
+}
+
+/// The largest whole share of the control period up to 5 ms, whatever the rows.
+TEST(StepSettings, AStepIsAWholeShareOfTheControlPeriod) {
+  for (const auto& [period, step] : std::vector<std::pair<std::string, double>>{{"0.015", 0.005},
+                                                                                {"0.005", 0.005},
+                                                                                {"0.0051", 0.00255},
+                                                                                {"0.001", 0.001},
+                                                                                {"0.016", 0.004},
+                                                                                {"0.0113", 0.0113 / 3}}) {
+    for (const char* rows : {"5e-3", "7e-3", "1e-4"}) {
+      const Scenario s = scenario(kHead + "cpg: {type: sine}\ncontroller: {period: " + period +
+                                  "}\nphysics: {engine: articulated}\ntrace: {period: " + rows + "}\n");
+      EXPECT_DOUBLE_EQ(s.physics.step, step) << period;
+    }
+  }
+}
+
+TEST(StepSettings, AutoIsRefusedWhereNothingChoosesSteps) {
+  EXPECT_EQ(
+      error("engine: bullet, step: auto"),
+      "s.yaml:4:33: error: integrator 'semi_implicit' of engine 'bullet' chooses no steps; expected a number of seconds, or "
+      "engine: articulated, integrator: adaptive\n");
+  for (const char* integrator : {"implicit", "extrapolated", "rk4"}) {
+    const std::string text = error(fmt::format("engine: articulated, integrator: {}, step: auto", integrator));
+    EXPECT_TRUE(contains(text, fmt::format("error: integrator '{}' of engine 'articulated' chooses no steps; expected a number "
+                                           "of seconds, or engine: articulated, integrator: adaptive\n",
+                                           integrator)))
+        << text;
+    EXPECT_TRUE(text.starts_with("s.yaml:4:")) << text;
+  }
+  EXPECT_EQ(error("engine: articulated, step: often"),
+            "s.yaml:4:38: error: step is 'often'; expected a number in s, or auto\n");
+  EXPECT_EQ(error("engine: articulated, step: 0"), "s.yaml:4:38: error: step is 0 s; allowed are 1e-09 to 1 s\n");
+}
+
+TEST(StepSettings, AccuracyIsANumberWithinItsRange) {
+  for (const char* wrong : {"0", "-0.01", "1e-07", "0.6", "1"}) {
+    EXPECT_EQ(error(fmt::format("engine: articulated, accuracy: {}", wrong)),
+              fmt::format("s.yaml:4:42: error: accuracy is {}; allowed are 1e-06 to 0.5\n", wrong));
+  }
+  EXPECT_EQ(error("engine: articulated, accuracy: 1e-6"), "");
+  EXPECT_EQ(error("engine: articulated, accuracy: 0.5"), "");
+}
+
+/// It would do nothing there.
+TEST(StepSettings, AccuracyIsForIntegratorsThatChooseTheirSteps) {
+  for (const char* keys : {"engine: articulated, integrator: implicit, accuracy: 0.01",
+                           "engine: articulated, step: 1e-3, accuracy: 0.01", "engine: bullet, accuracy: 0.01"}) {
+    const std::string text = error(keys);
+    EXPECT_TRUE(contains(text,
+                         " takes steps as given, so accuracy means nothing to it; remove it, or use engine: articulated, "
+                         "integrator: adaptive\n"))
+        << text;
+  }
+}
+
+TEST(StepSettings, APeriodThatNoFixedStepFitsIsStillRefused) {
+  EXPECT_TRUE(contains(error("engine: articulated, step: 1e-3", "trace: {period: 1.5e-3}\n"),
+                       "trace period 0.0015 s is not a whole multiple of the step 0.001 s"));
+  EXPECT_EQ(error("engine: articulated", "trace: {period: 1.5e-3}\n"), "");
+}
+
+TEST(StepSettings, ResolvedSaysThemAndIsItself) {
+  const std::string motor = "cpg: {type: sine}\n";
+  for (const auto& [keys, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"engine: articulated", "  step: auto\n  integrator: adaptive\n  accuracy: 0.01\n"},
+           {"engine: articulated, accuracy: 2e-3", "  step: auto\n  integrator: adaptive\n  accuracy: 0.002\n"},
+           {"engine: articulated, integrator: adaptive, step: 5e-3",
+            "  step: 0.005\n  integrator: adaptive\n  accuracy: 0.01\n"},
+           {"engine: articulated, step: 1e-3", "  step: 0.001\n  integrator: implicit\n  gravity"},
+           {"engine: bullet", "  step: 2.5e-05\n  integrator: semi_implicit\n  gravity"}}) {
+    const Scenario s = scenario(kHead + motor + "physics: {" + keys + "}\n");
+    const std::string text = resolved(s);
+    EXPECT_TRUE(contains(text, expected)) << keys << "\n" << text;
+    const Folder folder;
+    const Scenario again = read_scenario(folder.write("again.yaml", text), {}, catalog());
+    EXPECT_EQ(resolved(again), text) << keys;
+    EXPECT_EQ(again.physics.adaptive_step, s.physics.adaptive_step);
+    EXPECT_EQ(hash(run(again).trace), hash(run(s).trace)) << keys;
+  }
+}
+
+TEST(StepSettings, RefiningDividesWhatChoosesTheSteps) {
+  Physics p = physics("engine: articulated");
+  p.refine(4);
+  EXPECT_EQ(p.accuracy, 0.0025);
+  EXPECT_EQ(p.step, 0.005);
+  p = physics("engine: articulated, step: 1e-3");
+  p.refine(4);
+  EXPECT_EQ(p.step, 2.5e-4);
+}
+
+struct Converge : testing::Test {
+  /// What `gaitlab converge` prints.
+  [[nodiscard]] std::string of(const std::string& arguments) const {
+    const Result r = gaitlab("converge " + arguments + " --quiet -j 2", folder / "");
+    EXPECT_EQ(r.code, 0) << r.err;
+    return r.out;
+  }
+  Folder folder;
+};
+
+TEST_F(Converge, HalvesTheAccuracy) {
+  const std::string text = of("'" + kScenarios + "caterpillar.yaml' --set physics.engine=articulated --set duration=0.3");
+  EXPECT_TRUE(contains(text, "caterpillar-8: error against accuracy 0.0025 (RMS over the rows")) << text;
+  EXPECT_TRUE(std::regex_search(text, std::regex("\naccuracy +0[.]01 +0[.]005 +order\n"))) << text;
+  EXPECT_TRUE(contains(text, "\naccuracy 0.01 is good for 1 %: the error is at most ")) << text;
+  EXPECT_FALSE(contains(text, " s is good")) << text;
+  // Its errors are those of runs that were asked for these accuracies.
+  std::vector<Trace> traces;
+  for (const char* accuracy : {"0.01", "0.005", "0.0025"}) {
+    traces.push_back(run(shipped("caterpillar.yaml",
+                                 {"physics.engine=articulated", "duration=0.3", std::string("physics.accuracy=") + accuracy}))
+                         .trace);
+  }
+  const std::vector<ConvergenceRow> rows = convergence(traces, {"joint.3.torque"});
+  ASSERT_EQ(rows.size(), 1U);
+  const std::string row =
+      fmt::format("{:<24} {:>10.2g} % {:>10.2g} %", rows[0].name, 100 * rows[0].error[0], 100 * rows[0].error[1]);
+  EXPECT_TRUE(contains(text, "\n" + row)) << row << "\n" << text;
+}
+
+/// Feet on ground so stiff that a step sees an impact or not: errors that do not fall with the step follow no power of it.
+TEST_F(Converge, SaysThatNoOrderIsSeen) {
+  std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
+  folder.write(
+      "s.yaml",
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 1], [1, 2, 4, 1, 3], [0, 3, 3, 0, 3], [2, 4, 5, 0, 1], [0, 5, "
+      "3, 2, 3], [2, 6, 5, 2, 1]]}\nphysics: {engine: articulated, step: 2.5e-3}\ncontact: {stiffness: 1e6, damping: "
+      "1e7}\ncpg: {type: tripod}\nduration: 0.6\n");
+  const std::string text = of("s.yaml");
+  EXPECT_TRUE(contains(text, "none of these is good for 1 % of joint.")) << text;
+  EXPECT_TRUE(std::regex_search(
+      text, std::regex("; no (order is seen [(]0[.][0-4][0-9]?[)]|clear order), so nothing is said of others\n")))
+      << text;
+  EXPECT_FALSE(contains(text, "by the order seen")) << text;
+}
+
+}  // namespace
+}  // namespace gaitlab::test

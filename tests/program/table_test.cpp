@@ -1,0 +1,81 @@
+// Gait `table`: the same set points as the same keyframes, a file beside the scenario, errors as the user sees them.
+#include "cpg/table.h"
+
+#include "core/scenario/read_scenario.h"
+#include "core/scenario/resolved.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace cpg;
+
+const std::string kCsv = "# measured\ntime, m0/passive\n0, 0.1\n0.3, 0.5\n\n1, 0.1\r\n";
+const std::string kTableHead = "gaitlab: 1\nrobot: {modules: mtran}\nduration: 0.06\n";
+
+class TableGait : public ::testing::Test {
+ protected:
+  TableGait() {
+    for (const char* name : {"modules", "robots"}) std::filesystem::create_directory_symlink(kScenarios + name, folder / name);
+  }
+  Scenario read_with(const std::string& model) {
+    return read_scenario(folder.write("s.yaml", kTableHead + "cpg:\n  type: table\n  model: " + model + "\n"), {}, catalog());
+  }
+  std::string error(const std::string& csv) {
+    folder.write("gait.csv", csv);
+    try {
+      read_with("{file: gait.csv}");
+    } catch (const InputError& e) {
+      const std::string text = e.what();
+      return text.substr(text.find("error: ") + 7);
+    }
+    return "no error";
+  }
+  static std::vector<double> setpoints(const Scenario& s) {
+    const void* settings = s.cpg.settings.get();
+    const std::unique_ptr<Cpg> cpg(static_cast<Cpg*>(s.cpg.entry->make(info(*s.robot), {&settings, 1})));
+    std::vector<double> all, q(s.robot->joints.size());
+    for (int i = 0; i < 200; ++i) {
+      cpg->output(0.01 * i, {}, q);
+      all.insert(all.end(), q.begin(), q.end());
+    }
+    return all;
+  }
+  Folder folder;
+};
+
+TEST_F(TableGait, MovesAsTheSameKeyframes) {
+  folder.write("gait.csv", kCsv);
+  const Scenario table = read_with("{file: gait.csv}");
+  const Scenario frames = scenario(
+      kTableHead +
+      "cpg: {type: keyframes, model: {frames: [{time: 0, angles: {m0/passive: 0.1}}, {time: 0.3, angles: {m0/passive: 0.5}}, "
+      "{time: 1, angles: {m0/passive: 0.1}}]}}\n");
+  EXPECT_EQ(setpoints(table), setpoints(frames));
+}
+
+TEST_F(TableGait, TheResolvedScenarioHoldsTheText) {
+  folder.write("gait.csv", kCsv);
+  const std::string once = resolved(read_with("{file: gait.csv}"));
+  const Folder elsewhere;
+  const Scenario again = read_scenario(elsewhere.write("r.yaml", once), {}, catalog());
+  EXPECT_EQ(resolved(again), once);
+  EXPECT_EQ(setpoints(again), setpoints(read_with("{file: gait.csv}")));
+}
+
+TEST_F(TableGait, ErrorsNameLineAndColumn) {
+  const std::string at = "the table's line ";
+  EXPECT_NE(error("x,0\n0,0\n1,0\n").find(at + "1, column 1: expected the column time; found 'x'"), std::string::npos);
+  EXPECT_NE(error("time, 7\n").find(at + "1, column 7: no joint '7'"), std::string::npos);
+  EXPECT_NE(error("time,0,m0/active\n").find(at + "1, column 8: joint 'm0/active' has a column already"), std::string::npos);
+  EXPECT_NE(error("time,0\n0,0\n1\n").find(at + "3, column 1: 1 cells; expected 2"), std::string::npos);
+  EXPECT_NE(error("time,0\n0, nan\n").find(at + "2, column 4: 'nan' is not a finite number"), std::string::npos);
+  EXPECT_NE(error("time,0\n0,0\n0,0\n").find(at + "3, column 1: times must rise"), std::string::npos);
+  EXPECT_NE(error("").find("table is empty"), std::string::npos);
+  EXPECT_NE(error("time,0\n0,0\n1,1\n").find("the last frame differs from the first at joint m0/active"), std::string::npos);
+  EXPECT_THROW(read_with("{file: none.csv}"), InputError);
+  EXPECT_THROW(read_with("{file: [1]}"), InputError);
+}
+
+}  // namespace
+}  // namespace gaitlab::test

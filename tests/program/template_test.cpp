@@ -1,0 +1,193 @@
+// Rollouts of a template are what reading the file again gives; many of them, one after the other.
+#include <malloc.h>
+
+#include "core/scenario/read_scenario.h"
+#include "core/scenario/resolved.h"
+#include "core/simulation/batch.h"
+#include "report/summary.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using Sets = std::vector<std::string>;
+
+std::string errors(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class Templates : public testing::TestWithParam<const char*> {};
+
+/// Every section, and what depends on another section; two at once.
+TEST_P(Templates, GiveWhatReadingAgainGives) {
+  const std::string file = kScenarios + GetParam();
+  const Sets common{"duration=0.3", "contact.stiffness=2e4"};
+  const ScenarioTemplate from(file, common, catalog());
+  const std::vector<Sets> all{{},
+                              {"cpg.frequency=0.4"},
+                              {"cpg.amplitude=0.2", "controller.Kp=50"},
+                              {"controller.period=0.03"},
+                              {"controller.period=0.03", "cpg.frequency=0.7"},
+                              {"physics.engine=articulated"},
+                              {"physics.engine=articulated", "physics.accuracy=0.02"},
+                              {"physics.step=1e-5"},
+                              {"physics.gravity=[0, 0, -3]"},
+                              {"physics={engine: articulated, step: 5e-4}"},
+                              {"contact.law=bullet"},
+                              {"contact.on=none", "ground.type=none"},
+                              {"contact.friction_law=x"},
+                              {"ground.friction=0.3"},
+                              {"actuator.i_max=0.3"},
+                              {"actuator.i_max={default: 0.3, m1/active: 0.2}"},
+                              {"actuator.rotor_inertia=1e-8"},
+                              {"actuator.rotor_inertia=1e-8", "contact.law=bullet"},
+                              {"initial.angles=0.1"},
+                              {"initial.angles={m1/active: 0.2}"},
+                              {"initial.angles.m1/active=0.2", "initial.speeds=0.1"},
+                              {"initial.base_velocity=[0, 0, 1]"},
+                              {"trace.columns=[joint.1.*]", "trace.period=0.01"},
+                              {"trace={period: 0.015}"},
+                              {"seed=7"},
+                              {"duration=0.2"},
+                              {"name=other"},
+                              {"name.x=1"},
+                              {"cpg.type=hopf"},
+                              {"cpg={type: sine}"},
+                              {"actuator.type=torque"},
+                              {"robot.position=[0.1, 0]"},
+                              // refused
+                              {"cpg.frequencies=0.4"},
+                              {"cpg.frequency=fast", "controller.Kp=-1"},
+                              {"nothing=1"},
+                              {"trace.period=0.0101"},
+                              {"duration=-1"},
+                              {"physics.accuracy=0.02"},
+                              {"initial.angles=9"},
+                              {"initial.angles.m1/nothing=0"},
+                              {"=3"},
+                              {"cpg"}};
+  for (const Sets& own : all) {
+    Sets both = common;
+    both.insert(both.end(), own.begin(), own.end());
+    const std::string what = fmt::format("{}", fmt::join(own, " "));
+    std::string expected;
+    std::string given;
+    std::optional<Scenario> one;
+    const std::string refused = errors([&] {
+      one = from.with(own);
+      given = resolved(*one);
+    });
+    EXPECT_EQ(refused, errors([&] {
+                const Scenario again = read_scenario(file, both, catalog());
+                expected = resolved(again);
+                if (!one) return;
+                EXPECT_EQ(one->notes, again.notes) << what;
+                for (const auto& [key, place] : *again.places) {
+                  EXPECT_EQ(to_string(one->place(key)), to_string(place)) << what << ": " << key;
+                }
+              }))
+        << what;
+    EXPECT_EQ(given, expected) << what;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Templates,
+                         testing::Values("hexapod.yaml", "caterpillar.yaml", "rubble.yaml", "pendulum.yaml"),
+                         [](const auto& info) {
+                           const std::string name = info.param;
+                           return name.substr(0, name.find('.'));
+                         });
+
+/// In the order of the range, whatever runs beside; each the summary it has alone.
+TEST(Stream, KeepsOrderAndBits) {
+  const ScenarioTemplate from(kScenarios + "hexapod.yaml", {"physics.engine=articulated", "duration=0.06"}, catalog());
+  constexpr int kCount = 70;  // more than a window of one thread
+  const auto own = [](int i) { return Sets{fmt::format("cpg.frequency={}", 0.2 + 0.01 * i)}; };
+  std::vector<std::string> alone;
+  for (const int i : {0, 31, 32, 69})
+    alone.push_back(report::summarise(from.with(own(i)), run(from.with(own(i))), 0).trace_hash);
+  for (const auto& [threads, lanes] : {std::pair(1, 1U), std::pair(1, 0U), std::pair(2, 0U)}) {
+    int next = 0;
+    std::vector<std::string> hashes;
+    run_stream(
+        [&]() -> std::optional<Scenario> { return next < kCount ? std::optional(from.with(own(next++))) : std::nullopt; },
+        {.threads = threads, .lanes = lanes}, [](const Scenario& s, Recording&& r) { return report::summarise(s, r, 0); },
+        [&](report::Summary&& summary) { hashes.push_back(summary.trace_hash); });
+    ASSERT_EQ(hashes.size(), static_cast<std::size_t>(kCount));
+    EXPECT_EQ((std::vector<std::string>{hashes[0], hashes[31], hashes[32], hashes[69]}), alone) << threads << ' ' << lanes;
+  }
+}
+
+/// One that is refused: those before it arrive, then the error.
+TEST(Stream, EndsAtTheFirstRefused) {
+  const ScenarioTemplate from(kScenarios + "hexapod.yaml", {"physics.engine=articulated", "duration=0.03"}, catalog());
+  int next = 0;
+  int arrived = 0;
+  const Scenario bad = from.with({"physics.engine=bullet", "physics.step=0.005", "physics.integrator=semi_implicit"});
+  const auto with_bad = [&]() -> std::optional<Scenario> {
+    if (++next > 6) return std::nullopt;
+    return next == 4 ? bad : from.with({});
+  };
+  EXPECT_THROW(run_stream(
+                   with_bad, {}, [](const Scenario&, Recording&& r) { return r.steps; }, [&](std::int64_t&&) { ++arrived; }),
+               InputError);
+  EXPECT_EQ(arrived, 3);
+}
+
+/// One that cannot be made: those before it arrive, whatever threads there are.
+TEST(Stream, EndsAtTheFirstThatIsNotMade) {
+  const ScenarioTemplate from(kScenarios + "hexapod.yaml", {"physics.engine=articulated", "duration=0.03"}, catalog());
+  for (const int threads : {0, 1, 2}) {
+    int next = 0;
+    int arrived = 0;
+    EXPECT_THROW(run_stream([&] { return std::optional(from.with({++next == 36 ? "cpg.frequency=-1" : "seed=3"})); },
+                            {.threads = threads}, [](const Scenario&, Recording&& r) { return r.steps; },
+                            [&](std::int64_t&&) { ++arrived; }),
+                 InputError);
+    EXPECT_EQ(arrived, 35) << threads;
+  }
+}
+
+/// A template whose own settings chose the CPG's type.
+TEST(Template, KeepsWhatItsTypeDropped) {
+  const Sets common{"cpg.type=hopf", "duration=0.1"};
+  const ScenarioTemplate from(kScenarios + "caterpillar.yaml", common, catalog());
+  for (const Sets& own : {Sets{"cpg.frequency=0.4"}, Sets{"cpg.model.mu=2"}, Sets{"cpg.model.k=1"}, Sets{"controller.Kp=40"}}) {
+    Sets both = common;
+    both.insert(both.end(), own.begin(), own.end());
+    std::string given;
+    std::string expected;
+    EXPECT_EQ(errors([&] { given = resolved(from.with(own)) + fmt::format("{}", fmt::join(from.with(own).notes, "|")); }),
+              errors([&] {
+                const Scenario again = read_scenario(kScenarios + "caterpillar.yaml", both, catalog());
+                expected = resolved(again) + fmt::format("{}", fmt::join(again.notes, "|"));
+              }))
+        << own[0];
+    EXPECT_EQ(given, expected) << own[0];
+  }
+}
+
+/// Ten thousand rollouts of 0.5 s would take gigabytes if all were kept: the memory in use does not grow with their number.
+TEST(Stream, KeepsNothingOfWhatIsOver) {
+  const ScenarioTemplate from(kScenarios + "hexapod.yaml", {"physics.engine=articulated", "duration=0.1"}, catalog());
+  int next = 0;
+  std::size_t early = 0;
+  std::size_t late = 0;
+  int seen = 0;
+  run_stream([&]() -> std::optional<Scenario> { return next++ < 256 ? std::optional(from.with({"seed=2"})) : std::nullopt; },
+             {.threads = 1}, [](const Scenario& s, Recording&& r) { return report::summarise(s, r, 0).distance; },
+             [&](double&&) {
+               if (++seen == 33) early = mallinfo2().uordblks;
+               if (seen == 225) late = mallinfo2().uordblks;
+             });
+  EXPECT_EQ(seen, 256);
+  EXPECT_LT(late, early + 1000000) << "bytes; one recording has 60000";
+}
+
+}  // namespace
+}  // namespace gaitlab::test
