@@ -46,13 +46,16 @@ double wall_time(const fs::path& folder) {
 /// The scenario that the recording holds; where it holds none, as a CSV file alone, the resolved one of the folder.
 StoredScenario scenario_of(const std::string& run, const StoredRecording& read) {
   if (read.origin.scenario.empty()) return stored_scenario(run);
-  return {"", trace_file(run).string() + " (its scenario)", read.origin.scenario};
+  const fs::path trace = trace_file(run);
+  const fs::path holds = trace.extension() == ".csv" ? trace.parent_path() / kBesideCsv : trace;
+  return {"", holds.string() + " (its scenario)", read.origin.scenario};
 }
 
 /// InputError where the recording cannot be one of the scenario: only of files that somebody made up.
 void check_fit(const std::string& run, const Scenario& scenario, const Recording& recording) {
   const auto refuse = [&](const std::string& what) {
-    throw InputError(SourceLocation{run}, "its recording does not fit its scenario: " + what);
+    throw InputError(SourceLocation{run}, "its recording does not fit its scenario: " + what +
+                                              "; one of the two files is of another run: put it back, or simulate again");
   };
   const std::size_t joints = scenario.robot->joints.size();
   if (recording.joints.size() != joints) refuse(fmt::format("{} joints, {} in the scenario", recording.joints.size(), joints));

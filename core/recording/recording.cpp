@@ -32,7 +32,7 @@ Series Recording::joint(std::size_t number, const char* quantity) const {
 
 namespace {
 
-/// NaN where there is no such column.
+/// NaN where the column is missing.
 double at(const Series& series, std::size_t row) {
   return series.empty() ? std::numeric_limits<double>::quiet_NaN() : series[row];
 }

@@ -57,13 +57,13 @@ struct Recording {
   [[nodiscard]] Series series(const std::string& column) const;
   /// `joint.N.QUANTITY`: angle, setpoint, torque.
   [[nodiscard]] Series joint(std::size_t number, const char* quantity) const;
-  /// Centre of mass at a row.
+  /// Centre of mass in a row.
   [[nodiscard]] Vec3 com(std::size_t row) const;
   /// Of the centre of mass, from the first row to the last.
   [[nodiscard]] Vec3 travel() const { return rows() == 0 ? Vec3(Vec3::Zero()) : Vec3(com(rows() - 1) - com(0)); }
   /// Whether `state` finds what it needs: always but in a folder of an older format.
   [[nodiscard]] bool has_states(const Robot& robot) const;
-  /// Angles and pose at a row; speeds 0.
+  /// Angles and pose in a row; speeds 0.
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t row) const;
 };
 

@@ -113,7 +113,7 @@ void write_recording(const Recording& r, const Provenance& origin, const std::st
     write_csv(r.trace, folder / "trace.csv");
     Provenance own = origin;
     own.csv_hash = hash(r.trace);
-    write_h5({}, own, folder / "recording.h5", beside);
+    write_h5({}, own, folder / kBesideCsv, beside);
   } else {
     write_h5(r.trace, origin, folder / "trace.h5", beside);
   }
@@ -121,7 +121,7 @@ void write_recording(const Recording& r, const Provenance& origin, const std::st
 
 StoredRecording read_recording(const fs::path& folder) {
   const fs::path file = trace_file(folder);
-  const fs::path beside = file.parent_path() / "recording.h5";
+  const fs::path beside = file.parent_path() / kBesideCsv;
   const bool csv = file.extension() == ".csv";
   StoredRecording read;
   StoredTrace stored;

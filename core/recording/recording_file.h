@@ -9,6 +9,8 @@
 
 namespace gaitlab {
 
+inline constexpr const char* kBesideCsv = "recording.h5";  ///< what trace.csv does not hold
+
 /// Writes trace.h5, or, for `format` csv, trace.csv and recording.h5, which has what the CSV file cannot hold. Tables of
 /// `/recording`: `rest` and `ticks` (see Recording); `joints`, a row for each joint: its statistics and its torque error;
 /// `run`, one row: what is known of the whole run. RunError: a file cannot be written.

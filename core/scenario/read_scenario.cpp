@@ -321,7 +321,7 @@ class ScenarioReader {
   Problems problems_;
   Node root_;
   Scenario scenario_;
-  std::shared_ptr<const std::vector<std::string>> joints_;  ///< nullptr: there is no robot
+  std::shared_ptr<const std::vector<std::string>> joints_;  ///< nullptr: the robot could not be read
   std::string cpg_note_;
   std::vector<std::string> touched_;  ///< sections to read; none: all
 };

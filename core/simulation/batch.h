@@ -20,7 +20,7 @@ struct BatchSettings {
 
 /// Runs every scenario to its end: CPG, controller and trace of each by itself at its ticks, the steps of several at once.
 /// They may differ in everything; those that share engine, integrator, step, kind of actuator and the structure of the robot
-/// share packs (can_share). A rollout has the bits it has alone: the result does not depend on threads, lanes
+/// share lane groups (can_share). A rollout has the bits it has alone: the result does not depend on threads, lanes
 /// or the other rollouts, whether these have ended, diverged or are limited.
 /// end(i, recording): once for each rollout, from several threads at once, in any order. What diverged, or whose plugin threw,
 /// is recorded until there (Recording::outcome).
@@ -29,16 +29,16 @@ void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings
                const std::function<void(std::size_t, Recording&&)>& end);
 
 /// The same for any number of rollouts, of which few exist at a time: `next()` gives the scenarios one by one, nothing at the
-/// end; `digest(scenario, recording)` makes of each what is kept, in several threads at once; `sink(digest)` gets those in the
+/// end; `digest(scenario, recording)` makes of each what is kept, in several threads at once, and does not throw; `sink(digest)` gets those in the
 /// order of next(), one at a time, whatever threads and lanes are. Throws what run_batch or next() throws, after the sink has
 /// all before the first refused.
 template <class Digest>
 void run_stream(const std::function<std::optional<Scenario>()>& next, const BatchSettings& settings, Digest digest,
                 const std::function<void(std::invoke_result_t<Digest, const Scenario&, Recording&&>&&)>& sink) {
   using Kept = std::invoke_result_t<Digest, const Scenario&, Recording&&>;
-  constexpr std::size_t kWindows = 4;    // packs for each thread before all wait for the last of them
+  constexpr std::size_t kGroups = 4;     // lane groups for each thread before all wait for the last of them
   constexpr std::size_t kMostLanes = 8;  // of any engine
-  const std::size_t window = kWindows * kMostLanes * static_cast<std::size_t>(std::max(1, settings.threads));
+  const std::size_t window = kGroups * kMostLanes * static_cast<std::size_t>(std::max(1, settings.threads));
   for (bool more = true; more;) {
     std::vector<Scenario> rollouts;
     std::exception_ptr refused;

@@ -26,9 +26,9 @@ class Meter {
   std::array<std::vector<double>, kJointStatistics.size()> sums_;  // plain loops over all joints and lanes
   std::vector<double> recent_peak_;                                // N m, since the last tick
   std::size_t lanes_;
-  std::vector<double> time_;  ///< a lane, s: only a divisor
-  std::vector<double> weight_, share_,
-      seen_;  ///< scratch, joint * lanes + lane: weights; 1 where the part is the motion itself
+  std::vector<double> time_;  ///< of each lane, s: only a divisor
+  // Scratch, joint * lanes + lane: weights; 1 where the part is the motion itself.
+  std::vector<double> weight_, share_, seen_;
 };
 
 }  // namespace gaitlab

@@ -104,8 +104,8 @@ void Probes::add_steps(const Robot& robot) {
   }
 }
 
-void Probes::add_vector(const std::string& name, std::string unit, const std::string& definition,
-                        std::function<Vec3(const Sample&)> read) {
+void Probes::add_vector(const std::string& name, const std::string& unit, const std::string& definition,
+                        const std::function<Vec3(const Sample&)>& read) {
   constexpr const char* kAxis[] = {"x", "y", "z"};
   for (Eigen::Index i = 0; i < 3; ++i) {
     // `base.v` makes `base.vx`, `base` makes `base.x`.
@@ -229,7 +229,7 @@ void Probes::add_energy() {
              [](const Sample& s) { return s.sums.angular_momentum; });
 }
 
-void Probes::add_wrench(const std::string& name, const std::string& of, std::function<const Wrench&(const Sample&)> read) {
+void Probes::add_wrench(const std::string& name, const std::string& of, const std::function<const Wrench&(const Sample&)>& read) {
   add_vector(name + ".f", "N", "force" + of, [read](const Sample& s) { return read(s).force; });
   add_vector(name + ".m", "N m", "moment" + of, [read](const Sample& s) { return read(s).moment; });
 }

@@ -63,8 +63,8 @@ class Probes {
   using Read = std::function<double(const Sample&)>;
   void add(std::string name, std::string unit, std::string definition, Read read);
   void add(std::string name, std::string unit, std::string definition, const double& number);
-  void add_vector(const std::string& name, std::string unit, const std::string& definition,
-                  std::function<Vec3(const Sample&)> read);
+  void add_vector(const std::string& name, const std::string& unit, const std::string& definition,
+                  const std::function<Vec3(const Sample&)>& read);
   void add_joints(const Robot& robot, bool driven, std::string_view command_unit);
   void add_base();
   void add_contacts(const std::vector<ContactElement>& contacts);
@@ -73,7 +73,7 @@ class Probes {
   void add_boxes(const Ground& ground);
   void add_energy();
   void add_steps(const Robot& robot);
-  void add_wrench(const std::string& name, const std::string& of, std::function<const Wrench&(const Sample&)> read);
+  void add_wrench(const std::string& name, const std::string& of, const std::function<const Wrench&(const Sample&)>& read);
   void add_reactions(const Robot& robot);
   void select(const Scenario& scenario);
 

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
-
-#include "core/dynamics/mass_matrix.h"
+#include <vector>
 
 namespace gaitlab {
 
@@ -14,34 +13,57 @@ namespace {
 // rounding, 1e-16 times the sizes along the chain; robots keep more than 1e-6 (a chain of 60 modules).
 constexpr double kNothing = 1e-12;
 
+using Spatial = Eigen::Matrix<double, 6, 6>;
+using Motion = Eigen::Matrix<double, 6, 1>;  ///< angular velocity, then velocity of a link's own origin; world axes
+
+Mat3 cross(const Vec3& r) {
+  Mat3 m;
+  m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+  return m;
+}
+
+/// About the link's own origin.
+Spatial inertia_of(const Link& link, const Mat3& R) {
+  const Mat3 c = cross(R * link.com);
+  Spatial i;
+  i << R * link.inertia * R.transpose() - link.mass * c * c, link.mass * c, -link.mass * c, link.mass * Mat3::Identity();
+  return i;
+}
+
+/// An inertia about a point, about another one from which that point is seen at r.
+Spatial moved(const Spatial& inertia, const Vec3& r) {
+  Spatial x = Spatial::Identity();  // motion here -> motion there
+  x.bottomLeftCorner<3, 3>() = -cross(r);
+  return x.transpose() * inertia * x;
+}
+
 }  // namespace
 
-void check_inertia(const Scenario& scenario, const Kinematics& kinematics, In rotors, std::size_t lanes, std::size_t lane,
+// The pivots of the mass matrix, eliminated from the tips inwards, are what the articulated-body recursion divides by:
+// R. Featherstone, Rigid Body Dynamics Algorithms (Springer, 2008), 7.3.
+void check_inertia(const Scenario& scenario, const Kinematics& k, In rotors, std::size_t lanes, std::size_t lane,
                    const SourceLocation& place) {
   const Robot& robot = *scenario.robot;
-  MassMatrix mass(robot, scenario.base);
-  mass.update(kinematics);
-  Eigen::MatrixXd left = mass.matrix();
-  const Eigen::Index first = left.rows() - static_cast<Eigen::Index>(robot.joints.size());
-  for (std::size_t j = 0; j * lanes < rotors.size(); ++j) {
-    left.diagonal()[first + static_cast<Eigen::Index>(j)] += rotors[j * lanes + lane];
-  }
-  const Eigen::VectorXd locked = left.diagonal();
-  // Eliminates from the tips inwards: links stand parents first, each with the joint that moves it.
-  for (std::size_t i = robot.links.size() - 1; i > 0; --i) {
+  std::vector<Spatial> free(robot.links.size());  // with all joints beyond free
+  for (std::size_t i = 0; i < free.size(); ++i) free[i] = inertia_of(robot.links[i], k.R[i]);
+  std::vector<Spatial> locked = free;                  // with all joints beyond locked
+  for (std::size_t i = free.size() - 1; i > 0; --i) {  // a parent comes before its children
     const Link& link = robot.links[i];
-    const Eigen::Index j = first + link.joint;
-    const double pivot = left(j, j);
-    if (!(pivot > kNothing * locked[j])) {
-      const Joint& joint = robot.joints[static_cast<std::size_t>(link.joint)];
+    const auto joint = static_cast<std::size_t>(link.joint);
+    const double rotor = rotors.empty() ? 0 : rotors[joint * lanes + lane];
+    Motion axis = Motion::Zero();
+    axis.head<3>() = k.R[i] * link.axis;
+    const Motion momentum = free[i] * axis;
+    const double pivot = axis.dot(momentum) + rotor;
+    if (!(pivot > kNothing * (axis.dot(locked[i] * axis) + rotor))) {
       throw InputError(place, fmt::format("joint '{}' moves no inertia: the next joint turns about the same axis "
                                           "(gimbal lock). Give the body between the two hinges mass, or start at other angles",
-                                          joint.name));
+                                          robot.joints[joint].name));
     }
-    const Eigen::VectorXd column = left.col(j);
-    left.noalias() -= column * (column.transpose() / pivot);
-    left.row(j).setZero();
-    left.col(j).setZero();
+    const auto parent = static_cast<std::size_t>(link.parent);
+    const Vec3 r = k.p[i] - k.p[parent];
+    free[parent] += moved(free[i] - momentum * momentum.transpose() / pivot, r);
+    locked[parent] += moved(locked[i], r);
   }
 }
 

@@ -195,6 +195,7 @@ TEST(Trust, AnErrorIsRelativeToTheTorquesOfTheWholeRun) {
       "contact: {on: none}\nphysics: {engine: articulated, gravity: [0, 0, 0]}\ninitial: {angles: 0.02}\n"
       "cpg: {type: sine, frequency: 0, amplitude: 0}\nduration: 0.3\n"));
   // The last joint moves next to nothing, and is where it should be after some milliseconds.
+  // At t = 0 the motor takes 2 V, 0.76 N m at rest; from 5 ms on, where the error is asked for, it needs 0.015 N m.
   EXPECT_GT(r.joints[3].torque_peak, 0.4);
   EXPECT_GT(r.tally.torque_peak[3], 0.001);
   EXPECT_LT(r.tally.torque_peak[3], 0.1);
