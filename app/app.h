@@ -27,19 +27,33 @@ struct ScenarioArguments {
   bool quiet = false;
 };
 
+/// What `read` gives; an error of a --set that stands for another option is at that one: {"--set seed=x", "--seed"}.
+Scenario as_typed(const std::map<std::string, std::string>& options, const std::function<Scenario()>& read);
+
 /// Reads it with --set and --seed applied; prints its notes on stderr unless quiet.
 Scenario read(const ScenarioArguments& arguments, Catalog& catalog);
 /// Prints on stderr what makes a run doubtful: it fell, its step was too long, its torques or energies are off.
 void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary);
 /// Prints on stderr that part of the robot starts below the ground, where it does.
-void warn_of_start(const Scenario& scenario);
+void warn_of_start(const Scenario& scenario, bool quiet);
+
+/// How much of a summary is printed.
+struct SummaryOptions {
+  bool verbose = false;  ///< the energy ledger and the step's limit, too
+  bool joints = false;   ///< a row per joint
+};
 
 struct RunArguments : ScenarioArguments {
   std::optional<std::string> out;
   std::string format = "h5";
+  SummaryOptions shown;
 };
 /// Runs a scenario that is read: writes the run folder, prints the summary; the exit code.
 int run(const Scenario& scenario, const RunArguments& arguments);
+
+/// Prints the summary of a run.
+void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                   const SummaryOptions& shown);
 
 /// `version, build id, Bullet version and precision`
 std::string version();

@@ -14,6 +14,7 @@ std::string_view name_of(const PluginSelection& choice) { return choice.entry ==
 int check(const ScenarioArguments& arguments) {
   Catalog catalog = standard_catalog();
   const Scenario s = read(arguments, catalog);
+  warn_of_start(s, arguments.quiet);
   const Simulation simulation({&s, 1});  // checks the columns and the step, too
   const Robot& robot = *s.robot;
   const auto contacts = contact_elements(robot, s.contact.on);
@@ -30,12 +31,14 @@ int check(const ScenarioArguments& arguments) {
                                                  : "position gives the height, on_ground is off");
   fmt::print("  cpg {}, controller {}, actuator {}, {} contact elements\n", name_of(s.cpg), name_of(s.controller),
              name_of(s.actuator), contacts.size());
+  const RowsNeeded needed = simulation.rows_needed(0);
+  fmt::print("  records {:.0f} rows of {:.0f} columns ({:.3g} MB) in {:g} s\n", needed.rows, needed.columns,
+             needed.bytes() / 1e6, s.duration);
   for (const PluginFile& plugin : s.plugins) fmt::print("  plugin {} ({})\n", plugin.path, plugin.hash);
   fmt::print("  joints (number, name, range in rad):\n");
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     fmt::print("  {:5}  {:<16} {:+.4f} {:+.4f}\n", j, robot.joints[j].name, robot.joints[j].lo, robot.joints[j].hi);
   }
-  warn_of_start(s);
   return 0;
 }
 

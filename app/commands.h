@@ -8,6 +8,9 @@
 
 namespace gaitlab::app {
 
+/// Options of what prints a summary.
+void add_shown(CLI::App& command, SummaryOptions& shown);
+
 /// The command line of the program, and what it chose to run.
 struct Commands {
   CLI::App& app;

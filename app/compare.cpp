@@ -93,7 +93,10 @@ Json at(const Json& summary, const std::string& pointer) {
   return summary.contains(where) ? summary.at(where) : Json();
 }
 
+/// The most loaded joint; in a summary without a judged window the joint of the largest torque.
 std::string most_loaded_joint(const Json& summary) {
+  const Json judged = at(summary, "/judged/joint");
+  if (judged.is_string()) return judged.get<std::string>();
   const Json joints = at(summary, "/per_joint");
   std::string found;
   double largest = 0;
@@ -127,13 +130,17 @@ void print_summaries(const Json& a, const Json& b) {
   const std::string joint = most_loaded_joint(a);  // one row is one joint, so that of A
   std::vector<const report::SummaryNumber*> rows = report::placed(&report::SummaryNumber::compare);
   if (joint.empty()) std::erase_if(rows, [](const report::SummaryNumber* number) { return number->of_joint != nullptr; });
+  std::erase_if(rows, [&](const report::SummaryNumber* number) {
+    const Json one = at(a, number->pointer(joint));
+    const Json other = at(b, number->pointer(joint));
+    return (one.is_null() && other.is_null()) || (number->compare.if_different && one == other);
+  });
   std::size_t width = 0;
   for (const report::SummaryNumber* number : rows) width = std::max(width, number->row(joint).size());
   fmt::print("\n{:<{}} {:>18} {:>18}  {}\n", "summary", width, "A", "B", "B - A");
   for (const report::SummaryNumber* number : rows) {
     const Json one = at(a, number->pointer(joint));
     const Json other = at(b, number->pointer(joint));
-    if ((one.is_null() && other.is_null()) || (number->compare.if_different && one == other)) continue;
     fmt::print("{:<{}} {:>18} {:>18}  {}\n", number->row(joint), width, shown(one), shown(other), change(one, other));
   }
 }

@@ -123,6 +123,7 @@ int converge(const ConvergeArguments& arguments) {
   std::vector<std::string> wanted = arguments.columns;
   if (!wanted.empty()) with_columns.sets.push_back("trace.columns=[" + quoted(wanted) + "]");
   Scenario scenario = read(with_columns, catalog);
+  if (!wanted.empty()) scenario.own_places["trace.columns"] = SourceLocation{"--columns"};
   if (wanted.empty()) {
     wanted = {scenario.actuator.entry != nullptr ? "joint.*.torque" : "joint.*.angle"};
     if (!scenario.robot->joints.empty()) scenario.trace.columns = wanted;

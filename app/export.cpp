@@ -40,6 +40,12 @@ void export_run(const ExportArguments& arguments) {
 }
 
 void export_robot(const ExportArguments& arguments) {
+  std::error_code none;
+  if (std::filesystem::is_directory(arguments.source.file, none)) {
+    throw InputError(
+        SourceLocation{arguments.source.file},
+        fmt::format("is a folder; --to {} takes a scenario, of a run folder its scenario.resolved.yaml", arguments.format));
+  }
   Catalog catalog = standard_catalog();
   const Scenario scenario = read(arguments.source, catalog);
   write_file(arguments.file, arguments.format == "mjcf" ? to_mjcf(scenario) : to_urdf(scenario));

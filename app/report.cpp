@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 struct ReportArguments {
   std::string run;                 ///< folder
   std::optional<std::string> out;  ///< folder for summary.json and figure.svg
+  SummaryOptions shown;
 };
 
 /// A value of the run's summary; null where there is none, or no summary that can be read.
@@ -92,7 +93,7 @@ int report(const ReportArguments& arguments) {
     write_file(out.path() / "summary.json", report::to_json(summary, scenario, recording));
     out.keep();
   }
-  fmt::print("{}", report::to_text(summary, scenario, recording));
+  print_summary(scenario, recording, summary, arguments.shown);
   if (arguments.out) fmt::print("  {:<13} {}: summary.json, figure.svg\n", "files", *arguments.out);
   for (const std::string& missing : read.missing) fmt::print(stderr, "{}: note: {}\n", arguments.run, missing);
   const nlohmann::json told = read.origin.outcome.empty() ? summarised(folder, "outcome") : nlohmann::json(recording.outcome);
@@ -104,6 +105,17 @@ int report(const ReportArguments& arguments) {
 }
 
 }  // namespace
+
+void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                   const SummaryOptions& shown) {
+  fmt::print("{}", report::to_text(summary, scenario, recording, shown.verbose));
+  if (shown.joints) fmt::print("{}", report::joint_table(summary, scenario));
+}
+
+void add_shown(CLI::App& command, SummaryOptions& shown) {
+  command.add_flag("--joints", shown.joints, "print a row per joint, the most loaded first");
+  command.add_flag("--verbose", shown.verbose, "print the energy ledger and the limit of the step, too");
+}
 
 void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary) {
   if (const std::string fall = report::fall_warning(scenario, recording); !fall.empty())
@@ -122,6 +134,7 @@ void add_report(Commands& commands) {
                                  command.add_option("RUN", arguments.run, "run folder")->required()->check(not_empty);
                                  command.add_option("--out", arguments.out,
                                                     "folder for summary.json and figure.svg, made anew; new or empty");
+                                 add_shown(command, arguments.shown);
                                });
 }
 

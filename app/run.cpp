@@ -55,8 +55,16 @@ int run(const RunArguments& arguments) {
 }
 
 int run(const Scenario& scenario, const RunArguments& arguments) {
+  warn_of_start(scenario, arguments.quiet);  // first: a slip of units is why a step is refused
   Simulation simulation({&scenario, 1});
   RunFolder folder(arguments.out, scenario.name);
+  constexpr double kMuch = 1e9;  // bytes
+  if (const RowsNeeded needed = simulation.rows_needed(0); needed.bytes() > kMuch && !arguments.quiet) {
+    fmt::print(
+        stderr,
+        "{}: note: records {:.3g} rows of {:.0f} columns, {:.3g} GB in memory; trace.period and trace.columns make it less\n",
+        scenario.file, needed.rows, needed.columns, needed.bytes() / 1e9);
+  }
 
   const StopOnSignal stop;
   std::string failure;
@@ -76,11 +84,10 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   write_files(folder.path(), arguments.format, scenario, recording, summary);
   folder.keep();
   if (!arguments.quiet) {
-    fmt::print("{}  {:<13} {}: {}, summary.json, scenario.resolved.yaml, figure.svg\n",
-               report::to_text(summary, scenario, recording), "files", folder.path().string(),
-               arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5");
+    print_summary(scenario, recording, summary, arguments.shown);
+    fmt::print("  {:<13} {}: {}, summary.json,\n  {:<13} scenario.resolved.yaml, figure.svg\n", "files", folder.path().string(),
+               arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
   }
-  warn_of_start(scenario);
   warn_of_run(scenario, recording, summary);
   if (failure.empty()) return 0;
   fmt::print(stderr, "{}: error: {}; what was simulated until then is in {}\n", scenario.file, failure, folder.path().string());
@@ -95,6 +102,7 @@ void add_run(Commands& commands) {
                                                  "run folder (default runs/NAME, then NAME-2 ...); new or empty");
                               command.add_option("--format", arguments.format, "format of the trace: h5 (default) or csv")
                                   ->check(CLI::IsMember({"h5", "csv"}));
+                              add_shown(command, arguments.shown);
                             });
 }
 

@@ -63,7 +63,7 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
     if (cpg.empty()) {
       problems.push_back({SourceLocation{"--cpg"},
                           fmt::format("has an empty name in '{}'; expected types with commas between", arguments.cpgs)});
-      continue;
+      break;
     }
     const auto same = [&](const Swapped& other) { return other.cpg == cpg; };
     if (std::any_of(all.begin(), all.end(), same)) {
@@ -153,7 +153,7 @@ std::string figure(const std::vector<Swapped>& all) {
   report::CurvesInput input;
   input.title = fmt::format("{} under {}", first.name, golden::plural(all.size(), "CPG"));
   const std::size_t joints = first.robot->joints.size();
-  const std::size_t joint = all.front().summary.most_loaded;
+  const std::size_t joint = all.front().summary.most_loaded();
   report::CurvesPanel setpoint{"set point (rad)"};
   report::CurvesPanel torque{"torque (N m)"};
   report::CurvesPanel travel{"travel of the centre of mass along x (m)"};

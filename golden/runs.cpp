@@ -52,7 +52,8 @@ std::vector<Number> numbers(const Scenario& scenario, const Recording& record) {
   for (std::size_t j = 0; j < record.joints.size(); ++j) {
     for (const report::SummaryNumber* number : kept) {
       if (number->of_joint == nullptr) continue;
-      all.push_back({number->name(scenario.robot->joints[j].name), number->unit, record.joints[j].*number->of_joint});
+      all.push_back(
+          {number->name(scenario.robot->joints[j].name), number->unit, number->of_joint({scenario, record, summary}, j)});
     }
   }
   return all;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -47,9 +48,10 @@ struct Curve {
 
 class Chart {
  public:
-  Chart(Svg& svg, const FigureInput& input, double top)
+  Chart(Svg& svg, const FigureInput& input, const JointPanel& panel, double top)
       : svg_(svg),
         input_(input),
+        panel_(panel),
         left_(left_edge(input)),
         top_(top),
         bottom_(top + kChartHeight),
@@ -61,6 +63,7 @@ class Chart {
     const auto [left_ticks, right_ticks] = ticks(left, right);
     const Scale left_y{left_ticks.lo, left_ticks.hi, bottom_, top_};
     const Scale right_y{right_ticks.lo, right_ticks.hi, bottom_, top_};
+    shade_limits();
     time_axis();
     if (!left.empty()) {
       grid(left_ticks, left_y);
@@ -76,6 +79,7 @@ class Chart {
     }
     for (const Curve& curve : right) svg_.polyline(points(curve, right_y), curve.style);
     for (const Curve& curve : left) svg_.polyline(points(curve, left_y), curve.style);
+    if (!right.empty()) mark_peak(*right.front().values, right_y);
     svg_.rectangle({left_, top_}, kRight - left_, bottom_ - top_, kAxisLine);
     legend(left, right);
   }
@@ -91,7 +95,7 @@ class Chart {
 
   [[nodiscard]] TwinTicks ticks(const std::vector<Curve>& left, const std::vector<Curve>& right) const {
     Bounds a = bounds(left);
-    const double least = a.empty() ? 0 : input_.least_angle;
+    const double least = a.empty() ? 0 : panel_.least_angle;
     if (least > 0) {
       a.add(-least);
       a.add(least);
@@ -99,6 +103,36 @@ class Chart {
     const Bounds b = bounds(right);
     if (left.empty() || right.empty()) return {ticks_around(a.lo, a.hi, 6), ticks_around(b.lo, b.hi, 6)};
     return twin_ticks(a.lo, a.hi, b.lo, b.hi);
+  }
+
+  [[nodiscard]] bool limited() const {
+    if (panel_.limit.size() != input_.time.size()) return false;
+    return std::any_of(panel_.limit.begin() + static_cast<std::ptrdiff_t>(first_), panel_.limit.end(),
+                       [](double l) { return l != 0; });
+  }
+
+  // A span lasts from its first row to the row after its last.
+  void shade_limits() {
+    if (!limited()) return;
+    for (std::size_t i = first_; i < panel_.limit.size(); ++i) {
+      if (panel_.limit[i] == 0) continue;
+      const double from = x_(input_.time[i]);
+      while (i < panel_.limit.size() && panel_.limit[i] != 0) ++i;
+      const double to = x_(input_.time[std::min(i, panel_.limit.size() - 1)]);
+      svg_.rectangle({from, top_}, std::max(to - from, 0.5), bottom_ - top_, {.fill = colour::kPale});
+    }
+  }
+
+  void mark_peak(const std::vector<double>& torque, const Scale& y) {
+    std::size_t peak = first_;
+    for (std::size_t i = first_; i < torque.size(); ++i) {
+      if (std::isfinite(torque[i]) && std::abs(torque[i]) > std::abs(torque[peak])) peak = i;
+    }
+    if (!std::isfinite(torque[peak]) || torque[peak] == 0) return;
+    const Point at{x_(input_.time[peak]), y(torque[peak])};
+    svg_.circle(at, 3.5, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 1});
+    svg_.text({kRight, bottom_ + 38}, fmt::format("largest torque {:.3g} N m at {:.2f} s", torque[peak], input_.time[peak]),
+              {.anchor = Anchor::end, .fill = colour::kVermillion});
   }
 
   void time_axis() {
@@ -139,11 +173,18 @@ class Chart {
         x -= 62;
       }
     }
-    svg_.text({left_, y}, "joint " + input_.joint, {.bold = true});
+    if (limited()) {
+      const char* const name = "at a limit";
+      x -= text_width(name, 13);
+      svg_.text({x, y}, name);
+      svg_.rectangle({x - 20, y - 10}, 12, 12, {.fill = colour::kPale});
+    }
+    svg_.text({left_, y}, "joint " + panel_.joint, {.bold = true});
   }
 
   Svg& svg_;
   const FigureInput& input_;
+  const JointPanel& panel_;
   double left_, top_, bottom_;
   std::size_t first_;
   Ticks time_;
@@ -181,24 +222,6 @@ Extent extent(const View& view) {
   return extent;
 }
 
-// Middle of what is seen, weighted by area: close to the centre of mass, and enough to show the drift.
-double middle(const View& view) {
-  double moment = 0;
-  double area = 0;
-  for (const Outline& outline : view.outlines) {
-    for (const Polygon& polygon : outline.polygons) {
-      for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Point a = polygon[i];
-        const Point b = polygon[(i + 1) % polygon.size()];
-        const double twice = a.x * b.y - b.x * a.y;
-        area += twice / 2;
-        moment += twice * (a.x + b.x) / 6;
-      }
-    }
-  }
-  return moment / area;
-}
-
 // The part of a polygon on one side of a vertical line: where sign * (x - at) >= 0.
 Polygon beside(const Polygon& polygon, double at, double sign) {
   Polygon kept;
@@ -234,27 +257,28 @@ class Views {
     x_ = {ticks_.lo, ticks_.hi, left_, kRight};
   }
 
-  [[nodiscard]] double height() const { return kHead + pitch() * static_cast<double>(input_.views.size()) + kFoot; }
+  [[nodiscard]] double height() const { return head() + pitch() * static_cast<double>(input_.views.size()) + kFoot; }
 
   void draw(Svg& svg, double top) const {
     const double bottom = top + height() - kFoot;
     header(svg, top);
-    for (const double x : ticks_.values()) svg.line({x_(x), top + kHead}, {x_(x), bottom}, kGridLine);
-    std::vector<Point> middles;
+    for (const double x : ticks_.values()) svg.line({x_(x), top + head()}, {x_(x), bottom}, kGridLine);
+    std::vector<Point> centres;
     for (std::size_t i = 0; i < input_.views.size(); ++i) {
-      const double floor = top + kHead + pitch() * static_cast<double>(i + 1) - kViewGap / 2 - below_ * per_metre_;
+      const double floor = top + head() + pitch() * static_cast<double>(i + 1) - kViewGap / 2 - below_ * per_metre_;
       const Scale z{floors_[i], floors_[i] + 1, floor, floor - per_metre_};
       draw_view(svg, input_.views[i], z);
-      middles.push_back({x_(middle(input_.views[i])), floor + below_ * per_metre_ + 8});
+      if (input_.views[i].com) centres.push_back({x_(*input_.views[i].com), floor + below_ * per_metre_ + 8});
     }
-    for (const Point& m : middles)
+    for (const Point& m : centres)
       svg.polygons(std::vector<Polygon>{{m, {m.x - 5, m.y + 8}, {m.x + 5, m.y + 8}}}, {.fill = colour::kInk});
     axis(svg, bottom);
   }
 
  private:
-  static constexpr double kHead = 34, kFoot = 48;  // px, for the legend and the axis
+  static constexpr double kFoot = 48, kLegendRow = 22;  // px
 
+  [[nodiscard]] double head() const { return 34 + (two_rows() ? kLegendRow : 0); }
   [[nodiscard]] double pitch() const { return std::max(30.0, (above_ + below_) * per_metre_) + kViewGap; }
 
   void draw_view(Svg& svg, const View& view, const Scale& z) const {
@@ -285,29 +309,55 @@ class Views {
     svg.polygons(std::vector<Polygon>{{tip, {tip.x - 5, tip.y - 11}, {tip.x + 5, tip.y - 11}}}, {.fill = colour::kBlack});
   }
 
-  void header(Svg& svg, double top) const {
-    const bool arrows = any([](const View& view) { return view.joint.has_value(); });
-    const std::string title = arrows ? "side view (arrow: joint above)" : "side view";
-    svg.text({left_, top + 14}, input_.views_title.empty() ? title : input_.views_title, {.bold = true});
-    double x = kRight;
-    const auto entry = [&](std::string_view name, double symbol) {
-      x -= text_width(name, 13);
-      svg.text({x, top + 14}, name);
-      x -= symbol;
-      return Point{x, top + 9.5};
-    };
-    const Point m = entry("middle of the outline", 12);
-    svg.polygons(std::vector<Polygon>{{{m.x, m.y - 4}, {m.x - 5, m.y + 4}, {m.x + 5, m.y + 4}}}, {.fill = colour::kInk});
-    x -= 26;
+  struct Entry {
+    std::string_view name;
+    double symbol, gap;  ///< px, before the name and before the symbol
+    std::function<void(Svg&, Point)> draw;
+  };
+
+  /// From right to left.
+  [[nodiscard]] std::vector<Entry> legend() const {
+    std::vector<Entry> all;
+    if (any([](const View& view) { return view.com.has_value(); })) {
+      all.push_back({"centre of mass", 12, 26, [](Svg& svg, Point m) {
+                       svg.polygons(std::vector<Polygon>{{{m.x, m.y - 4}, {m.x - 5, m.y + 4}, {m.x + 5, m.y + 4}}},
+                                    {.fill = colour::kInk});
+                     }});
+    }
     if (any([](const View& view) { return !view.contacts.empty(); })) {
-      svg.circle(entry("contact", 11), 3, {.fill = colour::kVermillion});
-      x -= 24;
+      all.push_back({"contact", 11, 24, [](Svg& svg, Point m) { svg.circle(m, 3, {.fill = colour::kVermillion}); }});
     }
     for (auto role = kLooks.rbegin(); role != kLooks.rend(); ++role) {
       if (!any([&](const View& view) { return shows(view, role->role); })) continue;
-      const Point corner = entry(role->name, 19);
-      svg.rectangle({corner.x, corner.y - 6}, 12, 12, {.stroke = colour::kInk, .fill = role->fill});
-      x -= 20;
+      all.push_back({role->name, 19, 20, [fill = role->fill](Svg& svg, Point corner) {
+                       svg.rectangle({corner.x, corner.y - 6}, 12, 12, {.stroke = colour::kInk, .fill = fill});
+                     }});
+    }
+    return all;
+  }
+
+  [[nodiscard]] std::string views_title() const {
+    if (!input_.views_title.empty()) return input_.views_title;
+    return any([](const View& view) { return view.joint.has_value(); }) ? "side view (arrow: joint above)" : "side view";
+  }
+
+  /// Whether the legend has no room beside the title.
+  [[nodiscard]] bool two_rows() const {
+    double width = text_width(views_title(), 13) * 1.1 + 20;  // bold
+    for (const Entry& entry : legend()) width += text_width(entry.name, 13) + entry.symbol + entry.gap;
+    return width > kRight - left_;
+  }
+
+  void header(Svg& svg, double top) const {
+    svg.text({left_, top + 14}, views_title(), {.bold = true});
+    double x = kRight;
+    const double y = top + 14 + (two_rows() ? kLegendRow : 0);
+    for (const Entry& entry : legend()) {
+      x -= text_width(entry.name, 13);
+      svg.text({x, y}, entry.name);
+      x -= entry.symbol;
+      entry.draw(svg, {x, y - 4.5});
+      x -= entry.gap;
     }
   }
 
@@ -346,22 +396,32 @@ void title(Svg& svg, const std::string& text) {
 }  // namespace
 
 std::string figure_svg(const FigureInput& input) {
-  std::vector<Curve> left;
-  std::vector<Curve> right;
-  const auto add = [&](std::vector<Curve>& curves, const char* name, const std::vector<double>& values, const Style& style) {
-    if (!values.empty() && values.size() == input.time.size()) curves.push_back({name, &values, style});
+  struct Curves {
+    const JointPanel* panel;
+    std::vector<Curve> left, right;
   };
-  add(left, "angle", input.angle, kAngle);
-  add(left, "set point", input.setpoint, kSetpoint);
-  add(right, "torque (right)", input.torque, kTorque);
-  const bool chart = !left.empty() || !right.empty();
+  std::vector<Curves> charts;
+  for (const JointPanel& panel : input.joints) {
+    Curves curves{&panel, {}, {}};
+    const auto add = [&](std::vector<Curve>& to, const char* name, const std::vector<double>& values, const Style& style) {
+      if (!values.empty() && values.size() == input.time.size()) to.push_back({name, &values, style});
+    };
+    add(curves.left, "angle", panel.angle, kAngle);
+    add(curves.left, "set point", panel.setpoint, kSetpoint);
+    add(curves.right, "torque (right)", panel.torque, kTorque);
+    if (!curves.left.empty() || !curves.right.empty()) charts.push_back(std::move(curves));
+  }
+  constexpr double kChart = kChartTop + kChartHeight + kChartFoot;
   const Views views(input);
   const bool footfalls = !input.footfalls.empty() && !input.time.empty();
-  const double footfall_top = kTitleHeight + (chart ? kChartTop + kChartHeight + kChartFoot : 0);
+  const double footfall_top = kTitleHeight + kChart * static_cast<double>(charts.size());
   const double views_top = footfall_top + (footfalls ? footfall_height(input.footfalls.size()) : 0);
   Svg svg(kWidth, views_top + (input.views.empty() ? 0 : views.height() + 8));
   title(svg, input.title);
-  if (chart) Chart(svg, input, kTitleHeight + kChartTop).draw(left, right);
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    const double top = kTitleHeight + kChart * static_cast<double>(i) + kChartTop;
+    Chart(svg, input, *charts[i].panel, top).draw(charts[i].left, charts[i].right);
+  }
   if (footfalls) {
     const Ticks time = shown_time(input.time);
     draw_footfalls(svg, input.footfalls, input.footfall_note, time, {time.lo, time.hi, kLeftOfNames, kRight}, footfall_top);

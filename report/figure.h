@@ -14,17 +14,24 @@ struct View {
   double time = 0;                   ///< s
   std::vector<Outline> outlines;     ///< far to near, as side_view gives them
   std::vector<Point> contacts = {};  ///< where the ground pushes
-  std::optional<Point> joint = {};   ///< the joint of the upper panel: an arrow points it out
+  std::optional<Point> joint = {};   ///< the joint of the first panel: an arrow points it out
+  std::optional<double> com = {};    ///< x of the centre of mass
+};
+
+/// One joint over time.
+struct JointPanel {
+  std::string joint;                    ///< name of the joint shown, `m3/passive`
+  std::vector<double> angle, setpoint;  ///< rad; as long as the figure's time, or empty: not drawn
+  std::vector<double> torque;           ///< N m; likewise
+  std::vector<double> limit;            ///< not 0 where the motor is at a limit: shaded; likewise
+  double least_angle = 0;               ///< rad: the angle axis spans at least -this to this, so that a joint at rest looks it
 };
 
 struct FigureInput {
   std::string title;
-  std::string joint;                     ///< name of the joint shown, `m3/passive`
   std::vector<double> time;              ///< s, rising
-  std::vector<double> angle, setpoint;   ///< rad; as long as `time`, or empty: not drawn
-  std::vector<double> torque;            ///< N m; likewise
-  double least_angle = 0;                ///< rad: the angle axis spans at least -this to this, so that a joint at rest looks it
-  std::vector<Footfall> footfalls = {};  ///< one a leg, from top to bottom; none: no diagram
+  std::vector<JointPanel> joints;        ///< from top to bottom
+  std::vector<Footfall> footfalls = {};  ///< one per leg, from top to bottom; none: no diagram
   std::string footfall_note = {};        ///< over its right end: what the bars and the numbers are
   std::vector<View> views;               ///< drawn from top to bottom
   std::vector<Polygon> solids = {};      ///< what stands on the ground, m, in the plane of the view; drawn within its x range
@@ -33,10 +40,10 @@ struct FigureInput {
   std::string views_axis = "x (m), heights on the same scale";
 };
 
-/// An SVG document, 1000 px wide, as high as the views need. Upper panel (left out without a joint's series): the last 8 s,
-/// angle and set point on the left axis, torque on the right one, zeros on one line. Below it the footfalls over the same
-/// seconds (left out without `time`), and the views, all on one scale in both directions and over one x range, with the ground
-/// and an axis in metres. Values that are not finite leave a gap.
+/// An SVG document, 1000 px wide, as high as the views need. A panel per joint (left out without its series): the last 8 s,
+/// angle and set point on the left axis, torque on the right one, zeros on one line, the largest torque marked, time at a limit
+/// shaded. Below it the footfalls over the same seconds (left out without `time`), and the views, all on one scale in both
+/// directions and over one x range, with the ground and an axis in metres. Values that are not finite leave a gap.
 std::string figure_svg(const FigureInput& input);
 
 }  // namespace gaitlab::report

@@ -12,6 +12,7 @@ namespace gaitlab::report::texts {
 namespace {
 
 constexpr double kVisible = 1e-3;      // share of what is drawn
+constexpr std::size_t kWidth = 64;     // columns beside the titles, of 80
 constexpr double kLeastTravel = 1e-3;  // m: the work of a robot that stays is divided by noise
 
 }  // namespace
@@ -42,7 +43,12 @@ Lines engine(const RunData& run) {
   return {fmt::format("{} ({})", run.scenario.physics.engine->name, run.scenario.physics.integrator->name)};
 }
 
-Lines steps(const RunData& run) { return {steps_text(run.scenario, run.record)}; }
+Lines steps(const RunData& run) {
+  const std::string text = steps_text(run.scenario, run.record);
+  const std::size_t at = text.find("; ");
+  if (at == std::string::npos) return {text};
+  return {text.substr(0, at), text.substr(at + 2)};
+}
 
 Lines robot(const RunData& run) {
   const Robot& robot = *run.scenario.robot;
@@ -77,29 +83,75 @@ Lines transport(const RunData& run) {
       fmt::format("cost {:.3g} electrical, {:.3g} mechanical (J per N of weight and m)", s.cost_electrical, s.cost_mechanical)};
 }
 
+Lines window(const RunData& run) {
+  if (!has_motors(run)) return {};
+  const Judged& j = run.summary.judged;
+  const std::string periods = j.periods == 0 ? ""
+                                             : fmt::format(", {} period{} of {:.4g} s", j.periods, j.periods == 1 ? "" : "s",
+                                                           run.summary.limit_cycle.period);
+  return {fmt::format("t = {:.2f} to {:.2f} s{}", j.from, j.to, periods)};
+}
+
+Lines limits(const RunData& run) {
+  if (!has_motors(run)) return {};
+  const Judged& judged = run.summary.judged;
+  const std::size_t worst = run.summary.most_loaded();
+  const JudgedJoint& j = judged.joints[worst];
+  const std::size_t some = judged.limited();
+  if (some == 0) return {fmt::format("no joint at a limit of its motor")};
+  std::string limit = j.voltage_limited > 0 ? "voltage" : "current";
+  if (j.voltage_limited > 0 && j.current_limited > 0) {
+    limit = fmt::format("{} voltage, {} current", percent(j.voltage_limited), percent(j.current_limited));
+  }
+  return {fmt::format("{} of {} joints reach a limit, {} longest:", some, judged.joints.size(),
+                      run.scenario.robot->joints[worst].name),
+          fmt::format("at its limit {} of the time ({})", percent(j.limited()), limit)};
+}
+
 Lines most_loaded(const RunData& run) {
   if (!has_motors(run)) return {};
-  const std::size_t j = run.summary.most_loaded;
-  const JointStatistics& f = run.record.joints[j];
-  return {fmt::format("joint {} ({}): torque peak {:.3f} N m, RMS {:.3f} N m; saturated {} voltage, {} current", j,
-                      run.scenario.robot->joints[j].name, f.torque_peak, f.torque_rms, percent(f.saturated_voltage),
-                      percent(f.saturated_current))};
+  const std::size_t worst = run.summary.most_loaded();
+  const JudgedJoint& j = run.summary.judged.joints[worst];
+  const auto name = [&](std::size_t joint) { return run.scenario.robot->joints[joint].name; };
+  Lines lines{fmt::format("{}: peak {:.3f} N m at t = {:.2f} s{}, RMS {:.3f} N m", name(worst), j.torque_peak,
+                          j.torque_peak_time, j.peak_at_limit ? " (its limit)" : "", j.torque_rms)};
+  const std::vector<JointStatistics>& all = run.record.joints;
+  const auto less = [](const JointStatistics& a, const JointStatistics& b) { return a.torque_peak < b.torque_peak; };
+  const auto most = std::max_element(all.begin(), all.end(), less);
+  lines.push_back(fmt::format("whole run: {:.3f} N m at t = {:.4g} s ({})", most->torque_peak, most->torque_peak_time,
+                              name(static_cast<std::size_t>(most - all.begin()))));
+  return lines;
 }
 
 Lines tracking(const RunData& run) {
   if (!has_motors(run)) return {};
-  const std::size_t j = farthest(run);
-  const JointStatistics& f = run.record.joints[j];
-  return {fmt::format("error at most {:.3f} rad at t = {:.2f} s (joint {})", f.error_peak, f.error_peak_time,
-                      run.scenario.robot->joints[j].name)};
+  const Judged& judged = run.summary.judged;
+  const auto name = [&](std::size_t joint) { return run.scenario.robot->joints[joint].name; };
+  const JudgedJoint& j = judged.joints[judged.farthest()];
+  const std::size_t most = farthest(run);
+  const JointStatistics& f = run.record.joints[most];
+  return {
+      fmt::format("error at most {:.3f} rad at t = {:.2f} s ({})", j.error_peak, j.error_peak_time, name(judged.farthest())),
+      fmt::format("whole run: {:.3f} rad at t = {:.2f} s ({})", f.error_peak, f.error_peak_time, name(most))};
 }
 
-Lines energy(const RunData& run) {
+Lines drawn(const RunData& run) {
   if (!has_motors(run)) return {};
   const Ledger& l = run.record.ledger;
-  std::string text = fmt::format("{:.4g} J drawn = {:.4g} copper", l.electrical, l.copper);
+  const std::string missing =
+      l.electrical > 0 ? fmt::format("; {:.2g} % unaccounted for", 100 * std::abs(l.residual()) / l.electrical) : "";
+  return {fmt::format("{:.4g} J drawn{}", l.electrical, missing)};
+}
+
+Lines ledger(const RunData& run) {
+  if (!has_motors(run)) return {};
+  const Ledger& l = run.record.ledger;
+  Lines lines{fmt::format("= {:.4g} copper", l.copper)};
   const auto add = [&](double value, const char* what) {
-    if (value != 0) text += fmt::format(" {} {:.3g} {}", value < 0 ? '-' : '+', std::abs(value), what);
+    if (value == 0) return;
+    const std::string text = fmt::format(" {} {:.3g} {}", value < 0 ? '-' : '+', std::abs(value), what);
+    if (lines.back().size() + text.size() > kWidth) lines.emplace_back(" ");
+    lines.back() += text;
   };
   add(l.gear, "gear");
   add(l.stored, "stored");
@@ -107,15 +159,14 @@ Lines energy(const RunData& run) {
   add(l.friction, "friction");
   add(l.stops, "stops");
   add(l.residual(), "residual");
-  if (l.electrical > 0) text += fmt::format(" ({:.2g} %)", 100 * l.residual() / l.electrical);
-  return {text};
+  return lines;
 }
 
 Lines created_energy(const RunData& run) {
   const double energy = created(run.record);
   if (!has_motors(run) || !(energy > kVisible * run.record.ledger.electrical)) return {};
-  return {fmt::format(
-      "the gears created {:.3g} J (eq. 2 on back-driven joints; actuator.efficiency_model: directional does not)", energy)};
+  return {fmt::format("the gears created {:.3g} J: eq. 2 on back-driven joints;", energy),
+          "actuator.efficiency_model: directional does not"};
 }
 
 Lines range(const RunData& run) {
@@ -123,9 +174,8 @@ Lines range(const RunData& run) {
   for (std::size_t j = 0; j < run.record.joints.size(); ++j) {
     const JointStatistics& f = run.record.joints[j];
     if (!(f.setpoint_outside > 0 || f.range_share > 0)) continue;
-    lines.push_back(fmt::format("joint {} ({}): outside its range {} of the time, worst by {:.3g} rad; its set point {}", j,
-                                run.scenario.robot->joints[j].name, percent(f.range_share), f.range_worst,
-                                percent(f.setpoint_outside)));
+    lines.push_back(fmt::format("{}: outside {} of the time, by {:.3g} rad; set point {}", run.scenario.robot->joints[j].name,
+                                percent(f.range_share), f.range_worst, percent(f.setpoint_outside)));
   }
   return lines;
 }
@@ -133,8 +183,9 @@ Lines range(const RunData& run) {
 Lines stability(const RunData& run) {
   const Summary& s = run.summary;
   if (s.stability_source.empty()) return {};
-  return {fmt::format("h lambda at most {:.2f} at t = {:.2f} s ({}); above 1 in {} of the ticks", s.stability_max,
-                      run.record.worst_time, s.stability_source, percent(s.stability_share))};
+  return {
+      fmt::format("h lambda at most {:.2f} at t = {:.2f} s: {};", s.stability_max, run.record.worst_time, s.stability_source),
+      fmt::format("above 1 in {} of the ticks", percent(s.stability_share))};
 }
 
 // ---- the table of `swap`
@@ -150,19 +201,18 @@ std::string cost_cell(const RunData& run) {
 }
 
 std::string torque_cell(const RunData& run) {
-  const std::size_t j = run.summary.most_loaded;
   if (!has_motors(run)) return fmt::format("{:>12.3f} {}", 0.0, "-");
-  return fmt::format("{:>12.3f} {}", run.record.joints[j].torque_peak, run.scenario.robot->joints[j].name);
+  const std::size_t j = run.summary.most_loaded();
+  return fmt::format("{:>12.3f} {}", run.summary.judged.joints[j].torque_peak, run.scenario.robot->joints[j].name);
 }
 
 std::string saturated_cell(const RunData& run) {
-  double worst = 0;
-  for (const JointStatistics& f : run.record.joints) worst = std::max(worst, f.saturated_voltage + f.saturated_current);
-  return percent(worst);
+  return has_motors(run) ? percent(run.summary.judged.joints[run.summary.most_loaded()].limited()) : "-";
 }
 
 std::string tracking_cell(const RunData& run) {
-  return has_motors(run) ? fmt::format("{:.3f}", run.record.joints[farthest(run)].error_peak) : "-";
+  const Judged& judged = run.summary.judged;
+  return has_motors(run) ? fmt::format("{:.3f}", judged.joints[judged.farthest()].error_peak) : "-";
 }
 
 std::string limit_cycle_cell(const RunData& run) {

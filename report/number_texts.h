@@ -14,7 +14,7 @@ std::string percent(double share);
 /// J: what the gears gave instead of losing it.
 double created(const Recording& record);
 
-/// The joint with the largest tracking error.
+/// The joint with the largest tracking error of the whole run.
 std::size_t farthest(const RunData& run);
 
 Lines simulated(const RunData& run);
@@ -25,9 +25,12 @@ Lines distance(const RunData& run);
 Lines speed(const RunData& run);
 Lines limit_cycle(const RunData& run);
 Lines transport(const RunData& run);
+Lines window(const RunData& run);
+Lines limits(const RunData& run);
 Lines most_loaded(const RunData& run);
 Lines tracking(const RunData& run);
-Lines energy(const RunData& run);
+Lines drawn(const RunData& run);
+Lines ledger(const RunData& run);
 Lines created_energy(const RunData& run);
 Lines range(const RunData& run);
 Lines stability(const RunData& run);

@@ -27,12 +27,13 @@ struct SummaryNumber {
   const char* definition = "";  ///< as in docs/conventions.md
   /// null: not known. A group (`torque_error`) of which a number is null is null.
   std::function<nlohmann::ordered_json(const RunData&)> value = {};
-  double JointStatistics::*of_joint = nullptr;  ///< instead of `value`: for every joint
+  std::function<double(const RunData&, std::size_t joint)> of_joint = {};  ///< instead of `value`: for every joint
 
   struct Line {
     int place = 0;
     const char* title = nullptr;                                     ///< nullptr: flush left
     std::vector<std::string> (*text)(const RunData& run) = nullptr;  ///< one per line; none: nothing to say
+    bool verbose = false;                                            ///< only under --verbose
   } line = {};
   struct Compare {
     int place = 0;                ///< a number of every joint is compared for the most loaded joint

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "report/figure.h"
@@ -12,39 +13,119 @@ namespace gaitlab::report {
 
 namespace {
 
-View view_at(const Scenario& scenario, const Recording& r, std::size_t tick, std::size_t joint) {
+constexpr double kUpright = 0.7;   // least |z| of an axis that turns within the ground plane
+constexpr double kWay = 0.02;      // m: a shorter way has no direction
+constexpr double kOffX = 0.26;     // |y| of a direction: within 15 degrees of x it counts as x
+constexpr double kAlongY = 0.035;  // 1 - |y|: within 15 degrees of y it counts as y
+
+/// How the robot is looked at: from the side of its way, or from above where it moves within the ground plane.
+struct Sight {
+  Camera camera;
+  std::string view = "side view";
+  std::string axis = "x (m)";  ///< what goes to the right
+  bool above = false;
+};
+
+/// The main direction of points in the plane: of the first axis of their scatter, forwards along the way.
+double main_direction(const Series& x, const Series& y) {
+  const auto n = static_cast<double>(x.size());
+  double mx = 0;
+  double my = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    mx += x[k] / n;
+    my += y[k] / n;
+  }
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    xx += (x[k] - mx) * (x[k] - mx);
+    xy += (x[k] - mx) * (y[k] - my);
+    yy += (y[k] - my) * (y[k] - my);
+  }
+  const double angle = 0.5 * math::atan2(2 * xy, xx - yy);
+  const double forward = (x.back() - x.front()) * math::cos(angle) + (y.back() - y.front()) * math::sin(angle);
+  return forward < 0 ? angle + std::numbers::pi : angle;
+}
+
+/// Most joints turn about the vertical: what happens is seen from above.
+bool moves_in_plane(const Robot& robot, const Kinematics& k) {
+  std::size_t upright = 0;
+  for (const Joint& joint : robot.joints)
+    upright += std::abs((k.R[joint.link] * robot.links[joint.link].axis).z()) > kUpright ? 1 : 0;
+  return 2 * upright > robot.joints.size();
+}
+
+Sight sight(const Scenario& scenario, const Recording& r) {
+  Sight s;
+  const Robot& robot = *scenario.robot;
+  const Series x = r.series("com.x");
+  const Series y = r.series("com.y");
+  if (x.empty() || y.empty() || !r.has_states(robot)) return s;
+  Kinematics k(robot);
+  k.update(robot, r.state(robot, r.rows() - 1));
+  if (const double way = std::hypot(x.back() - x.front(), y.back() - y.front()); way > kWay) {
+    const double angle = main_direction(x, y);
+    const Vec3 along(math::cos(angle), math::sin(angle), 0);
+    // Near the world's x the picture is of world coordinates, forwards or backwards.
+    if (std::abs(along.y()) > kOffX) {
+      s.camera = {along, Vec3::UnitZ(), Vec3(-along.y(), along.x(), 0)};
+      const double degrees = std::remainder(angle, 2 * std::numbers::pi) * 180 / std::numbers::pi;
+      s.axis = std::abs(along.x()) < 1 - kAlongY ? fmt::format("along the way (m), {:.0f} degrees from x", degrees) : "x (m)";
+      if (std::abs(std::abs(along.y()) - 1) < kAlongY) {
+        s.camera = {Vec3(0, along.y() > 0 ? 1 : -1, 0), Vec3::UnitZ(), Vec3(along.y() > 0 ? -1 : 1, 0, 0)};
+        s.axis = along.y() > 0 ? "y (m)" : "-y (m)";
+      }
+    }
+  }
+  if (moves_in_plane(robot, k)) {
+    s.camera = {s.camera.right, s.camera.away, -Vec3::UnitZ()};
+    s.view = "view from above";
+    s.above = true;
+  }
+  return s;
+}
+
+View view_at(const Scenario& scenario, const Recording& r, const Sight& from, std::size_t tick, std::size_t joint) {
   const Robot& robot = *scenario.robot;
   Kinematics k(robot);
   k.update(robot, r.state(robot, tick));
-  View view{static_cast<double>(tick) * scenario.trace.period, side_view(robot, k)};
+  View view{static_cast<double>(tick) * scenario.trace.period, side_view(robot, k, from.camera)};
   for (const ContactElement& element : contact_elements(robot, scenario.contact.on)) {
     const Ground::Touch touch = scenario.ground.query(k.point(element.link, element.centre), element.radius);
-    if (scenario.ground.kind != Ground::Kind::none && touch.penetration > 0) {
-      view.contacts.push_back({touch.point.x(), touch.point.z()});
-    }
+    if (scenario.ground.kind != Ground::Kind::none && touch.penetration > 0) view.contacts.push_back(from.camera(touch.point));
   }
-  if (!robot.joints.empty()) {
-    const Vec3& at = k.p[robot.joints[joint].link];
-    view.joint = Point{at.x(), at.z()};
-  }
+  if (!robot.joints.empty()) view.joint = from.camera(k.p[robot.joints[joint].link]);
+  const Vec3 com = sums(robot, k, Vec3::Zero()).com;
+  if (com.allFinite()) view.com = from.camera(com).x;
   return view;
 }
 
 // Boxes as they are; of a field the line below the robot at the end.
-std::vector<Polygon> solids(const Scenario& scenario, const Recording& r) {
+std::vector<Polygon> solids(const Scenario& scenario, const Recording& r, const Sight& from) {
   std::vector<Polygon> seen;
   const Ground& ground = scenario.ground;
   if (ground.kind == Ground::Kind::boxes) {
-    for (const Box& box : ground.boxes) seen.push_back(box_outline({box.R, box.center}, box.size));
-  } else if (ground.kind == Ground::Kind::heightfield && r.rows() > 0) {
+    for (const Box& box : ground.boxes) seen.push_back(box_outline({box.R, box.center}, box.size, from.camera));
+  } else if (ground.kind == Ground::Kind::heightfield && r.rows() > 0 && !from.above) {
     constexpr int kPieces = 400;
     constexpr double kThick = 0.004;  // m
-    const double y = r.series("base.y").back();
-    const double from = ground.field.origin.x();
-    const double step = ground.field.spacing * static_cast<double>(ground.field.columns - 1) / kPieces;
-    constexpr double kFar = 1000;  // m, beyond the border, where the heights go on
-    Polygon line{{from - kFar, ground.field.at(from, y).z}};
-    for (int i = 0; i <= kPieces; ++i) line.push_back({from + i * step, ground.field.at(from + i * step, y).z});
+    constexpr double kFar = 1000;     // m, beyond the border, where the heights go on
+    const Heightfield& field = ground.field;
+    const Vec3 robot(r.series("base.x").back(), r.series("base.y").back(), 0);
+    const Vec3& right = from.camera.right;
+    const Vec3 base = robot - right.dot(robot) * right;  // on the line below the robot, where the picture has 0
+    const double width = field.spacing * static_cast<double>(std::max(field.columns, field.rows()) - 1);
+    const Vec3 middle =
+        field.origin +
+        0.5 * field.spacing * Vec3(static_cast<double>(field.columns - 1), static_cast<double>(field.rows() - 1), 0);
+    const double start = right.dot(middle) - 0.75 * width;  // 1.5 times the longer side: the diagonal, too
+    const auto height = [&](double at) { return field.at(base.x() + at * right.x(), base.y() + at * right.y()).z; };
+    Polygon line{{start - kFar, height(start)}};
+    for (int i = 0; i <= kPieces; ++i) {
+      const double at = start + i * 1.5 * width / kPieces;
+      line.push_back({at, height(at)});
+    }
     line.push_back({line.back().x + kFar, line.back().y});
     for (std::size_t i = line.size(); i-- > 0;) {
       const Point above = line[i];
@@ -56,13 +137,13 @@ std::vector<Polygon> solids(const Scenario& scenario, const Recording& r) {
 }
 
 constexpr std::size_t kViews = 5;
-constexpr double kShown = 8;         // s, of the upper panels
-constexpr double kLongest = 4;       // s, of the side views: a period may have been found as a multiple of the gait's
-constexpr double kPeriodless = 2;    // s, of the side views without a limit cycle
-constexpr double kStands = 0.02;     // of the weight
-constexpr double kPaperAngle = 0.1;  // rad, the angle axis of the paper's figure 14
-constexpr double kAboutY = 0.9;      // least |y| of an axis
-constexpr double kSamePlace = 1e-3;  // m
+constexpr double kShown = 8;          // s, of the upper panels
+constexpr double kLongest = 4;        // s, of the side views: a period may have been found as a multiple of the gait's
+constexpr double kPeriodless = 2;     // s, of the side views without a limit cycle
+constexpr double kStands = 0.02;      // of the weight
+constexpr double kLeastAngle = 0.02;  // rad, the angle axis of a joint at rest
+constexpr double kAboutY = 0.9;       // least |y| of an axis
+constexpr double kSamePlace = 1e-3;   // m
 
 std::vector<Leg> legs_that_walk(const Scenario& s) {
   if (s.ground.kind == Ground::Kind::none || s.contact.on == ContactSet::none) return {};
@@ -78,14 +159,16 @@ std::vector<double> times(const Scenario& scenario, const Recording& r, const Su
   return time;
 }
 
-// Angle, set point and torque of a joint over `input.time`.
-void add_joint(FigureInput& input, const Scenario& scenario, const Recording& r, std::size_t joint) {
-  input.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
-  input.angle = r.joint(joint, "angle").values();
+JointPanel joint_panel(const Scenario& scenario, const Recording& r, std::size_t joint) {
+  JointPanel panel;
+  panel.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
+  panel.angle = r.joint(joint, "angle").values();
   if (scenario.actuator.entry != nullptr) {
-    input.setpoint = r.joint(joint, "setpoint").values();
-    input.torque = r.joint(joint, "torque").values();
+    panel.setpoint = r.joint(joint, "setpoint").values();
+    panel.torque = r.joint(joint, "torque").values();
+    panel.limit = r.joint(joint, "saturation").values();
   }
+  return panel;
 }
 
 // The start of the whole periods at the end of the run, as many as are shown.
@@ -115,37 +198,48 @@ std::vector<Footfall> footfalls(const Scenario& scenario, const Recording& r, co
 }
 
 // Five views from the start of the last period on; the sixth would show what the first shows.
-void add_period(FigureInput& input, const Scenario& scenario, const Recording& r, const Summary& s, std::size_t joint) {
+void add_period(FigureInput& input, const Scenario& scenario, const Recording& r, const Summary& s, const Sight& from,
+                std::size_t joint) {
   const MotionCycle& cycle = s.limit_cycle;
   const double span = std::min({cycle.found ? cycle.period : kPeriodless, kLongest, s.simulated});
   for (std::size_t i = 0; i < kViews; ++i) {
     const double t = s.simulated - span * (1 - static_cast<double>(i) / kViews);
     const auto tick = static_cast<std::size_t>(std::llround(t / scenario.trace.period));
     if (tick >= input.time.size() || (i > 0 && input.time[tick] <= input.views.back().time)) continue;
-    input.views.push_back(view_at(scenario, r, tick, joint));
+    input.views.push_back(view_at(scenario, r, from, tick, joint));
   }
   input.views_title =
-      fmt::format("side view over {} {:.3g} s", cycle.found && cycle.period <= span ? "one period," : "the last", span);
-  const double ahead = (r.state(*scenario.robot, r.rows() - 1).orientation * Vec3::UnitX()).x();
+      fmt::format("{} over {} {:.3g} s", from.view, cycle.found && cycle.period <= span ? "one period," : "the last", span);
+  input.views_axis = from.axis + (from.above ? ", both ways on one scale" : ", heights on the same scale");
+  const double ahead = from.camera.right.dot(r.state(*scenario.robot, r.rows() - 1).orientation * Vec3::UnitX());
   if (std::abs(ahead) < 0.7) return;  // seen from the front rather than from the side
-  input.views_axis = fmt::format("x (m), forward is {}; heights on the same scale", ahead > 0 ? "right" : "left");
+  input.views_axis = fmt::format("{}, forward is {}; heights on the same scale", from.axis, ahead > 0 ? "right" : "left");
 }
 
 std::string legged_figure(const Scenario& scenario, const Recording& r, const Summary& summary, const std::vector<Leg>& legs) {
+  const Sight from = sight(scenario, r);
   FigureInput input;
   input.title = scenario.name;
-  input.ground = scenario.ground.kind != Ground::Kind::heightfield;
-  input.solids = solids(scenario, r);
+  input.ground = scenario.ground.kind != Ground::Kind::heightfield && !from.above;
+  input.solids = solids(scenario, r, from);
   input.time = times(scenario, r, summary);
-  const double from = periods_from(summary);
-  const std::size_t joint = central_spine_joint(info(*scenario.robot), legs);
-  add_joint(input, scenario, r, joint);
-  input.joint += ", middle of the spine (arrow below)";
-  input.least_angle = kPaperAngle;
-  input.footfalls = footfalls(scenario, r, legs, input.time, from);
+  const double start = periods_from(summary);
+  const std::size_t spine = central_spine_joint(info(*scenario.robot), legs);
+  const std::size_t worst = summary.most_loaded();
+  JointPanel middle = joint_panel(scenario, r, spine);
+  middle.joint += ", middle of the spine";
+  middle.least_angle = kLeastAngle;
+  if (worst != spine) {
+    input.joints.push_back(joint_panel(scenario, r, worst));
+    input.joints.back().joint += ", most loaded (arrow below)";
+  } else {
+    middle.joint += ", most loaded (arrow below)";
+  }
+  input.joints.push_back(std::move(middle));
+  input.footfalls = footfalls(scenario, r, legs, input.time, start);
   input.footfall_note = fmt::format("bars: load above {:.3g} % of the weight; at the right the duty factor over {:.3g} s",
-                                    100 * kStands, summary.simulated - from);
-  add_period(input, scenario, r, summary, joint);
+                                    100 * kStands, summary.simulated - start);
+  add_period(input, scenario, r, summary, from, worst);
   return figure_svg(input);
 }
 
@@ -180,18 +274,22 @@ std::string run_figure(const Scenario& scenario, const Recording& r, const Summa
   const std::vector<Leg> legs = legs_that_walk(scenario);
   const std::size_t ticks = r.rows();
   if (!legs.empty() && ticks > 0) return legged_figure(scenario, r, summary, legs);
-  const std::size_t joint = summary.most_loaded;
+  const std::size_t joint = summary.most_loaded();
+  const Sight from = sight(scenario, r);
   FigureInput input;
   input.title = scenario.name;
-  input.ground = scenario.ground.kind == Ground::Kind::plane || scenario.ground.kind == Ground::Kind::boxes;
-  input.solids = solids(scenario, r);
+  const bool flat = scenario.ground.kind == Ground::Kind::plane || scenario.ground.kind == Ground::Kind::boxes;
+  input.ground = flat && !from.above;
+  input.solids = solids(scenario, r, from);
+  input.views_title = from.view + (scenario.robot->joints.empty() ? "" : " (arrow: joint above)");
+  input.views_axis = from.axis + (from.above ? ", both ways on one scale" : ", heights on the same scale");
   if (!scenario.robot->joints.empty()) {
     input.time = times(scenario, r, summary);
-    add_joint(input, scenario, r, joint);
+    input.joints.push_back(joint_panel(scenario, r, joint));
   }
   const auto second = static_cast<std::size_t>(std::max<std::int64_t>(1, whole(1.0, scenario.trace.period)));
   for (std::size_t back = kViews; back-- > 0;) {
-    if (ticks > back * second) input.views.push_back(view_at(scenario, r, ticks - 1 - back * second, joint));
+    if (ticks > back * second) input.views.push_back(view_at(scenario, r, from, ticks - 1 - back * second, joint));
   }
   return figure_svg(input);
 }

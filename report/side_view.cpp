@@ -33,12 +33,12 @@ std::vector<Vec3> vertices(const Shape& shape) {
 }
 
 // A sphere's picture is a circle whichever way its body is turned.
-std::vector<Vec3> world_vertices(const Shape& shape, const Pose& body) {
+std::vector<Vec3> world_vertices(const Shape& shape, const Pose& body, const Camera& camera) {
   const Pose pose = body * shape.in_body;
   std::vector<Vec3> points;
   if (shape.kind == Shape::Kind::sphere) {
     for (const Vec3& p : vertices({Shape::Kind::cylinder, {}, {shape.size.x(), 2 * shape.size.x(), 0}}))
-      points.push_back(pose.p + p);
+      points.push_back(pose.p + p.x() * camera.right + p.y() * camera.away + p.z() * camera.up);
   } else {
     for (const Vec3& p : vertices(shape)) points.push_back(pose * p);
   }
@@ -53,14 +53,14 @@ Role role_of(const ModuleType& type, std::size_t body) {
 }
 
 // Bodies of a planar robot differ in depth by rounding only, and must not change places for it from picture to picture.
-double rounded_depth(double y) { return std::round(y * 1e4); }
+double rounded_depth(double depth) { return std::round(depth * 1e4); }
 
 struct Seen {
   Outline outline;
-  double mean_y = 0, front_y = 0;
+  double mean = 0, front = 0;  // depth
 };
 
-Seen see(const std::vector<Shape>& shapes, const Pose& pose, Role role) {
+Seen see(const std::vector<Shape>& shapes, const Pose& pose, Role role, const Camera& camera) {
   Seen seen;
   seen.outline.role = role;
   double sum = 0;
@@ -68,16 +68,17 @@ Seen see(const std::vector<Shape>& shapes, const Pose& pose, Role role) {
   std::size_t count = 0;
   for (const Shape& shape : shapes) {
     std::vector<Point> flat;
-    for (const Vec3& p : world_vertices(shape, pose)) {
-      flat.push_back({p.x(), p.z()});
-      sum += p.y();
-      front = std::min(front, p.y());
+    for (const Vec3& p : world_vertices(shape, pose, camera)) {
+      const double depth = camera.away.dot(p);
+      flat.push_back(camera(p));
+      sum += depth;
+      front = std::min(front, depth);
       ++count;
     }
     seen.outline.polygons.push_back(convex_hull(std::move(flat)));
   }
-  seen.mean_y = rounded_depth(sum / static_cast<double>(count));
-  seen.front_y = rounded_depth(front);
+  seen.mean = rounded_depth(sum / static_cast<double>(count));
+  seen.front = rounded_depth(front);
   return seen;
 }
 
@@ -101,23 +102,23 @@ Polygon convex_hull(std::vector<Point> points) {
   return hull;
 }
 
-Polygon box_outline(const Pose& pose, const Vec3& size) {
+Polygon box_outline(const Pose& pose, const Vec3& size, const Camera& camera) {
   std::vector<Point> flat;
-  for (const Vec3& p : world_vertices({Shape::Kind::box, {}, size}, pose)) flat.push_back({p.x(), p.z()});
+  for (const Vec3& p : world_vertices({Shape::Kind::box, {}, size}, pose, camera)) flat.push_back(camera(p));
   return convex_hull(std::move(flat));
 }
 
-std::vector<Outline> side_view(const Robot& robot, const Kinematics& kinematics) {
+std::vector<Outline> side_view(const Robot& robot, const Kinematics& kinematics, const Camera& camera) {
   std::vector<Seen> seen;
   for (const Body& body : robot.bodies) {
     const ModuleType& type = robot.types[robot.modules[body.module].type];
     const std::vector<Shape>& shapes = type.bodies[body.type].shapes;
     if (shapes.empty()) continue;
     const Pose link{kinematics.R[body.link], kinematics.p[body.link]};
-    seen.push_back(see(shapes, link * body.in_link, role_of(type, body.type)));
+    seen.push_back(see(shapes, link * body.in_link, role_of(type, body.type), camera));
   }
   std::stable_sort(seen.begin(), seen.end(),
-                   [](const Seen& a, const Seen& b) { return std::tie(a.front_y, a.mean_y) > std::tie(b.front_y, b.mean_y); });
+                   [](const Seen& a, const Seen& b) { return std::tie(a.front, a.mean) > std::tie(b.front, b.mean); });
   std::vector<Outline> outlines;
   outlines.reserve(seen.size());
   for (Seen& each : seen) outlines.push_back(std::move(each.outline));

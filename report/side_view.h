@@ -1,4 +1,4 @@
-// A robot seen from its right side: outlines of its bodies in the world's x-z plane.
+// A robot as a camera far away sees it: outlines of its bodies in the plane of the view.
 #pragma once
 #include <vector>
 
@@ -7,22 +7,28 @@
 
 namespace gaitlab::report {
 
+/// Directions of a view, world axes, unit vectors: right and up on the paper, and away from the viewer.
+struct Camera {
+  Vec3 right = Vec3::UnitX(), up = Vec3::UnitZ(), away = Vec3::UnitY();
+  [[nodiscard]] Point operator()(const Vec3& p) const { return {right.dot(p), up.dot(p)}; }
+};
+
 /// What a body is to the eye: the block that carries the active or the passive faces, or the link between them.
 enum class Role { active, link, passive, other };
 
-/// One body: convex polygons, counter-clockwise, m; x is the world's x, y the world's z.
+/// One body: convex polygons, counter-clockwise, m, in the plane of the view.
 struct Outline {
   std::vector<Polygon> polygons;
   Role role = Role::other;
 };
 
-/// One outline a body that has shapes, far to near for a viewer at -y who looks towards +y (by mean y; at the same depth the
-/// body whose front is nearer comes later), so that drawing them in this order covers what is hidden. Role: the gender of the
-/// body's first face, link without faces.
-std::vector<Outline> side_view(const Robot& robot, const Kinematics& kinematics);
+/// One outline per body that has shapes, far to near (by mean depth; at the same depth the body whose front is nearer comes
+/// later), so that drawing them in this order covers what is hidden. Role: the gender of the body's first face, link without
+/// faces.
+std::vector<Outline> side_view(const Robot& robot, const Kinematics& kinematics, const Camera& camera = {});
 
 /// A box that belongs to no robot, from the same side.
-Polygon box_outline(const Pose& pose, const Vec3& size);
+Polygon box_outline(const Pose& pose, const Vec3& size, const Camera& camera = {});
 
 /// The convex hull, counter-clockwise, without points on its edges.
 Polygon convex_hull(std::vector<Point> points);

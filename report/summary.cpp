@@ -96,9 +96,7 @@ Summary summarise(const Scenario& scenario, const Recording& r, double wall_time
       r.control_ticks > 0 ? static_cast<double>(r.control_ticks_above_1) / static_cast<double>(r.control_ticks) : 0;
   const auto contacts = contact_elements(*scenario.robot, scenario.contact.on);
   if (r.worst.rate > 0) s.stability_source = source_of(r.worst, *scenario.robot, contacts);
-  for (std::size_t j = 1; j < r.joints.size(); ++j) {
-    if (r.joints[j].torque_peak > r.joints[s.most_loaded].torque_peak) s.most_loaded = j;
-  }
+  s.judged = judge(r, s.limit_cycle);
   s.trace_hash = hash(r.trace);
   return s;
 }
@@ -113,19 +111,38 @@ std::string to_json(const Summary& s, const Scenario& scenario, const Recording&
     }
     json.emplace("per_joint", Json::object());  // without joints, too
     for (std::size_t j = 0; j < r.joints.size(); ++j)
-      put(json, number, scenario.robot->joints[j].name, r.joints[j].*number.of_joint);
+      put(json, number, scenario.robot->joints[j].name, number.of_joint(run, j));
   }
   return json.dump(2) + "\n";
 }
 
-std::string to_text(const Summary& s, const Scenario& scenario, const Recording& r) {
+std::string to_text(const Summary& s, const Scenario& scenario, const Recording& r, bool verbose) {
   std::string text;
   for (const SummaryNumber* number : placed(&SummaryNumber::line)) {
+    if (number->line.verbose && !verbose) continue;
     const char* title = number->line.title;
-    for (const std::string& line : number->line.text({scenario, r, s}))
+    for (const std::string& line : number->line.text({scenario, r, s})) {
       text += title == nullptr ? line + "\n" : fmt::format("  {:<13} {}\n", title, line);
+      if (title != nullptr) title = "";
+    }
   }
   return text;
+}
+
+std::string joint_table(const Summary& s, const Scenario& scenario) {
+  std::size_t width = 5;
+  for (const Joint& joint : scenario.robot->joints) width = std::max(width, joint.name.size());
+  std::string text = fmt::format("  {:<{}}  {:^15}  {:^24}  {:^16}\n  {:<{}} {:>8} {:>8} {:>9} {:>8} {:>6}  {:>8} {:>8}\n", "",
+                                 width, "at a limit", "torque, N m", "tracking error", "joint", width, "voltage", "current",
+                                 "peak", "at s", "RMS", "rad", "at s");
+  for (const std::size_t j : s.judged.order) {
+    const JudgedJoint& joint = s.judged.joints[j];
+    text += fmt::format("  {:<{}} {:>8} {:>8} {:>8.3f}{} {:>8.2f} {:>6.3f}  {:>8.3f} {:>8.2f}\n",
+                        scenario.robot->joints[j].name, width, texts::percent(joint.voltage_limited),
+                        texts::percent(joint.current_limited), joint.torque_peak, joint.peak_at_limit ? '*' : ' ',
+                        joint.torque_peak_time, joint.torque_rms, joint.error_peak, joint.error_peak_time);
+  }
+  return text + "  *: at the motor's limit\n";
 }
 
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "core/recording/judged.h"
 #include "core/scenario/scenario.h"
 #include "core/simulation/simulation.h"
-#include "report/limit_cycle.h"
 
 namespace gaitlab::report {
 
@@ -21,8 +21,10 @@ struct Summary {
   MotionCycle limit_cycle;
   double stability_max = 0, stability_share = 0;  ///< h lambda; share of control ticks above 1
   std::string stability_source;
-  std::size_t most_loaded = 0;  ///< joint of the largest torque peak
+  Judged judged;
   std::string trace_hash;
+  /// The joint to look at first; 0 where there is none.
+  [[nodiscard]] std::size_t most_loaded() const { return judged.order.empty() ? 0 : judged.order.front(); }
 };
 
 Summary summarise(const Scenario& scenario, const Recording& record, double wall_time);
@@ -30,8 +32,11 @@ Summary summarise(const Scenario& scenario, const Recording& record, double wall
 /// The text of summary.json.
 std::string to_json(const Summary& summary, const Scenario& scenario, const Recording& record);
 
-/// What `gaitlab run` prints.
-std::string to_text(const Summary& summary, const Scenario& scenario, const Recording& record);
+/// What `gaitlab run` prints; verbose: the ledger and the step's limit, too.
+std::string to_text(const Summary& summary, const Scenario& scenario, const Recording& record, bool verbose = false);
+
+/// A row per joint, the most loaded first: what each did in the judged window.
+std::string joint_table(const Summary& summary, const Scenario& scenario);
 
 /// The warning about a part of the robot that starts below the ground, or "": its height was given, or only contact elements
 /// touch the ground.

@@ -94,16 +94,41 @@ class DockRows {
     take_face(dock, dock.child_module, dock.child_face);
     take_face(dock, dock.parent_module, dock.parent_face);
     if (dock.child_module == 0) {
-      problems_.add(dock.place, "module 0 is the root and has no parent: number the root 0, or swap child and parent");
+      problems_.add(dock.place, closes_ring(dock)
+                                    ? ring_text(dock)
+                                    : "module 0 is the root and has no parent: number the root 0, or swap child and parent");
       return;
     }
     const auto [at, fresh] = parent_.try_emplace(dock.child_module, &dock);
     if (!fresh) {
       problems_
-          .add(dock.place, fmt::format("module {} has two parents: {} and {}; docks form a tree", dock.child_module,
-                                       at->second->parent_module, dock.parent_module))
+          .add(dock.place, closes_ring(dock) ? ring_text(dock)
+                                             : fmt::format("module {} has two parents: {} and {}; docks form a tree",
+                                                           dock.child_module, at->second->parent_module, dock.parent_module))
           .notes.emplace_back(at->second->place, "it has its first parent here");
     }
+  }
+
+  static std::string ring_text(const Dock& dock) {
+    return fmt::format(
+        "this dock closes a ring: module {} and module {} are joined by others already; closed chains are not "
+        "supported, docks form a tree",
+        dock.child_module, dock.parent_module);
+  }
+
+  /// Whether docks between other pairs of modules, wherever they are in the list, join the two of this one.
+  [[nodiscard]] bool closes_ring(const Dock& dock) const {
+    std::set<int> reached{dock.child_module};
+    for (std::size_t before = 0; before < reached.size();) {
+      before = reached.size();
+      for (const Dock& other : docks_) {
+        if (std::minmax(other.child_module, other.parent_module) == std::minmax(dock.child_module, dock.parent_module))
+          continue;
+        if (reached.contains(other.child_module)) reached.insert(other.parent_module);
+        if (reached.contains(other.parent_module)) reached.insert(other.child_module);
+      }
+    }
+    return reached.contains(dock.parent_module);
   }
 
   void check_gaps() {

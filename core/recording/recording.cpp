@@ -13,8 +13,8 @@ std::vector<double> Series::values() const {
 }
 
 const std::vector<std::string>& report_columns() {
-  static const std::vector<std::string> kPatterns{"joint.*.setpoint", "joint.*.angle", "joint.*.torque", "base.?",
-                                                  "base.q?",          "com.?",         "load.*"};
+  static const std::vector<std::string> kPatterns{"joint.*.setpoint", "joint.*.angle", "joint.*.torque", "joint.*.saturation",
+                                                  "base.?",           "base.q?",       "com.?",          "load.*"};
   return kPatterns;
 }
 
@@ -70,6 +70,7 @@ std::vector<Column> tick_columns(std::size_t joints) {
       columns.push_back({fmt::format("joint.{}.{}", j, name), unit, definition});
     };
     add("torque_peak", "N m", "largest magnitude of the motor torque since the row before, over all steps");
+    add("error_peak", "rad", "largest magnitude of set point minus angle since the row before, over all steps");
     add("torque_square", "N^2 m^2 s", "integral of the motor torque squared from t = 0, over all steps");
     add("voltage_limited", "s", "time at the voltage limit from t = 0, over all steps");
     add("current_limited", "s", "time at the current limit from t = 0, over all steps");

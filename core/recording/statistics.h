@@ -9,10 +9,12 @@ namespace gaitlab {
 /// Of one joint, over the steps so far. SI.
 struct JointStatistics {
   double torque_peak = 0, torque_rms = 0;                  ///< N m, motor torque
+  double torque_peak_time = 0;                             ///< s: start of the step in which torque_peak was reached
   double speed_peak = 0;                                   ///< rad/s
   double current_peak = 0, current_rms = 0;                ///< A
   double error_rms = 0, error_peak = 0;                    ///< rad, set point - angle
   double error_peak_time = 0;                              ///< s: start of the step in which error_peak was reached
+  double start_jump = 0;                                   ///< rad: set point - angle at t = 0
   double saturated_voltage = 0, saturated_current = 0;     ///< share of time
   double range_share = 0, range_worst = 0;                 ///< share of time outside [lo, hi]; worst excess, rad
   double setpoint_outside = 0;                             ///< share of time the set point is outside [lo, hi]
@@ -30,6 +32,7 @@ struct JointStatistic {
 /// All of them.
 inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(double)> kJointStatistics{{
     {&JointStatistics::torque_peak, "torque_peak", "N m", "largest magnitude of the motor torque"},
+    {&JointStatistics::torque_peak_time, "torque_peak_time", "s", "start of the step in which torque_peak was reached"},
     {&JointStatistics::torque_rms, "torque_rms", "N m", "RMS of the motor torque"},
     {&JointStatistics::speed_peak, "speed_peak", "rad/s", "largest magnitude of the speed"},
     {&JointStatistics::current_peak, "current_peak", "A", "largest magnitude of the current"},
@@ -37,6 +40,7 @@ inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(dou
     {&JointStatistics::error_rms, "error_rms", "rad", "RMS of set point minus angle"},
     {&JointStatistics::error_peak, "error_peak", "rad", "largest magnitude of set point minus angle"},
     {&JointStatistics::error_peak_time, "error_peak_time", "s", "start of the step in which error_peak was reached"},
+    {&JointStatistics::start_jump, "start_jump", "rad", "largest magnitude of set point minus angle in the first step"},
     {&JointStatistics::saturated_voltage, "saturated_voltage", "", "share of the time at the voltage limit"},
     {&JointStatistics::saturated_current, "saturated_current", "", "share of the time at the current limit"},
     {&JointStatistics::range_share, "range_share", "", "share of the time outside the range of the hinge"},

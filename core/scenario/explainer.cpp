@@ -1,7 +1,6 @@
 #include "core/scenario/explainer.h"
 
 #include <algorithm>
-#include <array>
 
 #include "core/scenario/wording.h"
 
@@ -32,18 +31,15 @@ std::string if_among(std::span<const char* const> names, const std::string& name
 }  // namespace
 
 std::string table(const std::vector<KeyRow>& rows) {
-  std::vector<std::array<std::string, 5>> cells{{"key", "unit", "default", "range", "meaning"}};
-  for (const KeyRow& row : rows) cells.push_back({row.key, row.unit, row.preset, row.range, row.about});
-  std::array<std::size_t, 4> width{};
-  for (const auto& line : cells) {
-    for (std::size_t i = 0; i < width.size(); ++i) width[i] = std::max(width[i], line[i].size());
-  }
   std::string out;
-  for (const auto& line : cells) {
-    std::string text;
-    for (std::size_t i = 0; i < width.size(); ++i) text += line[i] + std::string(width[i] - line[i].size() + 2, ' ');
-    text += line[4];
-    out += text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
+  for (const KeyRow& row : rows) {
+    const std::size_t depth = row.key.find_first_not_of(' ') / 2 * 4;  // of a group
+    std::string head = row.key.substr(row.key.find_first_not_of(' '));
+    if (!row.unit.empty()) head += " (" + row.unit + ")";
+    std::string limits = row.preset.empty() ? "" : "default " + row.preset;
+    if (!row.range.empty()) limits += (limits.empty() ? "" : "; ") + row.range;
+    out += wrapped(limits.empty() ? head : head + ": " + limits, depth);
+    out += wrapped(row.about, depth + 4);
   }
   return out;
 }

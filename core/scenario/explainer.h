@@ -12,7 +12,7 @@ struct KeyRow {
   std::string key, unit, preset, range, about;  ///< preset: the default
 };
 
-/// The rows as aligned plain text.
+/// The rows as text of at most 80 columns: key, unit, default and range, and below them the sentence.
 std::string table(const std::vector<KeyRow>& rows);
 /// The same as a table of Markdown.
 std::string markdown_table(const std::vector<KeyRow>& rows);

@@ -57,8 +57,7 @@ std::string fenced(const std::string& text) { return "```text\n" + text + (text.
 std::string explain_scenario(const Catalog& catalog) { return table(scenario_keys(catalog)); }
 
 std::string explain_plugin(const Entry& entry) {
-  std::string text(entry.manual);
-  if (!text.ends_with('\n')) text += '\n';
+  const std::string text = wrapped(std::string(entry.manual));
   const std::vector<KeyRow> keys = plugin_keys(entry);
   return keys.empty() ? text : text + "\n" + table(keys);
 }

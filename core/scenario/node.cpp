@@ -23,6 +23,20 @@ constexpr std::size_t kMaxDepth = 32;
 /// Leaves the parser after a problem that makes the rest unreadable.
 struct Stop {};
 
+/// The first tab among the blanks that lines begin with, up to and with line `last` (from 0).
+std::optional<SourceLocation> indenting_tab(const std::string& text, const std::string& file, int last) {
+  std::size_t begin = 0;
+  for (int line = 0; line <= last && begin < text.size(); ++line) {
+    const std::size_t first = text.find_first_not_of(' ', begin);
+    if (first != std::string::npos && text[first] == '\t')
+      return SourceLocation{file, line + 1, static_cast<int>(first - begin) + 1};
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;
+    begin = end + 1;
+  }
+  return {};
+}
+
 class TreeBuilder final : public YAML::EventHandler {
  public:
   TreeBuilder(const std::string& text, const std::string& file, Problems& problems)
@@ -166,6 +180,10 @@ std::optional<Node> build(const std::string& text, const std::string& file, Prob
   } catch (const Stop&) {
     return {};
   } catch (const YAML::Exception& e) {
+    if (const std::optional<SourceLocation> tab = indenting_tab(text, file, e.mark.line); tab && !e.mark.is_null()) {
+      problems.add(*tab, "found a tab in the indentation; YAML is indented with blanks");
+      return {};
+    }
     const bool placed = !e.mark.is_null();
     problems.add(placed ? SourceLocation{file, e.mark.line + 1, e.mark.column + 1} : SourceLocation{file},
                  "not valid YAML: " + e.msg);

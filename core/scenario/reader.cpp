@@ -65,7 +65,10 @@ void Reader::finish() {
     if (map_->items[i].kind == Node::Kind::null && colon != std::string::npos) {
       problems_.add(place, "unknown key " + in_quotes(key) + "; put a space after the colon");
     } else {
-      problems_.add(place, "unknown key " + in_quotes(key) + offer(key, known_, "keys"));
+      const bool indexed = key.find('[') != std::string::npos;
+      problems_.add(place, "unknown key " + in_quotes(key) +
+                               (indexed ? "; an item of a list is addressed by its number from 0: docks.0.1"
+                                        : offer(key, known_, "keys")));
     }
   }
 }
@@ -217,6 +220,15 @@ void Reader::on(const char* key, const field::Texts& field) {
   field.value = std::move(read);
 }
 
+namespace {
+
+bool opens_a_bracket(const Node& node) {
+  return node.kind == Node::Kind::scalar && !node.quoted &&
+         std::ranges::count(node.text, '(') > std::ranges::count(node.text, ')');
+}
+
+}  // namespace
+
 void Reader::on(const char* key, const field::Map& field) {
   const Node* node = take(key);
   if (node == nullptr) return;
@@ -227,6 +239,14 @@ void Reader::on(const char* key, const field::Map& field) {
   field.value.clear();
   for (std::size_t i = 0; i < node->keys.size(); ++i) {
     const auto& [name, place] = node->keys[i];
+    if (node->flow && opens_a_bracket(node->items[i])) {
+      problems_.add(node->items[i].place,
+                    fmt::format("{} {} ends within a bracket: in {{ }} a comma ends the text; put it in quotes, or on a "
+                                "line of its own",
+                                clipped(name), found(node->items[i])));
+      field.value.push_back({name, "0"});  // so that nobody misses the name
+      return;                              // what follows are pieces of the text
+    }
     if (!is_name(name, "_") || name[0] == '_' || (name[0] >= '0' && name[0] <= '9')) {
       problems_.add(place, in_quotes(name) + " is not a name; expected a letter, then letters, digits and _");
       continue;

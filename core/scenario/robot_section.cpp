@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
 #include "core/scenario/build_file.h"
+#include "core/scenario/data_folder.h"
 #include "core/scenario/plugin_files.h"
 #include "core/scenario/text_file.h"
 #include "core/scenario/type_library.h"
@@ -16,6 +18,19 @@
 
 namespace gaitlab {
 namespace {
+
+/// A file, or the name of a robot that comes with the program or lies in robots/ beside the scenario, as `gaitlab list robot`
+/// prints it.
+std::string build_path(const std::string& folder, const std::string& name) {
+  const std::string path = path_from(folder, name);
+  std::error_code none;
+  if (std::filesystem::exists(path, none) || name.find_first_of("/.") != std::string::npos) return path;
+  for (const std::string& robots : {path_from(folder, "robots"), path_from(folder, "../robots"), data_folder() + "/robots"}) {
+    const std::string named = robots + "/" + name + ".dat";
+    if (std::filesystem::exists(named, none)) return named;
+  }
+  return path;
+}
 
 /// More bodies than this are a mistake, and would only fill the memory.
 constexpr std::size_t kMostBodies = 1000000;
@@ -36,7 +51,7 @@ std::vector<Dock> read_connections(Reader& reader, const std::string& folder, Pr
     return {};
   }
   try {
-    const std::string path = path_from(folder, name.value);
+    const std::string path = build_path(folder, name.value);
     const std::string text = read_text(path, build->place);
     check_text(text, path);
     return read_build(text, path, problems);

@@ -117,7 +117,11 @@ void ScenarioChecks::units(const Actuator& actuator, const Controller& controlle
   Problem& problem = problems_.add(place_of(root_, chosen ? "controller" : "actuator", "type"),
                                    fmt::format("{}controller '{}' commands {}, but actuator '{}' takes {}", by_default, giver,
                                                command, taker, actuator.command_unit()));
-  if (!chosen) return;
+  if (!chosen) {
+    problem.notes.emplace_back(
+        problem.place, fmt::format("a controller of its own: controller: {{unit: {}, Kp: ...}}", actuator.command_unit()));
+    return;
+  }
   problem.notes.emplace_back(place_of(root_, "actuator", "type"),
                              fmt::format("actuator '{}' takes {}", taker, actuator.command_unit()));
 }

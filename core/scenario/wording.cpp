@@ -59,6 +59,30 @@ std::string joined(const std::vector<std::string>& names) {
   return out;
 }
 
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
+  std::string out;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const auto take = [&] {
+      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      const std::string line = text.substr(begin, end - begin);
+      begin = end + 1;
+      return line;
+    };
+    std::string line = take();
+    while (!line.starts_with("    ") && indent + line.size() > width) {
+      std::size_t at = line.rfind(' ', width - indent);
+      if (at == std::string::npos) at = line.find(' ');
+      if (at == std::string::npos) break;
+      out += std::string(indent, ' ') + line.substr(0, at) + "\n";
+      line.erase(0, at + 1);
+      // What is left goes on in the paragraph.
+      if (begin < text.size() && text[begin] != ' ' && text[begin] != '\n') line += " " + take();
+    }
+    out += (line.empty() ? "" : std::string(indent, ' ')) + line + "\n";
+  }
+  return out;
+}
+
 std::string offer(const std::string& found, const std::vector<std::string>& known, const std::string& kind) {
   // A name far too long is near to none, and its edit distance costs time.
   const std::string near = found.size() > 200 ? std::string{} : nearest(found, known);

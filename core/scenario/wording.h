@@ -28,6 +28,9 @@ std::string clipped(const std::string& text);
 std::string in_quotes(const std::string& text);
 /// `a, b, c`, shortened where it is long.
 std::string joined(const std::vector<std::string>& names);
+/// The text in lines of at most `width` characters, broken at blanks, each behind `indent` blanks. Lines that begin with four
+/// blanks (equations, YAML) stay as they are.
+std::string wrapped(const std::string& text, std::size_t indent = 0, std::size_t width = 80);
 /// How a message on an unknown name ends: `; did you mean 'x'?` or `; known KIND: a, b, c`.
 std::string offer(const std::string& found, const std::vector<std::string>& known, const std::string& kind);
 std::vector<std::string> to_strings(std::span<const char* const> names);

@@ -29,9 +29,9 @@ void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings
                const std::function<void(std::size_t, Recording&&)>& end);
 
 /// The same for any number of rollouts, of which few exist at a time: `next()` gives the scenarios one by one, nothing at the
-/// end; `digest(scenario, recording)` makes of each what is kept, in several threads at once, and does not throw; `sink(digest)` gets those in the
-/// order of next(), one at a time, whatever threads and lanes are. Throws what run_batch or next() throws, after the sink has
-/// all before the first refused.
+/// end; `digest(scenario, recording)` makes of each what is kept, in several threads at once, and does not throw;
+/// `sink(digest)` gets those in the order of next(), one at a time, whatever threads and lanes are. Throws what run_batch or
+/// next() throws, after the sink has all before the first refused.
 template <class Digest>
 void run_stream(const std::function<std::optional<Scenario>()>& next, const BatchSettings& settings, Digest digest,
                 const std::function<void(std::invoke_result_t<Digest, const Scenario&, Recording&&>&&)>& sink) {

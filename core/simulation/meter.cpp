@@ -26,7 +26,7 @@ Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()), time_(lane
     }
   }
   for (auto& sums : sums_) sums.assign(lo_.size(), 0.0);
-  for (auto* values : {&recent_peak_, &weight_, &share_, &seen_}) values->assign(lo_.size(), 0.0);
+  for (auto* values : {&recent_peak_, &recent_error_, &weight_, &share_, &seen_}) values->assign(lo_.size(), 0.0);
 }
 
 void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In measured) {
@@ -65,18 +65,27 @@ void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Ac
   const auto error = [&](std::size_t i) { return setpoint[i] - angle[i]; };
   const auto excess = [&](std::size_t i) { return std::max(std::max(angle[i] - hi_[i], lo_[i] - angle[i]), 0.0); };
   const auto shaft = [&](std::size_t i) { return torque[i] * speed[i]; };
-  peak(&F::torque_peak, [&](std::size_t i) { return std::abs(torque[i]); });
-  for (std::size_t i = 0; some && i < n; ++i) recent_peak_[i] = std::max(recent_peak_[i], seen_[i] * std::abs(torque[i]));
+  const auto first = [&](double F::*member, double F::*of, auto value) {  // before the peak itself, which decides
+    const double* const largest = at(sums_, of);
+    double* const when = at(sums_, member);
+    for (std::size_t i = 0; some && i < n; ++i) when[i] = seen_[i] * value(i) > largest[i] ? time : when[i];
+  };
+  const auto magnitude = [&](std::size_t i) { return std::abs(torque[i]); };
+  const auto apart = [&](std::size_t i) { return std::abs(error(i)); };
+  first(&F::torque_peak_time, &F::torque_peak, magnitude);
+  peak(&F::torque_peak, magnitude);
+  for (std::size_t i = 0; some && i < n; ++i) {
+    recent_peak_[i] = std::max(recent_peak_[i], seen_[i] * magnitude(i));
+    recent_error_[i] = std::max(recent_error_[i], seen_[i] * apart(i));
+  }
   share(&F::torque_rms, [&](std::size_t i) { return torque[i] * torque[i]; });
   peak(&F::speed_peak, [&](std::size_t i) { return std::abs(speed[i]); });
   peak(&F::current_peak, [&](std::size_t i) { return std::abs(report.current[i]); });
   share(&F::current_rms, [&](std::size_t i) { return report.current[i] * report.current[i]; });
   sum(&F::error_rms, [&](std::size_t i) { return error(i) * error(i); });
-  // Before error_peak itself, which decides whether this is the largest so far.
-  const double* const largest = at(sums_, &F::error_peak);
-  double* const when = at(sums_, &F::error_peak_time);
-  for (std::size_t i = 0; some && i < n; ++i) when[i] = seen_[i] * std::abs(error(i)) > largest[i] ? time : when[i];
-  peak(&F::error_peak, [&](std::size_t i) { return std::abs(error(i)); });
+  first(&F::error_peak_time, &F::error_peak, apart);
+  peak(&F::error_peak, apart);
+  if (time == 0) peak(&F::start_jump, apart);
   share(&F::saturated_voltage, [&](std::size_t i) { return report.saturation[i] == 1 ? 1.0 : 0.0; });
   share(&F::saturated_current, [&](std::size_t i) { return report.saturation[i] == 2 ? 1.0 : 0.0; });
   share(&F::range_share, [&](std::size_t i) { return excess(i) > 0 ? 1.0 : 0.0; });
@@ -107,8 +116,8 @@ void Meter::tick(std::size_t lane, Out row) {
   const double* const current = at(sums_, &F::saturated_current);
   std::size_t to = 0;
   for (std::size_t i = lane; i < lo_.size(); i += lanes_) {
-    for (const double value : {recent_peak_[i], square[i], voltage[i], current[i]}) row[to++] = value;
-    recent_peak_[i] = 0;
+    for (const double value : {recent_peak_[i], recent_error_[i], square[i], voltage[i], current[i]}) row[to++] = value;
+    recent_peak_[i] = recent_error_[i] = 0;
   }
 }
 

@@ -229,7 +229,8 @@ void Probes::add_energy() {
              [](const Sample& s) { return s.sums.angular_momentum; });
 }
 
-void Probes::add_wrench(const std::string& name, const std::string& of, const std::function<const Wrench&(const Sample&)>& read) {
+void Probes::add_wrench(const std::string& name, const std::string& of,
+                        const std::function<const Wrench&(const Sample&)>& read) {
   add_vector(name + ".f", "N", "force" + of, [read](const Sample& s) { return read(s).force; });
   add_vector(name + ".m", "N m", "moment" + of, [read](const Sample& s) { return read(s).moment; });
 }

@@ -1,5 +1,6 @@
 // How a simulation is made from scenarios, and where it starts.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -107,6 +108,29 @@ void Simulation::cut_state() {
   plant_->bind(plant_state_, plant_history_);
 }
 
+namespace {
+
+RowsNeeded rows_needed(const Scenario& s, const Recording& recording) {
+  return {s.duration / s.trace.period + 2, static_cast<double>(recording.trace.columns.size() + recording.rest.columns.size())};
+}
+
+/// InputError where the rows do not fit into the memory of this machine: they are kept until the end of the run.
+void check_memory(const Scenario& s, const RowsNeeded& needed) {
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (!(memory > 0) || needed.bytes() <= memory) return;
+  throw InputError(
+      s.place("duration"),
+      fmt::format("the run would record {:.3g} rows of {:.0f} columns, {:.3g} GB, and this machine has {:.3g} GB of memory: "
+                  "take a longer trace.period than {:.3g} s, fewer trace.columns, or a shorter duration",
+                  needed.rows, needed.columns, needed.bytes() / 1e9, memory / 1e9, s.trace.period));
+}
+
+}  // namespace
+
+RowsNeeded Simulation::rows_needed(std::size_t lane) const {
+  return gaitlab::rows_needed(scenarios_[lane], lanes_[lane]->recording);
+}
+
 void Simulation::set_start() {
   for (const auto& one : lanes_) {
     Lane& lane = *one;
@@ -130,6 +154,7 @@ void Simulation::set_start() {
     recording.rest.columns = lane.probes->rest_columns();
     recording.ticks.columns = tick_columns(layout_.joints);
     lane.ticks_per_row = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kTickRows / s.control_period - 1e-9)));
+    check_memory(s, gaitlab::rows_needed(s, recording));
     const auto reserve = [](Trace& table, double rows) {
       table.values.reserve(static_cast<std::size_t>(rows + 3) * table.columns.size());
     };

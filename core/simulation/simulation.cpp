@@ -24,7 +24,9 @@ void halve(Trace& ticks) {
   const auto row = [&](std::size_t k) { return Out(ticks.values).subspan(k * columns, columns); };
   std::size_t kept = 1;
   for (std::size_t k = 2; k < rows; k += 2, ++kept) {
-    for (std::size_t c = 1; c < columns; c += kTickColumns) row(k)[c] = std::max(row(k - 1)[c], row(k)[c]);
+    for (std::size_t c = 1; c < columns; ++c) {
+      if ((c - 1) % kTickColumns < kTickPeaks) row(k)[c] = std::max(row(k - 1)[c], row(k)[c]);
+    }
     std::ranges::copy(row(k), row(kept).begin());
   }
   ticks.values.resize(kept * columns);

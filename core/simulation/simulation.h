@@ -18,6 +18,12 @@ namespace gaitlab {
 
 class PluginError;
 
+/// What a run records: rows of numbers, which it keeps until its end.
+struct RowsNeeded {
+  double rows = 0, columns = 0;
+  [[nodiscard]] double bytes() const { return 8 * rows * columns; }
+};
+
 /// Thrown when the state diverges (not finite, or above 1e5) or a plugin throws: step, time and joint or plugin are in what().
 class SimulationError : public RunError {
  public:
@@ -55,6 +61,7 @@ class Simulation {
   /// keeps more than that (Plant::state_is_complete).
   Out state();
   [[nodiscard]] std::int64_t step_number() const { return static_cast<std::int64_t>(state_[0]); }
+  [[nodiscard]] RowsNeeded rows_needed(std::size_t lane) const;
   [[nodiscard]] double time() const { return static_cast<double>(step_number()) * h_ + within_; }
   /// What lane `lane` has recorded so far, moved out: call it once, at the end.
   Recording take_recording(std::size_t lane);

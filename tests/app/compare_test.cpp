@@ -163,9 +163,10 @@ TEST_F(Formats, TheFilesLineNamesTheTrace) {
     const std::string out = gaitlab_here("run good.yaml " + arguments).out;
     return out.substr(out.find("  files"));
   };
-  EXPECT_EQ(files("--out x"), "  files         x: trace.h5, summary.json, scenario.resolved.yaml, figure.svg\n");
+  EXPECT_EQ(files("--out x"),
+            "  files         x: trace.h5, summary.json,\n                scenario.resolved.yaml, figure.svg\n");
   EXPECT_EQ(files("--out y --format csv"),
-            "  files         y: trace.csv, recording.h5, summary.json, scenario.resolved.yaml, figure.svg\n");
+            "  files         y: trace.csv, recording.h5, summary.json,\n                scenario.resolved.yaml, figure.svg\n");
   const Result result = gaitlab_here("run good.yaml --format xml --out z");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err, "--format: xml not in {h5,csv}\nRun with --help for more information.\n");

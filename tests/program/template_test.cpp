@@ -186,7 +186,8 @@ TEST(Stream, KeepsNothingOfWhatIsOver) {
                if (seen == 225) late = mallinfo2().uordblks;
              });
   EXPECT_EQ(seen, 256);
-  EXPECT_LT(late, early + 1000000) << "bytes; one recording has 60000, and those between the two marks are 192: 11 MB if they were kept";
+  EXPECT_LT(late, early + 1000000)
+      << "bytes; one recording has 60000, and those between the two marks are 192: 11 MB if they were kept";
 }
 
 }  // namespace

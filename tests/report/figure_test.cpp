@@ -65,7 +65,7 @@ TEST(Figure, ShowsTheLastEightSecondsOrAll) {
 TEST(Figure, LongTracesStaySmall) {
   FigureInput input = sample::figure();
   FigureInput fine = input;
-  for (std::vector<double>* series : {&fine.time, &fine.angle, &fine.setpoint, &fine.torque}) {
+  for (std::vector<double>* series : {&fine.time, &fine.joints[0].angle, &fine.joints[0].setpoint, &fine.joints[0].torque}) {
     std::vector<double> dense;
     for (std::size_t i = 0; i + 1 < series->size(); ++i) {
       for (int k = 0; k < 100; ++k) dense.push_back((*series)[i] + 0.01 * k * ((*series)[i + 1] - (*series)[i]));
@@ -77,11 +77,11 @@ TEST(Figure, LongTracesStaySmall) {
 
 TEST(Figure, DoesWithoutMotorJointGroundOrViews) {
   FigureInput input = sample::figure();
-  input.setpoint.clear();
-  input.torque.clear();
+  input.joints[0].setpoint.clear();
+  input.joints[0].torque.clear();
   EXPECT_EQ(figure_svg(input).find("torque"), std::string::npos);
   EXPECT_EQ(figure_svg(input).find("set point"), std::string::npos);
-  input.angle.clear();
+  input.joints[0].angle.clear();
   EXPECT_EQ(figure_svg(input).find("time (s)"), std::string::npos);
   input.ground = false;
   EXPECT_TRUE(well_formed(figure_svg(input)));
@@ -92,9 +92,9 @@ TEST(Figure, DoesWithoutMotorJointGroundOrViews) {
 
 TEST(Figure, SurvivesAFailedRun) {
   FigureInput input = sample::figure();
-  input.angle.back() = std::numeric_limits<double>::quiet_NaN();
-  input.torque.back() = -std::numeric_limits<double>::infinity();
-  input.torque[input.torque.size() - 2] = 1e300;
+  input.joints[0].angle.back() = std::numeric_limits<double>::quiet_NaN();
+  input.joints[0].torque.back() = -std::numeric_limits<double>::infinity();
+  input.joints[0].torque[input.joints[0].torque.size() - 2] = 1e300;
   input.views.back().outlines[0].polygons[0][0].x = std::numeric_limits<double>::quiet_NaN();
   input.views.push_back({21, {}});
   const std::string svg = figure_svg(input);

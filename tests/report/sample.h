@@ -104,14 +104,16 @@ inline report::View view(const Robot& robot, RobotState state, double time) {
 inline report::FigureInput figure(double duration = 20) {
   report::FigureInput input;
   input.title = "caterpillar-8";
-  input.joint = "m3/passive";
+  input.joints.resize(1);
+  report::JointPanel& panel = input.joints[0];
+  panel.joint = "m3/passive";
   for (int row = 0; row * 0.005 <= duration; ++row) {
     const double t = row * 0.005;
     const double phase = 2 * kPi * t / 4 + 7 * 1.2;
     input.time.push_back(t);
-    input.setpoint.push_back(0.6 * math::sin(phase));
-    input.angle.push_back(0.594 * math::sin(phase - 0.05));
-    input.torque.push_back(-0.05 + 0.45 * math::sin(phase + 1) + 0.12 * math::sin(3 * phase) + 0.02 * math::sin(41 * phase));
+    panel.setpoint.push_back(0.6 * math::sin(phase));
+    panel.angle.push_back(0.594 * math::sin(phase - 0.05));
+    panel.torque.push_back(-0.05 + 0.45 * math::sin(phase + 1) + 0.12 * math::sin(3 * phase) + 0.02 * math::sin(41 * phase));
   }
   const Robot robot = caterpillar(8);
   for (int k = 4; k >= 0; --k) {

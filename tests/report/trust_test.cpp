@@ -241,7 +241,7 @@ TEST(Trust, AnActuatorThatAnImplicitStepCannotSolveIsNeverSilent) {
   EXPECT_TRUE(contains(text, " joint-steps ended off the law of their motor or stop: the torques there are wrong")) << text;
   const auto json = nlohmann::json::parse(read(folder / fmt::format("out{}/summary.json", runs)));
   EXPECT_GT(json.at("off_law"), 0);
-  EXPECT_EQ(said(" --set actuator.rise=-0.05"), "");  // one that falls
+  EXPECT_FALSE(contains(said(" --set actuator.rise=-0.05"), " joint-steps ended off"));  // one that falls
 }
 
 }  // namespace

@@ -221,9 +221,11 @@ TEST(DockingErrors, NameTheRowTheMistakeAndARemedy) {
             "robot.dat:1:1: note: it is docked here already");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {1, 2, 4, 7, 0}}),
             "robot.dat:2:1: error: unknown parent module 7: it is neither module 0 nor the child of a row");
-  EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {1, 2, 4, 1, 0}, {0, 2, 3, 0, 0}}),
-            "robot.dat:3:1: error: module 2 has two parents: 1 and 0; docks form a tree\n"
-            "robot.dat:2:1: note: it has its first parent here");
+  EXPECT_EQ(
+      error_of({{1, 1, 4, 0, 0}, {1, 2, 4, 1, 0}, {0, 2, 3, 0, 0}}),
+      "robot.dat:3:1: error: this dock closes a ring: module 2 and module 0 are joined by others already; closed chains are "
+      "not supported, docks form a tree\n"
+      "robot.dat:2:1: note: it has its first parent here");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {1, 2, 4, 3, 0}, {1, 3, 4, 2, 0}}),
             "robot.dat:2:1: error: loop: modules 2 on 3 on 2 hang on one another and none on module 0");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {1, 3, 4, 1, 0}}),

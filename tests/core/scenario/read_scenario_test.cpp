@@ -215,7 +215,8 @@ TEST_F(ScenarioTest, CommandUnitsMustAgree) {
             "DIR/s.yaml:4:20: error: controller 'pid' commands V, but actuator 'torque' takes N m\n"
             "DIR/s.yaml:3:18: note: actuator 'torque' takes N m");
   EXPECT_EQ(error(kShort + "actuator: {type: torque}\n"),
-            "DIR/s.yaml:3:18: error: the default controller 'pid' commands V, but actuator 'torque' takes N m");
+            "DIR/s.yaml:3:18: error: the default controller 'pid' commands V, but actuator 'torque' takes N m\n"
+            "DIR/s.yaml:3:18: note: a controller of its own: controller: {unit: N m, Kp: ...}");
   EXPECT_EQ(error(kShort + "actuator: {type: torque}\ncontroller: {type: hold}\n"), "no error");
 }
 

@@ -174,18 +174,17 @@ TEST(Explainer, ListsKeysWithUnitDefaultRangeAndSentence) {
   Explainer explainer;
   s.fields(explainer);
   EXPECT_EQ(table(explainer.rows()),
-            "key                 unit  default   range                       meaning\n"
-            "frequency           Hz    0.25      0 to 20, per joint          Own frequency.\n"
-            "amplitude           rad   0.6       0 to 3.2, per joint         Peak set point.\n"
-            "couplings                 chain     chain | list                chain, or a list.\n"
-            "couplings[].from          0         joint name or number        The joint that is followed.\n"
-            "couplings[].to            0         joint name or number        The joint that follows.\n"
-            "couplings[].weight  1/s   1         -1000 to 1000               Pull.\n"
-            "model:                                                          Keys of this model alone.\n"
-            "  mu                      1         0 to 100                    Size.\n"
-            "table               rad   []        list of numbers, -10 to 10  Numbers.\n"
-            "labels                    [a b, 5]  list of texts               Texts.\n"
-            "expression                x + 1     text                        A text.\n");
+            "frequency (Hz): default 0.25; 0 to 20, per joint\n    Own frequency.\n"
+            "amplitude (rad): default 0.6; 0 to 3.2, per joint\n    Peak set point.\n"
+            "couplings: default chain; chain | list\n    chain, or a list.\n"
+            "couplings[].from: default 0; joint name or number\n    The joint that is followed.\n"
+            "couplings[].to: default 0; joint name or number\n    The joint that follows.\n"
+            "couplings[].weight (1/s): default 1; -1000 to 1000\n    Pull.\n"
+            "model:\n    Keys of this model alone.\n"
+            "    mu: default 1; 0 to 100\n        Size.\n"
+            "table (rad): default []; list of numbers, -10 to 10\n    Numbers.\n"
+            "labels: default [a b, 5]; list of texts\n    Texts.\n"
+            "expression: default x + 1; text\n    A text.\n");
   EXPECT_TRUE(s.couplings.empty());
   EXPECT_EQ(explainer.keys(),
             (std::vector<std::string>{"frequency", "amplitude", "couplings", "model", "table", "labels", "expression"}));

@@ -147,7 +147,7 @@ def sine(run, t):
     """The limit cycle, prescribed."""
     net, cpg = Network(run), run.scenario["cpg"]
     t = t[:, None]
-    return net.X + ramp(t, cpg["model"]["ramp"]) * net.R * np.sin(net.omega * t + net.start)
+    return ramp(t, cpg["model"]["ramp"]) * (net.X + net.R * np.sin(net.omega * t + net.start))
 
 
 def tripod(run, t):

@@ -1,11 +1,11 @@
-#include "report/limit_cycle.h"
+#include "core/recording/limit_cycle.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
-namespace gaitlab::report {
+namespace gaitlab {
 
 namespace {
 
@@ -17,10 +17,10 @@ constexpr std::size_t kGrid = 256;    // lags and points per period in the searc
 constexpr std::size_t kFine = 4096;   // points per period when refining a lag
 constexpr std::size_t kShortest = 5;  // samples
 constexpr double kNone = 1e300;       // "no error to speak of": above every threshold
-using Column = std::vector<double>;
+using Moved = std::vector<double>;
 
-struct Columns : std::vector<Column> {
-  using std::vector<Column>::vector;
+struct Columns : std::vector<Moved> {
+  using std::vector<Moved>::vector;
   double floor = kStill;  // smallest scale of a column, rad
 };
 
@@ -35,7 +35,7 @@ struct Range {
 
 // Replaces the steps of a column that is held between ticks by straight lines between the changes. Only runs up to twice the
 // median one are joined: a pause stays a pause.
-void join_steps(Column& x) {
+void join_steps(Moved& x) {
   std::vector<std::size_t> changes;
   for (std::size_t i = 1; i < x.size(); ++i) {
     if (x[i] != x[i - 1]) changes.push_back(i);
@@ -57,7 +57,7 @@ void join_steps(Column& x) {
 // One contiguous array a column; empty if a number is not finite.
 Columns columns_of(std::span<const double> values, std::size_t columns) {
   const std::size_t rows = values.size() / columns;
-  Columns split(columns, Column(rows));
+  Columns split(columns, Moved(rows));
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t c = 0; c < columns; ++c) {
       const double value = values[row * columns + c];
@@ -65,9 +65,9 @@ Columns columns_of(std::span<const double> values, std::size_t columns) {
       split[c][row] = value;
     }
   }
-  for (Column& column : split) join_steps(column);
+  for (Moved& column : split) join_steps(column);
   // The last quarter: a start that was livelier says nothing.
-  for (const Column& column : split) {
+  for (const Moved& column : split) {
     Range range;
     for (std::size_t row = rows - rows / 4; row < rows; ++row) range.add(column[row]);
     split.floor = std::max(split.floor, kSmall * range.half());
@@ -81,7 +81,7 @@ double rough_error(const Columns& columns, std::size_t lag, std::size_t stride) 
   const std::size_t rows = columns[0].size();
   double worst = 0;
   bool moves = false;
-  for (const Column& x : columns) {
+  for (const Moved& x : columns) {
     Range range;
     double squares = 0;
     std::size_t count = 0;
@@ -107,7 +107,7 @@ class Misfit {
   Misfit(const Columns& columns, std::size_t window) : columns_(columns), window_(window) {
     stride_ = std::max<std::size_t>(1, window / kFine);
     const std::size_t rows = columns[0].size();
-    for (const Column& x : columns) {
+    for (const Moved& x : columns) {
       Range range;
       for (std::size_t back = 0; back < std::min(rows, 2 * window); back += stride_) range.add(x[rows - 1 - back]);
       const double scale = std::max(range.half(), columns.floor);
@@ -174,7 +174,7 @@ class Between {
     reach_ = whole_ + (f > 0 ? 1 : 0);
   }
   // x(i + lag) for i + reach() < size.
-  [[nodiscard]] double operator()(const Column& x, std::size_t i) const {
+  [[nodiscard]] double operator()(const Moved& x, std::size_t i) const {
     const std::size_t last = x.size() - 1;
     double sum = 0;
     for (std::size_t k = 0; k < 4; ++k) sum += weights_[k] * x[std::min(i + whole_ + k - 1, last)];
@@ -195,7 +195,7 @@ class Repetition {
     const std::size_t rows = columns[0].size();
     if (later_.reach() + window_ > rows) return;
     starts_ = rows - later_.reach() - window_ + 1;
-    for (const Column& x : columns) {
+    for (const Moved& x : columns) {
       Range range;
       for (std::size_t i = starts_ - 1; i < rows; ++i) range.add(x[i]);
       scales_.push_back(std::max(range.half(), columns.floor));
@@ -289,4 +289,4 @@ MotionCycle find_limit_cycle(std::span<const double> values, std::size_t columns
   return best;
 }
 
-}  // namespace gaitlab::report
+}  // namespace gaitlab

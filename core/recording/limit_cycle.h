@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-namespace gaitlab::report {
+namespace gaitlab {
 
 /// With T the period, x_c a column and s_c = half its peak-to-peak over the last 2 T, at least a tenth of the largest column's
 /// and 1e-3 rad:
@@ -27,4 +27,4 @@ struct MotionCycle {
 /// parabola. About 10 ms for 4001 rows x 32 columns.
 MotionCycle find_limit_cycle(std::span<const double> values, std::size_t columns, double sample_period);
 
-}  // namespace gaitlab::report
+}  // namespace gaitlab

@@ -1,4 +1,4 @@
-#include "report/limit_cycle.h"
+#include "core/recording/limit_cycle.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "core/math/functions.h"
 
-namespace gaitlab::report {
+namespace gaitlab {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -19,7 +19,7 @@ constexpr double kDt = 0.005;  // s, the default trace period
 
 using Motion = std::function<double(double t)>;
 
-double wave(double t, double period, double phase = 0) { return math::sin(2 * kPi * t / period + phase); }
+double swing(double t, double period, double phase = 0) { return math::sin(2 * kPi * t / period + phase); }
 
 std::vector<double> sample(const std::vector<Motion>& columns, double duration = 20, double dt = kDt) {
   std::vector<double> values;
@@ -43,7 +43,7 @@ Motion held(const Motion& motion, double tick) {
 std::vector<Motion> chain(double period, double rate) {
   std::vector<Motion> columns;
   for (int joint = 0; joint < 16; ++joint) {
-    const Motion angle = [=](double t) { return 0.6 * (1 - math::exp(-rate * t)) * wave(t, period, 1.2 * joint); };
+    const Motion angle = [=](double t) { return 0.6 * (1 - math::exp(-rate * t)) * swing(t, period, 1.2 * joint); };
     columns.push_back(angle);
     columns.push_back(held(angle, 0.015));
   }
@@ -53,7 +53,7 @@ std::vector<Motion> chain(double period, double rate) {
 TEST(LimitCycle, SineHasItsPeriodFromTheStart) {
   for (const double period : {0.05, 0.11, 0.5, 1.0, 3.9, 4.0, 4.0017, 2 * kPi, 9.5}) {
     SCOPED_TRACE(period);
-    const MotionCycle cycle = find({[=](double t) { return 0.6 * wave(t, period, 0.3); }});
+    const MotionCycle cycle = find({[=](double t) { return 0.6 * swing(t, period, 0.3); }});
     EXPECT_TRUE(cycle.found);
     EXPECT_NEAR(cycle.period, period, 1e-3 * period);
     EXPECT_LT(cycle.error, 0.003);
@@ -62,7 +62,7 @@ TEST(LimitCycle, SineHasItsPeriodFromTheStart) {
 }
 
 TEST(LimitCycle, PeriodBetweenSamplesIsRefined) {
-  const MotionCycle cycle = find({[](double t) { return 0.6 * wave(t, 1.2337); }});
+  const MotionCycle cycle = find({[](double t) { return 0.6 * swing(t, 1.2337); }});
   EXPECT_NEAR(cycle.period, 1.2337, 1e-5);
   EXPECT_LT(cycle.error, 1e-4);
 }
@@ -83,8 +83,8 @@ TEST(LimitCycle, ChainSettlesAndIsFast) {
 
 TEST(LimitCycle, FromIsTheEarliestWindowThatHoldsOn) {
   // A transient on one of two joints, and its definition written out with a period of whole samples.
-  const std::vector<Motion> columns = {[](double t) { return 0.6 * wave(t, 2); },
-                                       [](double t) { return 0.3 * wave(t, 2, 1) + 0.5 * math::exp(-t) * wave(t, 0.7); }};
+  const std::vector<Motion> columns = {[](double t) { return 0.6 * swing(t, 2); },
+                                       [](double t) { return 0.3 * swing(t, 2, 1) + 0.5 * math::exp(-t) * swing(t, 0.7); }};
   const MotionCycle cycle = find(columns);
   ASSERT_TRUE(cycle.found);
   ASSERT_NEAR(cycle.period, 2, 1e-4);
@@ -106,14 +106,14 @@ TEST(LimitCycle, FromIsTheEarliestWindowThatHoldsOn) {
 }
 
 TEST(LimitCycle, ALateDisturbanceMovesFrom) {
-  const MotionCycle cycle = find({[](double t) { return 0.6 * wave(t, 2) + (t > 9 && t < 9.3 ? 0.3 : 0.0); }});
+  const MotionCycle cycle = find({[](double t) { return 0.6 * swing(t, 2) + (t > 9 && t < 9.3 ? 0.3 : 0.0); }});
   ASSERT_TRUE(cycle.found);
   EXPECT_NEAR(cycle.from, 9.3, 0.02);
 }
 
 TEST(LimitCycle, HeldSetPointsDoNotHideThePeriod) {
   for (const double period : {0.5, 1.0, 4.0}) {  // none a multiple of 15 ms: the steps repeat after three periods only
-    const Motion angle = [=](double t) { return 0.6 * wave(t, period); };
+    const Motion angle = [=](double t) { return 0.6 * swing(t, period); };
     const MotionCycle cycle = find({held(angle, 0.015)});
     EXPECT_TRUE(cycle.found);
     EXPECT_NEAR(cycle.period, period, 2e-3 * period);
@@ -131,21 +131,21 @@ TEST(LimitCycle, HarmonicsAndSubharmonics) {
     const MotionCycle cycle = find(columns);
     return cycle.found ? cycle.period : 0.0;
   };
-  EXPECT_NEAR(period({[](double t) { return wave(t, 4) + 0.7 * wave(t, 2, 1) + 0.3 * wave(t, 0.8); }}), 4, 1e-3);
-  EXPECT_NEAR(period({[](double t) { return wave(t, 2) + 0.05 * wave(t, 4); }}), 4, 1e-3);  // half of it repeats to 7 % only
-  EXPECT_NEAR(period({[](double t) { return wave(t, 4) + 0.1 * wave(t, 0.2); }}), 4, 1e-3);
+  EXPECT_NEAR(period({[](double t) { return swing(t, 4) + 0.7 * swing(t, 2, 1) + 0.3 * swing(t, 0.8); }}), 4, 1e-3);
+  EXPECT_NEAR(period({[](double t) { return swing(t, 2) + 0.05 * swing(t, 4); }}), 4, 1e-3);  // half of it repeats to 7 % only
+  EXPECT_NEAR(period({[](double t) { return swing(t, 4) + 0.1 * swing(t, 0.2); }}), 4, 1e-3);
   // Joints with different frequencies: the common period.
-  EXPECT_NEAR(period({[](double t) { return wave(t, 2); }, [](double t) { return wave(t, 3); }}), 6, 1e-3);
-  EXPECT_NEAR(period({[](double t) { return wave(t, 4); }, [](double t) { return 0.1 * wave(t, 0.4); }}), 4, 1e-3);
+  EXPECT_NEAR(period({[](double t) { return swing(t, 2); }, [](double t) { return swing(t, 3); }}), 6, 1e-3);
+  EXPECT_NEAR(period({[](double t) { return swing(t, 4); }, [](double t) { return 0.1 * swing(t, 0.4); }}), 4, 1e-3);
   // Two tripods half a period apart look alike after half a period, joint by joint they do not.
-  EXPECT_NEAR(period({[](double t) { return wave(t, 2); }, [](double t) { return wave(t + 1, 2); }}), 2, 1e-3);
+  EXPECT_NEAR(period({[](double t) { return swing(t, 2); }, [](double t) { return swing(t + 1, 2); }}), 2, 1e-3);
 }
 
 TEST(LimitCycle, JointsThatHoldDoNotCount) {
   std::mt19937 random(1);
   std::normal_distribution<double> tremble(0, 5e-6);
   const MotionCycle cycle = find(
-      {[](double) { return 0.2; }, [](double t) { return 0.6 * wave(t, 2); }, [&](double) { return -0.1 + tremble(random); }});
+      {[](double) { return 0.2; }, [](double t) { return 0.6 * swing(t, 2); }, [&](double) { return -0.1 + tremble(random); }});
   EXPECT_TRUE(cycle.found);
   EXPECT_NEAR(cycle.period, 2, 1e-3);
 }
@@ -154,7 +154,7 @@ TEST(LimitCycle, LittleNoiseIsBorneMuchIsNot) {
   for (const double sigma : {0.002, 0.03}) {  // of the amplitude; the error is sqrt(2) times it
     std::mt19937 random(1);
     std::normal_distribution<double> noise(0, 0.6 * sigma);
-    const MotionCycle cycle = find({[&](double t) { return 0.6 * wave(t, 4) + noise(random); }});
+    const MotionCycle cycle = find({[&](double t) { return 0.6 * swing(t, 4) + noise(random); }});
     EXPECT_EQ(cycle.found, sigma < 0.01);
     EXPECT_NEAR(cycle.error, std::sqrt(2.0) * sigma, 0.3 * sigma);
     EXPECT_NEAR(cycle.period, 4, 0.01);
@@ -165,15 +165,15 @@ TEST(LimitCycle, NoiseAloneChirpsAndDecaysAreNone) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 0.1);
   EXPECT_FALSE(find({[&](double) { return noise(random); }}).found);
-  EXPECT_FALSE(find({[](double t) { return wave(t * (1 + 0.05 * t), 4); }}).found);
-  EXPECT_FALSE(find({[](double t) { return math::exp(-0.1 * t) * wave(t, 2); }}).found);
-  EXPECT_FALSE(find({[](double t) { return math::exp(-2 * t) * wave(t, 2); }}).found);  // and then it stands still
+  EXPECT_FALSE(find({[](double t) { return swing(t * (1 + 0.05 * t), 4); }}).found);
+  EXPECT_FALSE(find({[](double t) { return math::exp(-0.1 * t) * swing(t, 2); }}).found);
+  EXPECT_FALSE(find({[](double t) { return math::exp(-2 * t) * swing(t, 2); }}).found);  // and then it stands still
   EXPECT_FALSE(find({[](double t) { return 0.1 * t; }}).found);
-  EXPECT_FALSE(find({[](double t) { return 0.1 * t + 0.3 * wave(t, 2); }}).found);
+  EXPECT_FALSE(find({[](double t) { return 0.1 * t + 0.3 * swing(t, 2); }}).found);
 }
 
 TEST(LimitCycle, StandingStillIsNone) {
-  const MotionCycle cycle = find({[](double) { return 0.3; }, [](double t) { return 1e-4 * wave(t, 1); }});
+  const MotionCycle cycle = find({[](double) { return 0.3; }, [](double t) { return 1e-4 * swing(t, 1); }});
   EXPECT_FALSE(cycle.found);
   EXPECT_EQ(cycle.period, 0);
   EXPECT_EQ(cycle.error, 1);
@@ -181,19 +181,19 @@ TEST(LimitCycle, StandingStillIsNone) {
 
 TEST(LimitCycle, NeedsTwoPeriods) {
   for (const double period : {9.0, 9.99, 10.0}) {
-    const MotionCycle cycle = find({[=](double t) { return wave(t, period, 0.4); }});
+    const MotionCycle cycle = find({[=](double t) { return swing(t, period, 0.4); }});
     EXPECT_TRUE(cycle.found) << period;
     EXPECT_NEAR(cycle.period, period, 1e-3);
   }
   for (const double period : {10.02, 10.1, 11.0, 15.0, 40.0})
-    EXPECT_FALSE(find({[=](double t) { return wave(t, period, 0.4); }}).found) << period;
+    EXPECT_FALSE(find({[=](double t) { return swing(t, period, 0.4); }}).found) << period;
 }
 
 TEST(LimitCycle, CoarseAndLongSeries) {
-  const MotionCycle coarse = find({[](double t) { return wave(t, 1.03); }}, 20, 0.1);
+  const MotionCycle coarse = find({[](double t) { return swing(t, 1.03); }}, 20, 0.1);
   EXPECT_TRUE(coarse.found);
   EXPECT_NEAR(coarse.period, 1.03, 1e-3);
-  const MotionCycle slow = find({[](double t) { return wave(t, 400); }}, 1000, 0.005);
+  const MotionCycle slow = find({[](double t) { return swing(t, 400); }}, 1000, 0.005);
   EXPECT_TRUE(slow.found);
   EXPECT_NEAR(slow.period, 400, 0.01);
 }
@@ -201,8 +201,8 @@ TEST(LimitCycle, CoarseAndLongSeries) {
 TEST(LimitCycle, BadInputIsNone) {
   EXPECT_FALSE(find_limit_cycle({}, 0, kDt).found);
   EXPECT_FALSE(find_limit_cycle({}, 3, kDt).found);
-  EXPECT_FALSE(find({[](double t) { return wave(t, 0.02); }}, 0.05).found);
-  std::vector<double> values = sample({[](double t) { return wave(t, 2); }});
+  EXPECT_FALSE(find({[](double t) { return swing(t, 0.02); }}, 0.05).found);
+  std::vector<double> values = sample({[](double t) { return swing(t, 2); }});
   values[7] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(find_limit_cycle(values, 1, kDt).found);
 }
@@ -216,4 +216,4 @@ TEST(LimitCycle, SameInputSameBits) {
 }
 
 }  // namespace
-}  // namespace gaitlab::report
+}  // namespace gaitlab

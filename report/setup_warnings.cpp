@@ -1,0 +1,183 @@
+#include "report/setup_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/laws/dc_motor.h"
+#include "core/plugin/robot_info.h"
+#include "core/simulation/start.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kApart = 1.3;          // Kt / Ks or its inverse: measured constants of one motor agree to 10 %
+constexpr double kOvershoots = 1;       // gain of the sampled loop: with 1 the error is gone at the next tick
+constexpr double kCannotSettle = 2;     // measured: 1.3 to 1.9 settle, 2.3 does not
+constexpr double kRounding = 1 + 1e-9;  // of products that are equal on paper
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kDegrees = 360;  // what is larger is no angle in degrees either: a range that never ends
+
+/// The numbers of a plugin's settings, by key: `Kp`, `model.ramp`.
+class Numbers final : public Fields {
+ public:
+  struct Found {
+    std::string key, unit;
+    PerJoint value;
+  };
+  explicit Numbers(const PluginSelection& plugin) {
+    if (plugin.entry != nullptr) visit_settings(*plugin.entry, plugin.settings.get(), *this);
+  }
+  void visit(const Field& field) override {
+    if (const auto* number = std::get_if<field::Number>(&field.value)) {
+      found_.push_back({prefix_ + field.key, number->spec.unit, PerJoint{number->value}});
+    } else if (const auto* each = std::get_if<field::EachJoint>(&field.value)) {
+      found_.push_back({prefix_ + field.key, each->spec.unit, each->value});
+    } else if (const auto* group = std::get_if<field::Group>(&field.value)) {
+      const std::string before = prefix_;
+      prefix_ += std::string(field.key) + ".";
+      group->visit(group->self, *this);
+      prefix_ = before;
+    }
+  }
+  void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
+
+  [[nodiscard]] const std::vector<Found>& all() const { return found_; }
+  [[nodiscard]] const Found* find(const std::string& key) const {
+    const auto at = std::find_if(found_.begin(), found_.end(), [&](const Found& one) { return one.key == key; });
+    return at == found_.end() ? nullptr : &*at;
+  }
+
+ private:
+  std::vector<Found> found_;
+  std::string prefix_;
+};
+
+/// Two digits, downwards: 156.4 becomes 150.
+double two_digits(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  return std::floor(value / unit) * unit;
+}
+
+/// Where the key was given, or else its section, or the file.
+SourceLocation place_of(const Scenario& s, const std::string& key) {
+  const SourceLocation place = s.place(key);
+  return place.line > 0 ? place : s.place(key.substr(0, key.find('.')));
+}
+
+void check_constants(const Scenario& s, const DcMotor* motors, std::vector<SetupWarning>& out) {
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    const DcMotor& m = motors[j];
+    if (!(m.Kt > 0 && m.Ks > 0)) continue;
+    const double apart = std::max(m.Kt / m.Ks, m.Ks / m.Kt);
+    const std::string& name = s.robot->joints[j].name;
+    if (apart > kApart) {
+      out.push_back(
+          {place_of(s, "actuator.Kt"),
+           fmt::format("Kt {:.4g} N m/A and Ks {:.4g} V s/rad of joint {} are one constant in SI units, but differ by a "
+                       "factor of {:.3g}: is one in mN m/A or rpm/V? (1 mN m/A = 0.001 N m/A; k rpm/V = {:.4g} / k V s/rad)",
+                       m.Kt, m.Ks, name, apart, 60 / kTurn)});
+      return;
+    }
+    if (m.efficiency * m.Kt > kRounding * m.Ks) {
+      out.push_back({place_of(s, "actuator.Kt"),
+                     fmt::format("the motor of joint {} makes energy: efficiency x Kt {:.4g} N m/A exceeds Ks {:.4g} V s/rad; "
+                                 "take Kt = Ks",
+                                 name, m.efficiency * m.Kt, m.Ks)});
+      return;
+    }
+  }
+}
+
+void check_gain(const Scenario& s, const DcMotor* motors, std::vector<SetupWarning>& out) {
+  const Numbers settings(s.controller);
+  const auto* gain = settings.find("Kp");
+  if (gain == nullptr || make_controller(s.controller, info(*s.robot))->command_unit() != "V") return;
+  double largest = 0;
+  std::size_t worst = 0;
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    const double g = gain->value[j] * s.control_period / (motors[j].Ks * motors[j].gear);
+    if (!(g > largest)) continue;
+    largest = g;
+    worst = j;
+  }
+  if (!(largest > kOvershoots * kRounding)) return;
+  const bool severe = largest > kCannotSettle;
+  out.push_back(
+      {place_of(s, "controller.Kp"),
+       fmt::format("Kp {:.4g} of joint {} is {} for commands every {:.4g} s: Kp period / (Ks gear) is {:.3g}, and above {} the "
+                   "joint {}; take Kp: {:.4g} or less, or a shorter controller.period",
+                   gain->value[worst], s.robot->joints[worst].name, severe ? "too large" : "large", s.control_period, largest,
+                   severe ? kCannotSettle : kOvershoots, severe ? "cannot settle" : "overshoots",
+                   two_digits(gain->value[worst] / largest)),
+       severe});
+}
+
+void check_degrees(const Scenario& s, std::vector<SetupWarning>& out) {
+  const auto doubt = [&](const std::string& key, const std::string& what, double value) {
+    out.push_back({place_of(s, key),
+                   fmt::format("{} is {:.4g} rad, {:.3g} turns: angles are in rad; {:.4g} degrees are {:.4g} rad", what, value,
+                               std::abs(value) / kTurn, value, value * kTurn / 360),
+                   false});
+  };
+  const auto beyond = [](double value) { return std::abs(value) > 2 * kTurn; };
+  for (const PluginSelection* plugin : {&s.cpg, &s.controller, &s.actuator}) {
+    if (plugin->entry == nullptr) continue;
+    const Numbers numbers(*plugin);
+    for (const Numbers::Found& one : numbers.all()) {
+      for (std::size_t j = 0; one.unit == "rad" && j < std::max<std::size_t>(1, one.value.each.size()); ++j) {
+        if (!beyond(one.value[j])) continue;
+        const std::string key = std::string(word(plugin->entry->kind)) + "." + one.key;
+        doubt(key, key, one.value[j]);
+        break;
+      }
+    }
+  }
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    if (!beyond(s.orientation[i])) continue;
+    doubt("robot.orientation", "robot.orientation", s.orientation[i]);
+    break;
+  }
+  for (const Joint& joint : s.robot->joints) {
+    const double widest = std::max(std::abs(joint.lo), std::abs(joint.hi));
+    if (!beyond(widest) || widest > kDegrees) continue;
+    doubt("robot", "the range of hinge " + joint.name, widest);
+    break;
+  }
+}
+
+}  // namespace
+
+bool beside_field(const Ground& ground, double x, double y) {
+  if (ground.kind != Ground::Kind::heightfield) return false;
+  const Heightfield& field = ground.field;
+  const double u = (x - field.origin.x()) / field.spacing;
+  const double v = (y - field.origin.y()) / field.spacing;
+  const auto within = [](double at, std::size_t count) { return at >= 0 && at <= static_cast<double>(count - 1); };
+  return !within(u, field.columns) || !within(v, field.rows());
+}
+
+std::vector<SetupWarning> setup_warnings(const Scenario& s) {
+  std::vector<SetupWarning> out;
+  if (s.actuator.entry != nullptr && !s.robot->joints.empty()) {
+    const std::unique_ptr<Actuator> actuator = make_actuator(s.actuator, info(*s.robot));
+    if (const DcMotor* motors = actuator->dc_motors()) {
+      check_constants(s, motors, out);
+      if (s.controller.entry != nullptr) check_gain(s, motors, out);
+    }
+  }
+  check_degrees(s, out);
+  if (beside_field(s.ground, s.position.x(), s.position.y())) {
+    out.push_back(
+        {place_of(s, "ground.origin"),
+         fmt::format("the robot starts at ({:.4g}, {:.4g}) m, beside the heightfield, whose edge heights go on there: put "
+                     "the field under it (ground.origin) or the robot onto it (robot.position)",
+                     s.position.x(), s.position.y())});
+  }
+  return out;
+}
+
+}  // namespace gaitlab::report

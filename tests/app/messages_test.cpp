@@ -1,0 +1,120 @@
+// What a first user got wrong, and what the program says to it.
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+class Messages : public ::testing::Test {
+ protected:
+  Messages() {
+    std::filesystem::create_directory_symlink(kScenarios + "modules", folder_ / "modules");
+    folder_.write("ok.yaml", "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.1\n");
+  }
+  Result call(const std::string& arguments) { return gaitlab(arguments, folder_.path()); }
+  /// Refused with this and nothing else.
+  void refused(const std::string& arguments, const std::string& message) {
+    const Result result = call(arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_EQ(result.err, message + "\n") << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+  }
+  /// The same of `check` of a scenario.
+  void refused_text(const std::string& text, const std::string& message) {
+    folder_.write("s.yaml", text);
+    refused("check s.yaml", message);
+  }
+
+  Folder folder_;
+};
+
+TEST_F(Messages, ACommandOrOptionThatDoesNotExist) {
+  refused("rnu ok.yaml", "gaitlab: error: unknown command 'rnu'; did you mean 'run'?");
+  refused("run ok.yaml --sett duration=1", "gaitlab run: error: unknown option '--sett'; did you mean '--set'?");
+  refused("run ok.yaml --quite", "gaitlab run: error: unknown option '--quite'; did you mean '--quiet'?");
+}
+
+TEST_F(Messages, ATabInTheIndentation) {
+  refused_text("gaitlab: 1\nrobot:\n\tmodules: mtran\n",
+               "s.yaml:3:1: error: found a tab in the indentation; YAML is indented with blanks");
+  refused_text("gaitlab: 1\nrobot:\n  modules: mtran\n  \tbuild: x\n",
+               "s.yaml:4:3: error: found a tab in the indentation; YAML is indented with blanks");
+}
+
+TEST_F(Messages, ARingOfModules) {
+  const std::string chain = "gaitlab: 1\nrobot: {modules: mtran, docks: [";
+  const std::string end = "]}\nduration: 1\n";
+  const std::string ring =
+      "error: this dock closes a ring: module 0 and module {} are joined by others already; closed chains are not "
+      "supported, docks form a tree";
+  refused_text(chain + "[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 0, 4, 2, 0]" + end,
+               "s.yaml:2:67: " + fmt::format(fmt::runtime(ring), 2));
+  refused_text(chain + "[1, 0, 4, 1, 0], [1, 1, 4, 2, 0], [1, 2, 4, 0, 0]" + end,
+               "s.yaml:2:33: " + fmt::format(fmt::runtime(ring), 1));
+}
+
+TEST_F(Messages, ACommaThatEndsAnEquation) {
+  refused_text(
+      "gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\n"
+      "cpg: {type: equations, model: {states: {a: max(1, 2)}, output: a}}\n",
+      "s.yaml:4:44: error: a 'max(1' ends within a bracket: in { } a comma ends the text; put it in quotes, or on a "
+      "line of its own");
+}
+
+TEST_F(Messages, WhatWasTypedIsNamed) {
+  refused("check ok.yaml --seed abc", "--seed: error: seed is 'abc'; expected a whole number");
+  refused("swap ok.yaml --cpg ,", "--cpg: error: has an empty name in ','; expected types with commas between");
+  const Result result = call("converge ok.yaml --columns zzz");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_TRUE(result.err.starts_with("--columns: error: 'zzz' matches no column")) << result.err;
+}
+
+TEST_F(Messages, AnItemOfAList) {
+  refused("check ok.yaml --set robot.docks[0][1]=2",
+          "--set robot.docks[0][1]=2: error: unknown key 'docks[0][1]'; an item of a list is addressed by its number from 0: "
+          "docks.0.1");
+  EXPECT_EQ(call("check ok.yaml --set robot.docks.0.1=1").code, 0);
+}
+
+TEST_F(Messages, TheNameOfARobotIsAFileOfIt) {
+  folder_.write("s.yaml", "gaitlab: 1\nrobot: {modules: mtran, build: hexapod}\nduration: 1\n");
+  const Result result = call("check s.yaml");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "11 modules")) << result.out;
+}
+
+TEST_F(Messages, AControllerForTheTorqueActuator) {
+  const Result result = call("check ok.yaml --set actuator.type=torque");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_TRUE(contains(result.err, "a controller of its own: controller: {unit: N m, Kp: ...}")) << result.err;
+}
+
+TEST_F(Messages, AFolderIsNotARobotToExport) {
+  ASSERT_EQ(call("run ok.yaml --quiet --out run").code, 0);
+  refused("export run --to mjcf a.xml",
+          "run: error: is a folder; --to mjcf takes a scenario, of a run folder its scenario.resolved.yaml");
+}
+
+TEST_F(Messages, WhatTheMachineCannotHold) {
+  for (const char* command : {"check", "run"}) {
+    const Result result = call(std::string(command) + " ok.yaml --set duration=1e6 --set trace.period=2.5e-5");
+    EXPECT_EQ(result.code, 2);
+    EXPECT_TRUE(result.err.starts_with("--set duration=1e6: error: the run would record 4e+10 rows of ")) << result.err;
+  }
+  EXPECT_TRUE(contains(call("check ok.yaml").out, "records 22 rows of ")) << call("check ok.yaml").out;
+}
+
+/// A terminal of 80 columns: nothing but equations and YAML is wider.
+TEST_F(Messages, ManualsFitATerminal) {
+  for (const char* command : {"explain", "explain cpg hopf", "explain cpg equations", "explain actuator dc_motor"}) {
+    const std::string out = call(command).out;
+    for (std::size_t begin = 0; begin < out.size();) {
+      const std::size_t end = out.find('\n', begin);
+      const std::string line = out.substr(begin, end - begin);
+      begin = end + 1;
+      EXPECT_TRUE(line.size() <= 80 || line.starts_with("    ")) << command << ": " << line;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gaitlab::test

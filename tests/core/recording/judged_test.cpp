@@ -1,0 +1,115 @@
+#include "core/recording/judged.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gaitlab {
+namespace {
+
+constexpr double kTick = 0.1;  // s
+
+/// A run of two joints, 10 s, a row of ticks every 0.1 s: joint 0 has 1 N m, joint 1 2 N m, and what the test adds.
+Recording ticks_of_ten_seconds() {
+  Recording r;
+  r.simulated = 10;
+  r.joints.resize(2);
+  r.ticks.columns = tick_columns(2);
+  for (int k = 0; k <= 100; ++k) {
+    const double t = k * kTick;
+    r.ticks.values.insert(r.ticks.values.end(), {t, 1, 0.01, 1 * t, 0, 0, 2, 0.02, 4 * t, 0, 0});
+  }
+  return r;
+}
+
+double& cell(Recording& r, int row, std::size_t joint, std::size_t which) {
+  return r.ticks.values[static_cast<std::size_t>(row) * r.ticks.columns.size() + 1 + joint * kTickColumns + which];
+}
+
+/// Time at a limit that grows from row `from` to row `to` at the rate of 1.
+void limit(Recording& r, std::size_t joint, std::size_t which, int from, int to) {
+  for (int k = 0; k <= 100; ++k) cell(r, k, joint, which) = kTick * (std::clamp(k, from, to) - from);
+}
+
+MotionCycle cycle(double from, double period) { return {true, from, period, 0.001}; }
+
+TEST(Judged, ForgivesAtMostOnePeriodOfAStart) {
+  const Recording r = ticks_of_ten_seconds();
+  const Judged early = judge(r, cycle(1, 2.5));  // 9 s hold three periods
+  EXPECT_DOUBLE_EQ(early.from, 2.5);
+  EXPECT_DOUBLE_EQ(early.to, 10);
+  EXPECT_EQ(early.periods, 3U);
+  const Judged late = judge(r, cycle(7, 2.5));  // the limit cycle begins late: the window does not
+  EXPECT_DOUBLE_EQ(late.from, 2.5);
+  EXPECT_EQ(late.periods, 3U);
+  const Judged whole = judge(r, cycle(0, 2.5));
+  EXPECT_DOUBLE_EQ(whole.from, 0);
+  EXPECT_EQ(whole.periods, 4U);
+}
+
+TEST(Judged, WithoutALimitCycleTheStartIsAFifthOrTwoSeconds) {
+  Recording r = ticks_of_ten_seconds();
+  EXPECT_DOUBLE_EQ(judge(r, {}).from, 2);
+  EXPECT_EQ(judge(r, {}).periods, 0U);
+  r.simulated = 5;
+  EXPECT_DOUBLE_EQ(judge(r, {}).from, 1);
+  r.simulated = 100;
+  EXPECT_DOUBLE_EQ(judge(r, {}).from, 2);
+}
+
+/// What the first edition said: among joints at their limit all peaks are equal, and the lowest number won.
+TEST(Judged, TheJointThatIsLongestAtALimitComesFirst) {
+  Recording r = ticks_of_ten_seconds();
+  for (int k = 0; k <= 100; ++k) cell(r, k, 0, 0) = cell(r, k, 1, 0) = 2;
+  EXPECT_EQ(judge(r, {}).order.front(), 1U) << "without limits: by RMS";
+  EXPECT_EQ(judge(r, {}).limited(), 0U);
+  limit(r, 0, 4, 50, 60);  // current, 1 s of 8
+  const Judged j = judge(r, {});
+  EXPECT_EQ(j.order.front(), 0U);
+  EXPECT_EQ(j.limited(), 1U);
+  EXPECT_NEAR(j.joints[0].current_limited, 1.0 / 8, 1e-12);
+  EXPECT_EQ(j.joints[0].voltage_limited, 0);
+  limit(r, 1, 3, 20, 100);  // voltage, all of it
+  EXPECT_EQ(judge(r, {}).order.front(), 1U);
+  EXPECT_NEAR(judge(r, {}).joints[1].limited(), 1, 1e-12);
+}
+
+TEST(Judged, NothingOfTheStartCounts) {
+  Recording r = ticks_of_ten_seconds();
+  cell(r, 3, 0, 0) = 50;
+  cell(r, 3, 0, 1) = 5;
+  limit(r, 0, 3, 1, 15);
+  const Judged j = judge(r, {});
+  EXPECT_DOUBLE_EQ(j.joints[0].torque_peak, 1);
+  EXPECT_DOUBLE_EQ(j.joints[0].error_peak, 0.01);
+  EXPECT_EQ(j.limited(), 0U);
+  EXPECT_NEAR(j.joints[0].torque_rms, 1, 1e-12);
+  EXPECT_NEAR(j.joints[1].torque_rms, 2, 1e-12);
+}
+
+TEST(Judged, PeaksHaveTheirTimesAndSayWhetherTheyAreTheLimit) {
+  Recording r = ticks_of_ten_seconds();
+  cell(r, 40, 0, 0) = 3;
+  cell(r, 70, 0, 1) = 0.5;
+  EXPECT_FALSE(judge(r, {}).joints[0].peak_at_limit);
+  limit(r, 0, 4, 39, 40);
+  const Judged j = judge(r, {});
+  EXPECT_DOUBLE_EQ(j.joints[0].torque_peak, 3);
+  EXPECT_NEAR(j.joints[0].torque_peak_time, 4, 1e-12);
+  EXPECT_TRUE(j.joints[0].peak_at_limit);
+  EXPECT_DOUBLE_EQ(j.joints[0].error_peak, 0.5);
+  EXPECT_NEAR(j.joints[0].error_peak_time, 7, 1e-12);
+  EXPECT_EQ(j.farthest(), 0U);
+}
+
+TEST(Judged, WithoutTicksThereAreJointsAllTheSame) {
+  Recording r;
+  r.joints.resize(3);
+  const Judged j = judge(r, {});
+  EXPECT_EQ(j.joints.size(), 3U);
+  EXPECT_EQ(j.order.size(), 3U);
+  EXPECT_EQ(judge({}, {}).order.size(), 0U);
+}
+
+}  // namespace
+}  // namespace gaitlab

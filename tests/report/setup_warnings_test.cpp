@@ -1,0 +1,112 @@
+// Every rule is heard on a scenario made for it, and none on the shipped ones.
+#include "report/setup_warnings.h"
+
+#include "report/trust.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace report;
+
+const std::vector<std::string> kShipped{
+    "caterpillar.yaml", "caterpillar-equations.yaml", "hexapod.yaml", "octopod.yaml", "pendulum.yaml", "rubble.yaml"};
+
+std::vector<SetupWarning> of(const std::string& file, const std::vector<std::string>& sets) {
+  return setup_warnings(shipped(file, sets));
+}
+
+/// The one finding.
+void expect_one(const std::vector<SetupWarning>& found, bool severe, const std::string& part) {
+  ASSERT_EQ(found.size(), 1U) << part;
+  EXPECT_EQ(found[0].severe, severe);
+  EXPECT_TRUE(contains(found[0].text, part)) << found[0].text;
+}
+
+TEST(SetupWarnings, AreSilentOnShippedScenarios) {
+  for (const std::string& file : kShipped) {
+    for (const SetupWarning& doubt : of(file, {})) ADD_FAILURE() << file << ": " << doubt.text;
+  }
+}
+
+TEST(SetupWarnings, TellASlipOfUnits) {
+  // 3.95 mN m/A written without the milli: a factor of 1000 to Ks.
+  expect_one(of("caterpillar.yaml", {"actuator.Kt=3.95"}), true, "differ by a factor of 1e+03");
+  expect_one(of("caterpillar.yaml", {"actuator.Ks=0.0053"}), true, "differ by a factor of 1.34");
+  EXPECT_TRUE(of("caterpillar.yaml", {"actuator.Ks=0.005"}).empty()) << "1.27: of a data sheet";
+}
+
+TEST(SetupWarnings, TellAMotorThatMakesEnergy) {
+  expect_one(of("caterpillar.yaml", {"actuator.Kt=0.0045", "actuator.efficiency=1"}), true, "makes energy");
+  EXPECT_TRUE(of("caterpillar.yaml", {"actuator.efficiency=1"}).empty()) << "an ideal motor";
+  EXPECT_TRUE(of("caterpillar.yaml", {"actuator.Kt=0.0045"}).empty()) << "efficiency 0.7: 0.00315 < 0.00395";
+}
+
+/// Kp period / (Ks gear) = 1 at Kp = 0.00395 * 594 / 0.015 = 156.4 V/rad.
+TEST(SetupWarnings, TellALoopThatCannotSettle) {
+  EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=156"}).empty());
+  expect_one(of("caterpillar.yaml", {"controller.Kp=157"}), false, "overshoots; take Kp: 150 or less");
+  expect_one(of("caterpillar.yaml", {"controller.Kp=312"}), false, "is 1.99");
+  expect_one(of("caterpillar.yaml", {"controller.Kp=314"}), true, "cannot settle; take Kp: 150 or less");
+  EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=314", "controller.period=0.005"}).empty());
+  expect_one(of("caterpillar.yaml", {"controller.Kp={default: 100, m3/active: 400}"}), true, "of joint m3/active");
+}
+
+TEST(SetupWarnings, TellDegrees) {
+  expect_one(of("caterpillar.yaml", {"cpg.phase_lag=70"}), false, "70 degrees are 1.222 rad");
+  expect_one(of("caterpillar.yaml", {"robot.orientation=[0, 0, 90]"}), false, "90 degrees are 1.571 rad");
+  EXPECT_TRUE(of("caterpillar.yaml", {"cpg.phase_lag=-6.3", "robot.orientation=[0, 0, 6.3]"}).empty());
+}
+
+TEST(SetupWarnings, TellARobotBesideItsField) {
+  const std::string field =
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]%s}\nduration: 0.1\n"
+      "ground: {type: heightfield, heightfield: {values: [[0, 0], [0, 0]], origin: [5, 5, 0], spacing: 0.5}}\n";
+  const auto with = [&](const std::string& place) {
+    std::string text = field;
+    return text.replace(text.find("%s"), 2, place);
+  };
+  expect_one(setup_warnings(scenario(with(""))), true, "beside the heightfield");
+  EXPECT_TRUE(setup_warnings(scenario(with(", position: [5.2, 5.2]"))).empty());
+}
+
+std::string warnings_of(const Scenario& s) {
+  const Recording r = run(s);
+  return fmt::format("{}", fmt::join(trust_warnings(s, r), "\n"));
+}
+
+TEST(RunWarnings, TellASetPointThatJumps) {
+  const std::vector<std::string> sine{"duration=0.3", "physics.engine=articulated", "cpg.type=sine"};
+  const auto with = [&](const std::string& set) {
+    std::vector<std::string> sets = sine;
+    sets.push_back(set);
+    return warnings_of(shipped("caterpillar.yaml", sets));
+  };
+  EXPECT_TRUE(contains(with("cpg.amplitude=0.6"), "0.598 rad from its angle at t = 0"));
+  EXPECT_FALSE(contains(with("cpg.model.ramp=1"), "at t = 0"));
+  EXPECT_TRUE(contains(with("cpg.offset=0.3"), "at t = 0"));
+}
+
+/// `ramp` ramps the offset, too: a scenario with both has no jump.
+TEST(RunWarnings, ARampIsOfTheOffset) {
+  const Scenario s = shipped("caterpillar.yaml", {"duration=0.1", "physics.engine=articulated", "cpg.type=sine",
+                                                  "cpg.offset=0.3", "cpg.model.ramp=1"});
+  EXPECT_FALSE(contains(warnings_of(s), "at t = 0"));
+}
+
+TEST(RunWarnings, TellJointsBeyondTheirRange) {
+  const std::string text =
+      warnings_of(shipped("caterpillar.yaml", {"duration=3", "physics.engine=articulated", "cpg.amplitude=1.9"}));
+  EXPECT_TRUE(contains(text, "is beyond its range for")) << text;
+}
+
+TEST(RunWarnings, TellARobotThatLeavesItsField) {
+  const Scenario s = scenario(
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]], position: [0, 0, 0.5]}\nduration: 0.3\n"
+      "initial: {base_velocity: [3, 0, 0]}\nphysics: {engine: articulated}\nactuator: {type: none}\n"
+      "ground: {type: heightfield, heightfield: {values: [[0, 0], [0, 0]], origin: [-0.5, -0.5, 0], spacing: 1}}\n");
+  EXPECT_TRUE(contains(warnings_of(s), "leaves its heightfield at t = 0.1"));
+}
+
+}  // namespace
+}  // namespace gaitlab::test
