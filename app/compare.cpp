@@ -183,6 +183,7 @@ void add_compare(Commands& commands) {
         command.add_option("RUN_B", arguments.b, "run folder or trace file")->required();
         command.add_option("--columns", arguments.columns, "only columns that match this pattern (with * and ?)")
             ->expected(1)
+            ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
       });
 }

@@ -164,6 +164,7 @@ void add_converge(Commands& commands) {
             .add_option("--columns", arguments.columns,
                         "trace columns that match this pattern (default joint.*.torque; without motors joint.*.angle)")
             ->expected(1)
+            ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
       });

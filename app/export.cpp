@@ -72,6 +72,7 @@ void add_export(Commands& commands) {
         command.add_option("FILE", arguments.file, "file to write; must not exist")->required();
         command.add_option("--set", arguments.source.sets, "key.path=value in the scenario")
             ->expected(1)
+            ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
       });
 }

@@ -21,6 +21,7 @@ struct ManualArguments {
 void add_plugins(CLI::App& command, ManualArguments& arguments) {
   command.add_option("--plugin", arguments.plugins, "library to load first; may be repeated")
       ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 

@@ -4,8 +4,8 @@
 
 #include "app/commands.h"
 #include "core/scenario/read_scenario.h"
-#include "report/setup_warnings.h"
 #include "report/summary.h"
+#include "report/warnings.h"
 
 namespace gaitlab::app {
 
@@ -38,7 +38,7 @@ void warn_of_start(const Scenario& scenario, bool quiet) {
     const SourceLocation place = scenario.on_ground ? SourceLocation{scenario.file} : scenario.place("robot.position");
     fmt::print(stderr, "{}: warning: {}\n", to_string(place), warning);
   }
-  for (const report::SetupWarning& doubt : report::setup_warnings(scenario)) {
+  for (const report::Warning& doubt : report::setup_warnings(scenario)) {
     if (doubt.severe) fmt::print(stderr, "{}: warning: {}\n", to_string(doubt.place), doubt.text);
     if (!doubt.severe && !quiet) fmt::print(stderr, "{}: note: {}\n", to_string(doubt.place), doubt.text);
   }
@@ -48,6 +48,7 @@ void add_scenario(CLI::App& command, ScenarioArguments& arguments) {
   command.add_option("SCENARIO", arguments.file, "scenario file (YAML)")->required();
   command.add_option("--set", arguments.sets, "override a key, as key.path=value; may be repeated")
       ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("--seed", arguments.seed, "seed of the random number generator, instead of the scenario's");
   command.add_flag("--quiet", arguments.quiet, "print no notes, no progress and no summary");

@@ -15,6 +15,7 @@
 #include "report/run_figure.h"
 #include "report/summary.h"
 #include "report/trust.h"
+#include "report/warnings.h"
 
 namespace gaitlab::app {
 
@@ -123,6 +124,8 @@ void warn_of_run(const Scenario& scenario, const Recording& recording, const rep
   const std::string where = to_string(scenario.place("physics.step"));
   const std::string warning = report::stability_warning(summary, scenario, recording);
   if (!warning.empty()) fmt::print(stderr, "{}: warning: {}\n", where, warning);
+  for (const report::Warning& doubt : report::run_warnings(scenario, recording))
+    fmt::print(stderr, "{}: warning: {}\n", to_string(doubt.place), doubt.text);
   if (recording.outcome != "done") return;
   for (const std::string& doubt : report::trust_warnings(scenario, recording))
     fmt::print(stderr, "{}: warning: {}\n", where, doubt);

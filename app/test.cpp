@@ -163,11 +163,14 @@ void print_notes(const std::vector<GoldenCase>& cases) {
 
 std::string junit(const std::vector<GoldenCase>& cases) {
   const std::size_t errors = count(cases, Verdict::bad_input) + count(cases, Verdict::run_failed);
+  double seconds = 0;  // of all runs, which may have run side by side
+  for (const GoldenCase& c : cases) seconds += c.seconds;
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
-  text += fmt::format("<testsuite name=\"gaitlab test\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n",
-                      cases.size(), count(cases, Verdict::regression), errors, count(cases, Verdict::skipped));
+  text += fmt::format(
+      "<testsuite name=\"gaitlab test\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n",
+      cases.size(), count(cases, Verdict::regression), errors, count(cases, Verdict::skipped), seconds);
   for (const GoldenCase& c : cases) {
-    text += fmt::format("<testcase classname=\"golden\" name=\"{}\">", report::xml_escaped(c.file));
+    text += fmt::format("<testcase classname=\"golden\" name=\"{}\" time=\"{:.3f}\">", report::xml_escaped(c.file), c.seconds);
     const auto element = [&](const char* name, const std::string& message, const std::string& content) {
       text += fmt::format("<{0} message=\"{1}\">{2}</{0}>", name, report::xml_escaped(message), content);
     };

@@ -129,6 +129,7 @@ void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog&
 }
 
 void judge(GoldenCase& c, Outcome& outcome) {
+  c.seconds = outcome.seconds;
   try {
     if (outcome.error) std::rethrow_exception(outcome.error);
   } catch (const InputError& error) {

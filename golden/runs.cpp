@@ -1,6 +1,7 @@
 #include "golden/runs.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -106,6 +107,10 @@ std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int job
   std::vector<Outcome> outcomes(scenarios.size());
   Bar bar(scenarios, progress);
   parallel(scenarios.size(), jobs, [&](std::size_t i) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto stop = [&] {
+      outcomes[i].seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
     try {
       double before = 0;
       outcomes[i].run = golden_run(scenarios[i], [&](double share) {
@@ -115,6 +120,7 @@ std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int job
     } catch (...) {
       outcomes[i].error = std::current_exception();
     }
+    stop();
   });
   return outcomes;
 }

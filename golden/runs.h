@@ -16,6 +16,7 @@ struct Outcome {
   /// row every 20 ms (the largest whole multiple of the trace period up to that, at least one of it); and the figures that a
   /// golden holds.
   GoldenRun run;
+  double seconds = 0;        ///< that it took, for reports alone
   std::exception_ptr error;  ///< InputError: the step is too long; RunError: it diverged
 };
 

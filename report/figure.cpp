@@ -123,15 +123,19 @@ class Chart {
     }
   }
 
+  // A peak is of all steps, the curve of rows: the mark is at the height of the peak, on the side of the nearest row.
   void mark_peak(const std::vector<double>& torque, const Scale& y) {
-    std::size_t peak = first_;
-    for (std::size_t i = first_; i < torque.size(); ++i) {
-      if (std::isfinite(torque[i]) && std::abs(torque[i]) > std::abs(torque[peak])) peak = i;
+    if (!(panel_.peak > 0)) return;
+    std::size_t row = first_;
+    while (row + 1 < torque.size() && input_.time[row] < panel_.peak_time - 1e-9) ++row;
+    const bool shown = panel_.peak_time >= input_.time[first_] && std::isfinite(torque[row]);
+    const double height = std::copysign(panel_.peak, shown ? torque[row] : 1);
+    if (shown) {
+      const double at = std::clamp(y(height), top_, bottom_);
+      svg_.circle({x_(panel_.peak_time), at}, 3.5, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 1});
     }
-    if (!std::isfinite(torque[peak]) || torque[peak] == 0) return;
-    const Point at{x_(input_.time[peak]), y(torque[peak])};
-    svg_.circle(at, 3.5, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 1});
-    svg_.text({kRight, bottom_ + 38}, fmt::format("largest torque {:.3g} N m at {:.2f} s", torque[peak], input_.time[peak]),
+    svg_.text({kRight, bottom_ + 38},
+              fmt::format("peak {:.3g} N m at {:.2f} s{}", panel_.peak, panel_.peak_time, shown ? "" : ", not shown"),
               {.anchor = Anchor::end, .fill = colour::kVermillion});
   }
 
@@ -179,7 +183,10 @@ class Chart {
       svg_.text({x, y}, name);
       svg_.rectangle({x - 20, y - 10}, 12, 12, {.fill = colour::kPale});
     }
-    svg_.text({left_, y}, "joint " + panel_.joint, {.bold = true});
+    const std::string name = "joint " + panel_.joint;
+    double size = 13;
+    while (size > 8 && 1.1 * text_width(name, size) > x - left_) size -= 0.5;
+    svg_.text({left_, y}, name, {.size = size, .bold = true});
   }
 
   Svg& svg_;

@@ -24,6 +24,7 @@ struct JointPanel {
   std::vector<double> angle, setpoint;  ///< rad; as long as the figure's time, or empty: not drawn
   std::vector<double> torque;           ///< N m; likewise
   std::vector<double> limit;            ///< not 0 where the motor is at a limit: shaded; likewise
+  double peak = 0, peak_time = 0;       ///< N m, s: the largest torque of the window that is judged; 0: not told
   double least_angle = 0;               ///< rad: the angle axis spans at least -this to this, so that a joint at rest looks it
 };
 

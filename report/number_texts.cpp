@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scenario/wording.h"
 #include "report/trust.h"
 
 namespace gaitlab::report::texts {
@@ -52,8 +53,10 @@ Lines steps(const RunData& run) {
 
 Lines robot(const RunData& run) {
   const Robot& robot = *run.scenario.robot;
-  return {fmt::format("{} modules, {} bodies, {} joints, {} degrees of freedom, {:.3f} kg", robot.modules.size(),
-                      robot.bodies.size(), robot.joints.size(), robot.dof(run.scenario.base), robot.mass)};
+  const std::size_t dof = robot.dof(run.scenario.base);
+  return {fmt::format("{}, {} bod{}, {}, {} degree{} of freedom, {:.3f} kg", counted(robot.modules.size(), "module"),
+                      robot.bodies.size(), robot.bodies.size() == 1 ? "y" : "ies", counted(robot.joints.size(), "joint"), dof,
+                      dof == 1 ? "" : "s", robot.mass)};
 }
 
 Lines distance(const RunData& run) {
@@ -78,69 +81,95 @@ Lines limit_cycle(const RunData& run) {
 Lines transport(const RunData& run) {
   const Summary& s = run.summary;
   if (!has_motors(run)) return {};
+  if (!(run.scenario.robot->mass * run.scenario.physics.gravity.norm() > 0)) return {"cost of transport undefined: no weight"};
   if (s.distance < kLeastTravel) return {"cost of transport undefined: travelled less than 1 mm"};
   return {
       fmt::format("cost {:.3g} electrical, {:.3g} mechanical (J per N of weight and m)", s.cost_electrical, s.cost_mechanical)};
 }
 
+namespace {
+
+std::string joint_name(const RunData& run, std::size_t joint) { return run.scenario.robot->joints[joint].name; }
+
+/// `21.5 % of the time (current)`.
+std::string share_at_limit(const JudgedJoint& j) {
+  if (j.voltage_limited > 0 && j.current_limited > 0)
+    return fmt::format("{} of the time ({} voltage, {} current)", percent(j.limited()), percent(j.voltage_limited),
+                       percent(j.current_limited));
+  return fmt::format("{} of the time ({})", percent(j.limited()), j.voltage_limited > 0 ? "voltage" : "current");
+}
+
+}  // namespace
+
 Lines window(const RunData& run) {
   if (!has_motors(run)) return {};
   const Judged& j = run.summary.judged;
-  const std::string periods = j.periods == 0 ? ""
-                                             : fmt::format(", {} period{} of {:.4g} s", j.periods, j.periods == 1 ? "" : "s",
-                                                           run.summary.limit_cycle.period);
-  return {fmt::format("t = {:.2f} to {:.2f} s{}", j.from, j.to, periods)};
+  const std::string stretch = fmt::format("t = {:.4g} to {:.4g} s, ", j.from, j.to);
+  if (j.periods == 0) return {stretch + "not a whole period of a limit cycle"};
+  return {stretch +
+          fmt::format("{} period{} of {:.4g} s", j.periods, j.periods == 1 ? "" : "s", run.summary.limit_cycle.period)};
 }
 
 Lines limits(const RunData& run) {
   if (!has_motors(run)) return {};
   const Judged& judged = run.summary.judged;
   const std::size_t worst = run.summary.most_loaded();
-  const JudgedJoint& j = judged.joints[worst];
-  const std::size_t some = judged.limited();
-  if (some == 0) return {fmt::format("no joint at a limit of its motor")};
-  std::string limit = j.voltage_limited > 0 ? "voltage" : "current";
-  if (j.voltage_limited > 0 && j.current_limited > 0) {
-    limit = fmt::format("{} voltage, {} current", percent(j.voltage_limited), percent(j.current_limited));
+  const std::size_t some = Judged::limited(judged.joints);
+  Lines lines;
+  if (some == 0) {
+    lines.emplace_back("no joint at a limit of its motor");
+  } else if (judged.joints[worst].limited() > 0) {
+    lines.push_back(
+        fmt::format("{} of {} joints reach a limit, {} longest:", some, judged.joints.size(), joint_name(run, worst)));
+    lines.push_back("at its limit " + share_at_limit(judged.joints[worst]));
+  } else {
+    lines.push_back(fmt::format("{} of {} joints reach a limit, for an instant", some, judged.joints.size()));
   }
-  return {fmt::format("{} of {} joints reach a limit, {} longest:", some, judged.joints.size(),
-                      run.scenario.robot->joints[worst].name),
-          fmt::format("at its limit {} of the time ({})", percent(j.limited()), limit)};
+  if (some == 0 && Judged::limited(judged.whole) > 0) {
+    const auto longer = [](const JudgedJoint& a, const JudgedJoint& b) { return a.limited() < b.limited(); };
+    const auto start = std::max_element(judged.whole.begin(), judged.whole.end(), longer);
+    lines.push_back(fmt::format("before: {} of {} joints, {} longest: {} of the run", Judged::limited(judged.whole),
+                                judged.whole.size(), joint_name(run, static_cast<std::size_t>(start - judged.whole.begin())),
+                                percent(start->limited())));
+  }
+  return lines;
 }
 
 Lines most_loaded(const RunData& run) {
   if (!has_motors(run)) return {};
+  const Judged& judged = run.summary.judged;
   const std::size_t worst = run.summary.most_loaded();
-  const JudgedJoint& j = run.summary.judged.joints[worst];
-  const auto name = [&](std::size_t joint) { return run.scenario.robot->joints[joint].name; };
-  Lines lines{fmt::format("{}: peak {:.3f} N m at t = {:.2f} s{}, RMS {:.3f} N m", name(worst), j.torque_peak,
-                          j.torque_peak_time, j.peak_at_limit ? " (its limit)" : "", j.torque_rms)};
-  const std::vector<JointStatistics>& all = run.record.joints;
-  const auto less = [](const JointStatistics& a, const JointStatistics& b) { return a.torque_peak < b.torque_peak; };
-  const auto most = std::max_element(all.begin(), all.end(), less);
-  lines.push_back(fmt::format("whole run: {:.3f} N m at t = {:.4g} s ({})", most->torque_peak, most->torque_peak_time,
-                              name(static_cast<std::size_t>(most - all.begin()))));
+  const auto text = [&](const JudgedJoint& j) {
+    return fmt::format("{:.3f} N m at t = {:.2f} s{}", j.torque_peak, j.torque_peak_time,
+                       j.peak_at_limit ? " (its limit)" : "");
+  };
+  Lines lines{fmt::format("{}: peak {}, RMS {:.3f} N m", joint_name(run, worst), text(judged.joints[worst]),
+                          judged.joints[worst].torque_rms)};
+  const std::size_t most = Judged::strongest(judged.whole);
+  const JudgedJoint& all = judged.whole[most];
+  if (most != worst || all.torque_peak_time != judged.joints[worst].torque_peak_time)
+    lines.push_back(fmt::format("whole run: {}: {}", joint_name(run, most), text(all)));
   return lines;
 }
 
 Lines tracking(const RunData& run) {
   if (!has_motors(run)) return {};
   const Judged& judged = run.summary.judged;
-  const auto name = [&](std::size_t joint) { return run.scenario.robot->joints[joint].name; };
-  const JudgedJoint& j = judged.joints[judged.farthest()];
-  const std::size_t most = farthest(run);
-  const JointStatistics& f = run.record.joints[most];
-  return {
-      fmt::format("error at most {:.3f} rad at t = {:.2f} s ({})", j.error_peak, j.error_peak_time, name(judged.farthest())),
-      fmt::format("whole run: {:.3f} rad at t = {:.2f} s ({})", f.error_peak, f.error_peak_time, name(most))};
+  const auto text = [&](const std::vector<JudgedJoint>& joints) {
+    const std::size_t j = Judged::farthest(joints);
+    return fmt::format("{}: {:.3f} rad at t = {:.2f} s", joint_name(run, j), joints[j].error_peak, joints[j].error_peak_time);
+  };
+  Lines lines{text(judged.joints)};
+  if (text(judged.whole) != lines.front()) lines.push_back("whole run: " + text(judged.whole));
+  return lines;
 }
 
 Lines drawn(const RunData& run) {
   if (!has_motors(run)) return {};
   const Ledger& l = run.record.ledger;
-  const std::string missing =
-      l.electrical > 0 ? fmt::format("; {:.2g} % unaccounted for", 100 * std::abs(l.residual()) / l.electrical) : "";
-  return {fmt::format("{:.4g} J drawn{}", l.electrical, missing)};
+  const double share = std::abs(l.residual()) / energy_scale(run.scenario, run.record);
+  return {fmt::format("{:.4g} J drawn; {:.2g} J unaccounted for{}", l.electrical, std::abs(l.residual()),
+                      share < 1 ? fmt::format(" ({:.2g} %)", 100 * share) : "")};
 }
 
 Lines ledger(const RunData& run) {
@@ -170,14 +199,19 @@ Lines created_energy(const RunData& run) {
 }
 
 Lines range(const RunData& run) {
-  Lines lines;
+  std::size_t some = 0;
+  std::size_t worst = 0;
   for (std::size_t j = 0; j < run.record.joints.size(); ++j) {
     const JointStatistics& f = run.record.joints[j];
-    if (!(f.setpoint_outside > 0 || f.range_share > 0)) continue;
-    lines.push_back(fmt::format("{}: outside {} of the time, by {:.3g} rad; set point {}", run.scenario.robot->joints[j].name,
-                                percent(f.range_share), f.range_worst, percent(f.setpoint_outside)));
+    if (f.setpoint_outside > 0 || f.range_share > 0) ++some;
+    if (f.range_worst > run.record.joints[worst].range_worst) worst = j;
   }
-  return lines;
+  if (some == 0) return {};
+  const JointStatistics& f = run.record.joints[worst];
+  return {
+      fmt::format("{} of {} joints beyond their range, {} farthest:", some, run.record.joints.size(), joint_name(run, worst)),
+      fmt::format("{:.3g} rad, {} of the time; set point {}", f.range_worst, percent(f.range_share),
+                  percent(f.setpoint_outside))};
 }
 
 Lines stability(const RunData& run) {
@@ -212,7 +246,7 @@ std::string saturated_cell(const RunData& run) {
 
 std::string tracking_cell(const RunData& run) {
   const Judged& judged = run.summary.judged;
-  return has_motors(run) ? fmt::format("{:.3f}", judged.joints[judged.farthest()].error_peak) : "-";
+  return has_motors(run) ? fmt::format("{:.3f}", judged.joints[Judged::farthest(judged.joints)].error_peak) : "-";
 }
 
 std::string limit_cycle_cell(const RunData& run) {

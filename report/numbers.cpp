@@ -1,6 +1,7 @@
 #include "report/numbers.h"
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -22,9 +23,11 @@ auto of_whole_run(double F::*member) {
   return [member](R run, std::size_t joint) { return run.record.joints[joint].*member; };
 }
 
-/// Within the judged window.
+/// Within the judged window; NaN (null) where nothing drives the joints.
 auto of_window(double JudgedJoint::*member) {
-  return [member](R run, std::size_t joint) { return run.summary.judged.joints[joint].*member; };
+  return [member](R run, std::size_t joint) {
+    return has_motors(run) ? run.summary.judged.joints[joint].*member : std::numeric_limits<double>::quiet_NaN();
+  };
 }
 
 /// Null: nothing drives the joints.
@@ -127,9 +130,9 @@ std::vector<SummaryNumber> list() {
       {.key = "judged.from",
        .unit = "s",
        .definition =
-           "Start of the window by which the run is judged: the limit cycle, but at most one period of a start is left "
-           "out, and whole periods up to the end; without a limit cycle 2 s or a fifth of the run, whichever is "
-           "earlier.",
+           "Start of the window by which the run is judged: whole periods up to the end, from the limit cycle on, or from "
+           "earlier on where more than one period would be left out; without a limit cycle 2 s or a fifth of the "
+           "run, whichever is earlier.",
        .value = [](R r) { return r.summary.judged.from; },
        .line = {42, "judged", texts::window}},
       {.key = "judged.to", .unit = "s", .definition = "Its end.", .value = [](R r) { return r.summary.judged.to; }},
@@ -145,8 +148,8 @@ std::vector<SummaryNumber> list() {
        .compare = {216},
        .swap = {50, "at a limit", "share", 10, texts::saturated_cell}},
       {.key = "judged.joints_at_limit",
-       .definition = "Number of joints that are at a limit at some time of the window.",
-       .value = [](R r) { return of_motors(r, [](const Judged& j) { return j.limited(); }); },
+       .definition = "Number of joints that reach a limit in the window, however shortly.",
+       .value = [](R r) { return of_motors(r, [](const Judged& j) { return Judged::limited(j.joints); }); },
        .compare = {217}},
       {.key = "wall_time",
        .unit = "s",

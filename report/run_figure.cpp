@@ -159,7 +159,7 @@ std::vector<double> times(const Scenario& scenario, const Recording& r, const Su
   return time;
 }
 
-JointPanel joint_panel(const Scenario& scenario, const Recording& r, std::size_t joint) {
+JointPanel joint_panel(const Scenario& scenario, const Recording& r, const Summary& summary, std::size_t joint) {
   JointPanel panel;
   panel.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
   panel.angle = r.joint(joint, "angle").values();
@@ -167,6 +167,10 @@ JointPanel joint_panel(const Scenario& scenario, const Recording& r, std::size_t
     panel.setpoint = r.joint(joint, "setpoint").values();
     panel.torque = r.joint(joint, "torque").values();
     panel.limit = r.joint(joint, "saturation").values();
+    if (joint < summary.judged.joints.size()) {
+      panel.peak = summary.judged.joints[joint].torque_peak;
+      panel.peak_time = summary.judged.joints[joint].torque_peak_time;
+    }
   }
   return panel;
 }
@@ -208,8 +212,8 @@ void add_period(FigureInput& input, const Scenario& scenario, const Recording& r
     if (tick >= input.time.size() || (i > 0 && input.time[tick] <= input.views.back().time)) continue;
     input.views.push_back(view_at(scenario, r, from, tick, joint));
   }
-  input.views_title =
-      fmt::format("{} over {} {:.3g} s", from.view, cycle.found && cycle.period <= span ? "one period," : "the last", span);
+  input.views_title = fmt::format("{} over {} {:.3g} s (arrow: joint above)", from.view,
+                                  cycle.found && cycle.period <= span ? "one period," : "the last", span);
   input.views_axis = from.axis + (from.above ? ", both ways on one scale" : ", heights on the same scale");
   const double ahead = from.camera.right.dot(r.state(*scenario.robot, r.rows() - 1).orientation * Vec3::UnitX());
   if (std::abs(ahead) < 0.7) return;  // seen from the front rather than from the side
@@ -226,14 +230,14 @@ std::string legged_figure(const Scenario& scenario, const Recording& r, const Su
   const double start = periods_from(summary);
   const std::size_t spine = central_spine_joint(info(*scenario.robot), legs);
   const std::size_t worst = summary.most_loaded();
-  JointPanel middle = joint_panel(scenario, r, spine);
+  JointPanel middle = joint_panel(scenario, r, summary, spine);
   middle.joint += ", middle of the spine";
   middle.least_angle = kLeastAngle;
   if (worst != spine) {
-    input.joints.push_back(joint_panel(scenario, r, worst));
-    input.joints.back().joint += ", most loaded (arrow below)";
+    input.joints.push_back(joint_panel(scenario, r, summary, worst));
+    input.joints.back().joint += ", most loaded";
   } else {
-    middle.joint += ", most loaded (arrow below)";
+    middle.joint += ", most loaded";
   }
   input.joints.push_back(std::move(middle));
   input.footfalls = footfalls(scenario, r, legs, input.time, start);
@@ -285,11 +289,15 @@ std::string run_figure(const Scenario& scenario, const Recording& r, const Summa
   input.views_axis = from.axis + (from.above ? ", both ways on one scale" : ", heights on the same scale");
   if (!scenario.robot->joints.empty()) {
     input.time = times(scenario, r, summary);
-    input.joints.push_back(joint_panel(scenario, r, joint));
+    input.joints.push_back(joint_panel(scenario, r, summary, joint));
   }
-  const auto second = static_cast<std::size_t>(std::max<std::int64_t>(1, whole(1.0, scenario.trace.period)));
-  for (std::size_t back = kViews; back-- > 0;) {
-    if (ticks > back * second) input.views.push_back(view_at(scenario, r, from, ticks - 1 - back * second, joint));
+  if (summary.limit_cycle.found && !input.time.empty()) {
+    add_period(input, scenario, r, summary, from, joint);
+  } else {
+    const auto second = static_cast<std::size_t>(std::max<std::int64_t>(1, whole(1.0, scenario.trace.period)));
+    for (std::size_t back = kViews; back-- > 0;) {
+      if (ticks > back * second) input.views.push_back(view_at(scenario, r, from, ticks - 1 - back * second, joint));
+    }
   }
   return figure_svg(input);
 }

@@ -130,10 +130,11 @@ std::string to_text(const Summary& s, const Scenario& scenario, const Recording&
 }
 
 std::string joint_table(const Summary& s, const Scenario& scenario) {
+  if (!has_motors(scenario) || s.judged.joints.empty()) return "  no table of joints: nothing drives them\n";
   std::size_t width = 5;
   for (const Joint& joint : scenario.robot->joints) width = std::max(width, joint.name.size());
-  std::string text = fmt::format("  {:<{}}  {:^15}  {:^24}  {:^16}\n  {:<{}} {:>8} {:>8} {:>9} {:>8} {:>6}  {:>8} {:>8}\n", "",
-                                 width, "at a limit", "torque, N m", "tracking error", "joint", width, "voltage", "current",
+  std::string text = fmt::format("  {:<{}}  {:^15}  {:^24}  {}\n  {:<{}} {:>8} {:>8} {:>9} {:>8} {:>6}  {:>8} {:>8}\n", "",
+                                 width, "at a limit", "torque, N m", " tracking error", "joint", width, "voltage", "current",
                                  "peak", "at s", "RMS", "rad", "at s");
   for (const std::size_t j : s.judged.order) {
     const JudgedJoint& joint = s.judged.joints[j];
@@ -142,7 +143,8 @@ std::string joint_table(const Summary& s, const Scenario& scenario) {
                         texts::percent(joint.current_limited), joint.torque_peak, joint.peak_at_limit ? '*' : ' ',
                         joint.torque_peak_time, joint.torque_rms, joint.error_peak, joint.error_peak_time);
   }
-  return text + "  *: at the motor's limit\n";
+  const bool marked = std::ranges::any_of(s.judged.joints, &JudgedJoint::peak_at_limit);
+  return text + (marked ? "  *: at the motor's limit\n" : "");
 }
 
 namespace {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/scenario/wording.h"
 #include "core/simulation/step_advice.h"
-#include "report/setup_warnings.h"
 
 namespace gaitlab::report {
 
@@ -78,54 +78,10 @@ std::string steps_text(const Scenario& scenario, const Recording& r) {
   return text;
 }
 
-namespace {
-
-constexpr double kJump = 0.05;         // rad: half the tracking error that the paper's figure 14 has room for
-constexpr double kBeyondOften = 0.01;  // share of the time
-
-/// Less than nothing was drawn, by more than what is judged.
-bool drawn_back(const Scenario& s, const Recording& r) {
-  return s.actuator.entry != nullptr && r.ledger.electrical < -s.robot->mass * s.physics.gravity.norm() * kHeight;
+double energy_scale(const Scenario& s, const Recording& r) {
+  return std::max({std::abs(r.ledger.electrical), std::abs(r.ledger.stored), s.robot->mass * s.physics.gravity.norm() * kHeight,
+                   std::numeric_limits<double>::min()});
 }
-
-void warn_of_joints(const Scenario& s, const Recording& r, std::vector<std::string>& warnings) {
-  if (s.actuator.entry == nullptr || r.joints.empty()) return;
-  const auto worst = [&](double JointStatistics::*member) {
-    const auto less = [&](const JointStatistics& a, const JointStatistics& b) { return a.*member < b.*member; };
-    return static_cast<std::size_t>(std::max_element(r.joints.begin(), r.joints.end(), less) - r.joints.begin());
-  };
-  const std::size_t jumps = worst(&JointStatistics::start_jump);
-  if (const double jump = r.joints[jumps].start_jump; jump > kJump) {
-    warnings.push_back(
-        fmt::format("the set point of joint {} is {:.3g} rad from its angle at t = 0, and its motor answers at once: peaks "
-                    "of the whole run may be of that; set initial.angles, or cpg.model.ramp where the gait has it",
-                    s.robot->joints[jumps].name, jump));
-  }
-  const std::size_t beyond = worst(&JointStatistics::range_share);
-  if (const JointStatistics& joint = r.joints[beyond]; joint.range_share > kBeyondOften) {
-    warnings.push_back(fmt::format(
-        "joint {} is beyond its range for {} of the time, by up to {:.3g} rad, its set point for {}: the hinge "
-        "stop carries it there",
-        s.robot->joints[beyond].name, percent(joint.range_share), joint.range_worst, percent(joint.setpoint_outside)));
-  }
-}
-
-/// The robot left its heightfield (a start beside it is told before the run).
-std::string beside_warning(const Scenario& s, const Recording& r) {
-  const Series x = r.series("com.x");
-  const Series y = r.series("com.y");
-  if (x.empty() || y.empty() || beside_field(s.ground, x.front(), y.front())) return "";
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    if (!beside_field(s.ground, x[k], y[k])) continue;
-    return fmt::format(
-        "the robot leaves its heightfield at t = {:.2f} s, x {:.3g} m, y {:.3g} m: beyond it the heights of the border go "
-        "on; a larger ground.values or spacing",
-        std::min(static_cast<double>(k) * s.trace.period, r.simulated), x[k], y[k]);
-  }
-  return "";
-}
-
-}  // namespace
 
 std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
   std::vector<std::string> warnings;
@@ -143,7 +99,7 @@ std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
   }
   const double residual = std::abs(r.ledger.residual());
   const double drawn = std::abs(r.ledger.electrical);
-  const double judged = std::max({drawn, std::abs(r.ledger.stored), s.robot->mass * s.physics.gravity.norm() * kHeight});
+  const double judged = energy_scale(s, r);
   if (s.actuator.entry != nullptr && residual > kGood * judged) {
     warnings.push_back(fmt::format("the energy does not add up: {:.3g} J are missing of {:.3g} J drawn; take {}", residual,
                                    drawn, s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step"));
@@ -154,14 +110,6 @@ std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
                     "does the torque of the actuator fall with the joint's speed, as it must?",
                     r.tally.off));
   }
-  if (drawn_back(s, r)) {
-    warnings.push_back(
-        fmt::format("the motors gave {:.3g} J back to their supply instead of drawing any, so that the cost of "
-                    "transport is negative: does the ground fall, or does a motor make energy (Kt, Ks, efficiency)?",
-                    -r.ledger.electrical));
-  }
-  warn_of_joints(s, r, warnings);
-  if (const std::string beside = beside_warning(s, r); !beside.empty()) warnings.push_back(beside);
   return warnings;
 }
 

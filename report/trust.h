@@ -24,8 +24,10 @@ std::string steps_text(const Scenario& scenario, const Recording& record);
 
 /// One sentence each, with its remedy: torques that are off by more than 1 % (or the accuracy asked for, if that is more), an
 /// energy that does not add up to 1 % of what is drawn (or stored, or lifts the robot by 1 mm, if that is more), joint-steps
-/// off their law, steps that never reached the accuracy; a supply that got energy back, a set point that jumps at the start, a
-/// joint beyond its range for more than 1 % of the time, a robot that left its heightfield.
+/// off their law, steps that never reached the accuracy.
 std::vector<std::string> trust_warnings(const Scenario& scenario, const Recording& record);
+
+/// J: what a missing energy is measured by: drawn, or stored, or the robot lifted by 1 mm, whichever is more; above 0.
+double energy_scale(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

@@ -116,16 +116,24 @@ class DockRows {
         dock.child_module, dock.parent_module);
   }
 
-  /// Whether docks between other pairs of modules, wherever they are in the list, join the two of this one.
-  [[nodiscard]] bool closes_ring(const Dock& dock) const {
+  /// Whether docks between other pairs of modules, wherever they are in the list, join the two of this one. Asked for the first
+  /// few that might: a list that is wrong throughout is not a ring.
+  [[nodiscard]] bool closes_ring(const Dock& dock) {
+    constexpr int kAsked = 8;
+    if (rings_asked_++ >= kAsked) return false;
+    std::multimap<int, int> beside;
+    for (const Dock& other : docks_) {
+      if (std::minmax(other.child_module, other.parent_module) == std::minmax(dock.child_module, dock.parent_module)) continue;
+      beside.emplace(other.child_module, other.parent_module);
+      beside.emplace(other.parent_module, other.child_module);
+    }
     std::set<int> reached{dock.child_module};
-    for (std::size_t before = 0; before < reached.size();) {
-      before = reached.size();
-      for (const Dock& other : docks_) {
-        if (std::minmax(other.child_module, other.parent_module) == std::minmax(dock.child_module, dock.parent_module))
-          continue;
-        if (reached.contains(other.child_module)) reached.insert(other.parent_module);
-        if (reached.contains(other.parent_module)) reached.insert(other.child_module);
+    std::vector<int> next{dock.child_module};
+    while (!next.empty()) {
+      const auto [from, to] = beside.equal_range(next.back());
+      next.pop_back();
+      for (auto at = from; at != to; ++at) {
+        if (reached.insert(at->second).second) next.push_back(at->second);
       }
     }
     return reached.contains(dock.parent_module);
@@ -162,6 +170,7 @@ class DockRows {
   const std::vector<ModuleType>& types_;
   const std::vector<std::size_t>& type_of_;
   const std::vector<Dock>& docks_;
+  int rings_asked_ = 0;
   std::map<std::pair<int, int>, const Dock*> faces_;
   std::map<int, const Dock*> parent_;
   std::set<int> children_;

@@ -16,7 +16,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kSameTime = 1e-6;  // of the spacing; rounding of k h is some 1e-16 of t
-constexpr double kFlat = 1e-12;     // a range below is rounding, in any unit a trace has
+constexpr double kFlat = 1e-9;      // nm, nrad, nN m ...: a range below is rounding, in any unit a trace has
 constexpr std::size_t kNamesShown = 8;
 
 struct SharedRow {
@@ -185,7 +185,7 @@ class Comparison {
     if (count == 0) return;
     d.rms = std::sqrt(sum / static_cast<double>(count));
     d.range = high - low;
-    d.scale = d.range < kFlat ? magnitude : d.range;
+    d.scale = d.range < kFlat ? std::max(magnitude, kFlat) : d.range;
     d.relative_rms = d.rms > 0 ? d.rms / d.scale : 0;
     d.relative_maximum = d.maximum > 0 ? d.maximum / d.scale : 0;
   }

@@ -16,13 +16,14 @@ struct CompareOptions {
 /// One column that both traces have, over the rows they share.
 struct ColumnDifference {
   std::string name;
-  std::string unit;         ///< A's, or B's where A (a CSV file) has none
-  bool equal = false;       ///< to the bit
-  double rms = 0;           ///< of B - A, in the column's unit
-  double maximum = 0;       ///< of |B - A|, in the column's unit
-  double range = 0;         ///< A's largest less its smallest value
-  double scale = 0;         ///< what `relative` means: `range`, or the largest magnitude in A and B where that is below 1e-12
-  double relative_rms = 0;  ///< rms / scale; 0 where both are 0
+  std::string unit;    ///< A's, or B's where A (a CSV file) has none
+  bool equal = false;  ///< to the bit
+  double rms = 0;      ///< of B - A, in the column's unit
+  double maximum = 0;  ///< of |B - A|, in the column's unit
+  double range = 0;    ///< A's largest less its smallest value
+  double scale =
+      0;  ///< what `relative` means: `range`; where that is below 1e-9 the largest magnitude in A and B, at least 1e-9
+  double relative_rms = 0;                 ///< rms / scale; 0 where both are 0
   double relative_maximum = 0;             ///< maximum / scale; 0 where both are 0
   std::optional<double> first_divergence;  ///< s; first time with a difference above `divergence` * scale, or a lone NaN
   double time_shift = 0;                   ///< s; positive: B is late (see best_shift); 0 where no shift explains it

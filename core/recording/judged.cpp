@@ -19,7 +19,9 @@ void window(Judged& judged, double end, const MotionCycle& cycle) {
   judged.from = cycle.found ? std::min(cycle.from, cycle.period) : std::min(kLongestStart, kShareOfStart * end);
   if (!cycle.found) return;
   judged.periods = static_cast<std::size_t>((end - judged.from) / cycle.period + kWholePeriod);
-  judged.from = std::max(0.0, end - static_cast<double>(judged.periods) * cycle.period);
+  const auto start = [&] { return end - static_cast<double>(judged.periods) * cycle.period; };
+  if (start() > (1 + kWholePeriod) * cycle.period) ++judged.periods;
+  judged.from = std::max(0.0, start());
 }
 
 /// The last row at `time` or before.
@@ -29,59 +31,71 @@ std::size_t row_at(const Series& t, double time) {
   return row;
 }
 
-struct Peak {
-  double& value;
-  double& time;
-  bool offer(double now, double t) const {
-    if (!(std::abs(now) > value)) return false;
-    value = std::abs(now);
-    time = t;
-    return true;
-  }
-};
+/// Motors at one limit all have its torque, but for rounding: the first counts.
+bool larger(double a, double b) { return a > (1 + 1e-9) * b; }
 
 JudgedJoint from_ticks(const Trace& ticks, std::size_t joint, std::size_t first) {
-  const auto column = [&](std::size_t which) { return Series(ticks, 1 + joint * kTickColumns + which); };
+  const auto column = [&](TickColumn which) { return Series(ticks, 1 + joint * kTickColumns + which); };
   const Series t(ticks, 0);
-  const Series torque = column(0);
-  const Series error = column(1);
-  const Series square = column(2);
-  const Series voltage = column(3);
-  const Series current = column(4);
+  const Series torque = column(kTorquePeak);
+  const Series error = column(kErrorPeak);
+  const Series limit = column(kPeakLimit);
+  const Series square = column(kTorqueSquare);
+  const Series voltage = column(kVoltageLimited);
+  const Series current = column(kCurrentLimited);
   JudgedJoint j;
   for (std::size_t k = first + 1; k < t.size(); ++k) {
-    if (Peak{j.torque_peak, j.torque_peak_time}.offer(torque[k], t[k])) {
-      j.peak_at_limit = voltage[k] + current[k] > voltage[k - 1] + current[k - 1];
+    if (larger(torque[k], j.torque_peak)) {
+      j.torque_peak = torque[k];
+      j.torque_peak_time = t[k];
+      j.peak_at_limit = limit[k] != 0;
     }
-    Peak{j.error_peak, j.error_peak_time}.offer(error[k], t[k]);
+    if (larger(error[k], j.error_peak)) {
+      j.error_peak = error[k];
+      j.error_peak_time = t[k];
+    }
+    j.reaches_limit = j.reaches_limit || limit[k] != 0;
   }
   const double span = t.back() - t[first];
   if (!(span > 0)) return j;
   j.torque_rms = std::sqrt(std::max(0.0, square.back() - square[first]) / span);
   j.voltage_limited = (voltage.back() - voltage[first]) / span;
   j.current_limited = (current.back() - current[first]) / span;
+  j.reaches_limit = j.reaches_limit || j.limited() > 0;
   return j;
+}
+
+/// The first of the largest.
+std::size_t most(const std::vector<JudgedJoint>& joints, double JudgedJoint::*member) {
+  std::size_t found = 0;
+  for (std::size_t j = 1; j < joints.size(); ++j) {
+    if (larger(joints[j].*member, joints[found].*member)) found = j;
+  }
+  return found;
 }
 
 }  // namespace
 
-std::size_t Judged::limited() const {
+std::size_t Judged::limited(const std::vector<JudgedJoint>& joints) {
   return static_cast<std::size_t>(
-      std::count_if(joints.begin(), joints.end(), [](const JudgedJoint& joint) { return joint.limited() > 0; }));
+      std::count_if(joints.begin(), joints.end(), [](const JudgedJoint& j) { return j.reaches_limit; }));
 }
 
-std::size_t Judged::farthest() const {
-  const auto nearer = [](const JudgedJoint& a, const JudgedJoint& b) { return a.error_peak < b.error_peak; };
-  return static_cast<std::size_t>(std::max_element(joints.begin(), joints.end(), nearer) - joints.begin());
-}
+std::size_t Judged::farthest(const std::vector<JudgedJoint>& joints) { return most(joints, &JudgedJoint::error_peak); }
+
+std::size_t Judged::strongest(const std::vector<JudgedJoint>& joints) { return most(joints, &JudgedJoint::torque_peak); }
 
 Judged judge(const Recording& r, const MotionCycle& cycle) {
   Judged judged;
   window(judged, r.simulated, cycle);
   judged.joints.resize(r.joints.size());
+  judged.whole.resize(r.joints.size());
   const bool known = r.ticks.rows() > 0 && r.ticks.columns.size() == 1 + kTickColumns * r.joints.size();
   const std::size_t first = known ? row_at(Series(r.ticks, 0), judged.from) : 0;
-  for (std::size_t j = 0; known && j < r.joints.size(); ++j) judged.joints[j] = from_ticks(r.ticks, j, first);
+  for (std::size_t j = 0; known && j < r.joints.size(); ++j) {
+    judged.joints[j] = from_ticks(r.ticks, j, first);
+    judged.whole[j] = from_ticks(r.ticks, j, 0);
+  }
   judged.order.resize(judged.joints.size());
   std::iota(judged.order.begin(), judged.order.end(), 0);
   std::stable_sort(judged.order.begin(), judged.order.end(), [&](std::size_t a, std::size_t b) {

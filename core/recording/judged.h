@@ -12,30 +12,33 @@ namespace gaitlab {
 /// Of one joint, within the window. A time is the end of the row of Recording::ticks in which the peak was reached.
 struct JudgedJoint {
   double torque_peak = 0, torque_peak_time = 0;     ///< N m, largest magnitude of the motor torque; s
-  bool peak_at_limit = false;                       ///< whether the motor was at a limit in that row
+  bool peak_at_limit = false;                       ///< whether the motor was at a limit then
   double torque_rms = 0;                            ///< N m
   double voltage_limited = 0, current_limited = 0;  ///< share of the window
   double error_peak = 0, error_peak_time = 0;       ///< rad, largest magnitude of set point minus angle; s
+  bool reaches_limit = false;                       ///< at some instant, however short
   [[nodiscard]] double limited() const { return voltage_limited + current_limited; }
 };
 
 struct Judged {
   double from = 0, to = 0;          ///< s
   std::size_t periods = 0;          ///< whole ones that the window holds; 0: there is no limit cycle
-  std::vector<JudgedJoint> joints;  ///< none: nothing drives the joints
+  std::vector<JudgedJoint> joints;  ///< within the window
+  std::vector<JudgedJoint> whole;   ///< the same of the whole run
   /// Worst first, by the share of time at a limit, then the RMS of the torque, then its peak; equal ones by their numbers.
   std::vector<std::size_t> order;
 
-  /// How many joints are at a limit at some time.
-  [[nodiscard]] std::size_t limited() const;
-  /// The joint with the largest tracking error.
-  [[nodiscard]] std::size_t farthest() const;
+  /// How many joints reach a limit.
+  [[nodiscard]] static std::size_t limited(const std::vector<JudgedJoint>& joints);
+  /// The joint with the largest tracking error; of the largest torque. The first of those that differ by rounding.
+  [[nodiscard]] static std::size_t farthest(const std::vector<JudgedJoint>& joints);
+  [[nodiscard]] static std::size_t strongest(const std::vector<JudgedJoint>& joints);
 };
 
-/// The window begins at the limit cycle, or after one period where that is later, and holds whole periods up to the end of the
-/// run: at most one period of a start is forgiven, because motors that are at their limits until a late limit cycle begins
-/// would count for nothing. Without a limit cycle it begins at 2 s or a fifth of the run, whichever is earlier. From
-/// Recording::ticks, which are of all steps, so that nothing depends on trace.period.
+/// The window holds whole periods up to the end of the run: from the limit cycle on, or from earlier on where more than one
+/// period would be left out. At most one period of a start is forgiven, because motors that are at their limits until a late
+/// limit cycle begins would count for nothing. Without a limit cycle it begins at 2 s or a fifth of the run, whichever is
+/// earlier. From Recording::ticks, which are of all steps, so that nothing depends on trace.period.
 Judged judge(const Recording& recording, const MotionCycle& cycle);
 
 }  // namespace gaitlab

@@ -39,8 +39,9 @@ struct Recording {
   /// out.
   Trace trace, rest;
   /// At control ticks at least 2 ms apart (above 20 000 rows: every second of them, and so on), and at the end: for each joint
-  /// the largest |torque| and |set point - angle| since the row before, and from t = 0 the integral of torque^2 and the time at
-  /// each limit. Over all steps, so that a peak or an RMS of any part of the run does not depend on trace.period.
+  /// the largest |torque| (and whether the motor was at a limit then) and |set point - angle| since the row before, and from t
+  /// = 0 the integral of torque^2 and the time at each limit. Over all steps, so that a peak or an RMS of any part of the run
+  /// does not depend on trace.period.
   Trace ticks;
   std::vector<JointStatistics> joints;  ///< none: the robot has no joint, or the run is of a format that did not keep them
   Ledger ledger;                        ///< at the end
@@ -68,8 +69,16 @@ struct Recording {
 };
 
 inline constexpr std::size_t kMostTickRows = 20000;  ///< of Recording::ticks, even: 5 min of control ticks 15 ms apart
-inline constexpr std::size_t kTickColumns = 5;       ///< for each joint, behind t; the first kTickPeaks are peaks
-inline constexpr std::size_t kTickPeaks = 2;
+/// Columns of a joint in Recording::ticks, behind t.
+enum TickColumn : std::size_t {
+  kTorquePeak,
+  kErrorPeak,
+  kPeakLimit,
+  kTorqueSquare,
+  kVoltageLimited,
+  kCurrentLimited,
+  kTickColumns
+};
 
 /// The columns of Recording::ticks for so many joints.
 std::vector<Column> tick_columns(std::size_t joints);

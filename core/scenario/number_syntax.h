@@ -5,7 +5,6 @@
 namespace gaitlab {
 
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
-inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 /// Where the digits of the text end that begin at `at`.
 std::size_t skip_digits(const std::string& text, std::size_t at);

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/scenario/number_syntax.h"
-
 namespace gaitlab {
 namespace {
 
@@ -97,7 +95,10 @@ void add_all(const InputError& error, Problems& problems) {
 }
 
 bool is_name(const std::string& text, const std::string& also) {
-  const auto fits = [&](char c) { return is_letter(c) || is_digit(c) || also.find(c) != std::string::npos; };
+  const auto within = [](char c, char from, char to) { return c >= from && c <= to; };  // std::isalnum asks the locale
+  const auto fits = [&](char c) {
+    return within(c, 'a', 'z') || within(c, 'A', 'Z') || within(c, '0', '9') || also.find(c) != std::string::npos;
+  };
   return !text.empty() && text.size() <= 100 && std::all_of(text.begin(), text.end(), fits);
 }
 

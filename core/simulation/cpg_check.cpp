@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/simulation/simulation.h"
+#include "core/simulation/simulation_error.h"
 
 namespace gaitlab {
 namespace {

@@ -9,6 +9,9 @@ namespace {
 
 using F = JointStatistics;
 
+// What is larger by rounding alone is no later peak: motors at one limit all have its torque.
+constexpr double kLarger = 1 + 1e-9;
+
 template <class Sums>
 double* at(Sums& sums, double F::*member) {
   const auto place = std::find_if(kJointStatistics.begin(), kJointStatistics.end(),
@@ -26,7 +29,8 @@ Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()), time_(lane
     }
   }
   for (auto& sums : sums_) sums.assign(lo_.size(), 0.0);
-  for (auto* values : {&recent_peak_, &recent_error_, &weight_, &share_, &seen_}) values->assign(lo_.size(), 0.0);
+  for (auto* values : {&recent_peak_, &recent_error_, &recent_limit_, &weight_, &share_, &seen_})
+    values->assign(lo_.size(), 0.0);
 }
 
 void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In measured) {
@@ -68,14 +72,16 @@ void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Ac
   const auto first = [&](double F::*member, double F::*of, auto value) {  // before the peak itself, which decides
     const double* const largest = at(sums_, of);
     double* const when = at(sums_, member);
-    for (std::size_t i = 0; some && i < n; ++i) when[i] = seen_[i] * value(i) > largest[i] ? time : when[i];
+    for (std::size_t i = 0; some && i < n; ++i) when[i] = seen_[i] * value(i) > kLarger * largest[i] ? time : when[i];
   };
   const auto magnitude = [&](std::size_t i) { return std::abs(torque[i]); };
   const auto apart = [&](std::size_t i) { return std::abs(error(i)); };
   first(&F::torque_peak_time, &F::torque_peak, magnitude);
   peak(&F::torque_peak, magnitude);
   for (std::size_t i = 0; some && i < n; ++i) {
-    recent_peak_[i] = std::max(recent_peak_[i], seen_[i] * magnitude(i));
+    const double torque_now = seen_[i] * magnitude(i);
+    recent_limit_[i] = torque_now > recent_peak_[i] ? report.saturation[i] : recent_limit_[i];
+    recent_peak_[i] = std::max(recent_peak_[i], torque_now);
     recent_error_[i] = std::max(recent_error_[i], seen_[i] * apart(i));
   }
   share(&F::torque_rms, [&](std::size_t i) { return torque[i] * torque[i]; });
@@ -116,8 +122,9 @@ void Meter::tick(std::size_t lane, Out row) {
   const double* const current = at(sums_, &F::saturated_current);
   std::size_t to = 0;
   for (std::size_t i = lane; i < lo_.size(); i += lanes_) {
-    for (const double value : {recent_peak_[i], recent_error_[i], square[i], voltage[i], current[i]}) row[to++] = value;
-    recent_peak_[i] = recent_error_[i] = 0;
+    for (const double value : {recent_peak_[i], recent_error_[i], recent_limit_[i], square[i], voltage[i], current[i]})
+      row[to++] = value;
+    recent_peak_[i] = recent_error_[i] = recent_limit_[i] = 0;
   }
 }
 

@@ -24,7 +24,8 @@ class Meter {
  private:
   std::vector<double> lo_, hi_;
   std::array<std::vector<double>, kJointStatistics.size()> sums_;  // plain loops over all joints and lanes
-  std::vector<double> recent_peak_, recent_error_;                 // N m, rad, since the last tick
+  // Since the last tick: N m, rad, saturation at that torque.
+  std::vector<double> recent_peak_, recent_error_, recent_limit_;
   std::size_t lanes_;
   std::vector<double> time_;  ///< of each lane, s: only a divisor
   // Scratch, joint * lanes + lane: weights; 1 where the part is the motion itself.

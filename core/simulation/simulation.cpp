@@ -24,8 +24,14 @@ void halve(Trace& ticks) {
   const auto row = [&](std::size_t k) { return Out(ticks.values).subspan(k * columns, columns); };
   std::size_t kept = 1;
   for (std::size_t k = 2; k < rows; k += 2, ++kept) {
-    for (std::size_t c = 1; c < columns; ++c) {
-      if ((c - 1) % kTickColumns < kTickPeaks) row(k)[c] = std::max(row(k - 1)[c], row(k)[c]);
+    const Out before = row(k - 1);
+    const Out now = row(k);
+    for (std::size_t c = 1; c < columns; c += kTickColumns) {
+      if (before[c + kTorquePeak] > now[c + kTorquePeak]) {
+        now[c + kTorquePeak] = before[c + kTorquePeak];
+        now[c + kPeakLimit] = before[c + kPeakLimit];
+      }
+      now[c + kErrorPeak] = std::max(before[c + kErrorPeak], now[c + kErrorPeak]);
     }
     std::ranges::copy(row(k), row(kept).begin());
   }

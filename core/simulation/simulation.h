@@ -12,6 +12,7 @@
 #include "core/simulation/meter.h"
 #include "core/simulation/plant.h"
 #include "core/simulation/probes.h"
+#include "core/simulation/simulation_error.h"
 #include "core/simulation/step_error.h"
 
 namespace gaitlab {
@@ -22,15 +23,6 @@ class PluginError;
 struct RowsNeeded {
   double rows = 0, columns = 0;
   [[nodiscard]] double bytes() const { return 8 * rows * columns; }
-};
-
-/// Thrown when the state diverges (not finite, or above 1e5) or a plugin throws: step, time and joint or plugin are in what().
-class SimulationError : public RunError {
- public:
-  SimulationError(std::int64_t step, double time, std::string where, const std::string& what);
-  std::int64_t step;
-  double time;
-  std::string where;  ///< a joint's name, "base", or the kind of the plugin
 };
 
 /// Whether two scenarios can be lanes of one simulation: they share engine, integrator, step, kind of actuator, base, and the

@@ -127,7 +127,7 @@ TEST(Compare, ConstantColumnsAreRelativeToTheirMagnitude) {
   EXPECT_EQ(near.first_divergence, 0.0);
   const ColumnDifference zero = difference(constant(0), constant(0));
   EXPECT_EQ(zero.relative_rms, 0);
-  EXPECT_EQ(zero.scale, 0);
+  EXPECT_EQ(zero.scale, 1e-9);
   const ColumnDifference from_zero = difference(constant(0), constant(-2));
   EXPECT_EQ(from_zero.relative_rms, 1);
   const ColumnDifference signs = difference(constant(0), constant(-0.0));
@@ -193,6 +193,14 @@ TEST(Compare, RowsArePairedByTime) {
             (Sentences{"A has 201 rows, B has 68", "another time base: 67 rows of the same time in A and B"}));
   EXPECT_EQ(coarser.rows, 67U);
   EXPECT_NEAR(coarser.columns[0].time_shift, 0.01, 2e-3 * 0.015);
+}
+
+/// A walk straight on has rounding in y: 1e-17 m must not head a report with a hundred percent of its range.
+TEST(Compare, RoundingIsNoDifference) {
+  const TraceDifference d =
+      compare(table({"t", "base.y"}, {0, 0, 1, 3e-18, 2, -2e-18}), table({"t", "base.y"}, {0, 1e-18, 1, -4e-18, 2, 5e-18}));
+  EXPECT_DOUBLE_EQ(d.columns.at(0).scale, 1e-9);
+  EXPECT_LT(d.columns.at(0).relative_rms, 1e-8);
 }
 
 TEST(Compare, NoCommonTime) {

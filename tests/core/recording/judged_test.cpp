@@ -17,7 +17,7 @@ Recording ticks_of_ten_seconds() {
   r.ticks.columns = tick_columns(2);
   for (int k = 0; k <= 100; ++k) {
     const double t = k * kTick;
-    r.ticks.values.insert(r.ticks.values.end(), {t, 1, 0.01, 1 * t, 0, 0, 2, 0.02, 4 * t, 0, 0});
+    r.ticks.values.insert(r.ticks.values.end(), {t, 1, 0.01, 0, 1 * t, 0, 0, 2, 0.02, 0, 4 * t, 0, 0});
   }
   return r;
 }
@@ -47,6 +47,29 @@ TEST(Judged, ForgivesAtMostOnePeriodOfAStart) {
   EXPECT_EQ(whole.periods, 4U);
 }
 
+/// Whole periods that would leave out more than one are one more.
+TEST(Judged, NeverLeavesOutMoreThanOnePeriod) {
+  Recording r = ticks_of_ten_seconds();
+  for (double end = 5; end < 10; end += 0.1) {
+    for (const double from : {0.0, 0.3, 0.89, 1.9, 4.0}) {
+      r.simulated = end;
+      const Judged j = judge(r, cycle(from, 2));
+      EXPECT_LE(j.from, 2 * 1.01) << end << " " << from;
+      EXPECT_NEAR(j.to - j.from, 2.0 * static_cast<double>(j.periods), 1e-9) << end << " " << from;
+    }
+  }
+}
+
+/// Motors at one limit differ by rounding alone: the first counts.
+TEST(Judged, RoundingIsNoPeak) {
+  Recording r = ticks_of_ten_seconds();
+  for (int k = 0; k <= 100; ++k) cell(r, k, 0, kTorquePeak) = 3 * (1 + 1e-16 * k);
+  for (int k = 0; k <= 100; ++k) cell(r, k, 1, kTorquePeak) = 3 * (1 + 4e-16);
+  const Judged j = judge(r, {});
+  EXPECT_EQ(Judged::strongest(j.joints), 0U);
+  EXPECT_NEAR(j.joints[0].torque_peak_time, 2.1, 1e-9);
+}
+
 TEST(Judged, WithoutALimitCycleTheStartIsAFifthOrTwoSeconds) {
   Recording r = ticks_of_ten_seconds();
   EXPECT_DOUBLE_EQ(judge(r, {}).from, 2);
@@ -60,16 +83,16 @@ TEST(Judged, WithoutALimitCycleTheStartIsAFifthOrTwoSeconds) {
 /// What the first edition said: among joints at their limit all peaks are equal, and the lowest number won.
 TEST(Judged, TheJointThatIsLongestAtALimitComesFirst) {
   Recording r = ticks_of_ten_seconds();
-  for (int k = 0; k <= 100; ++k) cell(r, k, 0, 0) = cell(r, k, 1, 0) = 2;
+  for (int k = 0; k <= 100; ++k) cell(r, k, 0, 0) = cell(r, k, 1, kTorquePeak) = 2;
   EXPECT_EQ(judge(r, {}).order.front(), 1U) << "without limits: by RMS";
-  EXPECT_EQ(judge(r, {}).limited(), 0U);
-  limit(r, 0, 4, 50, 60);  // current, 1 s of 8
+  EXPECT_EQ(Judged::limited(judge(r, {}).joints), 0U);
+  limit(r, 0, kCurrentLimited, 50, 60);  // current, 1 s of 8
   const Judged j = judge(r, {});
   EXPECT_EQ(j.order.front(), 0U);
-  EXPECT_EQ(j.limited(), 1U);
+  EXPECT_EQ(Judged::limited(j.joints), 1U);
   EXPECT_NEAR(j.joints[0].current_limited, 1.0 / 8, 1e-12);
   EXPECT_EQ(j.joints[0].voltage_limited, 0);
-  limit(r, 1, 3, 20, 100);  // voltage, all of it
+  limit(r, 1, kVoltageLimited, 20, 100);  // voltage, all of it
   EXPECT_EQ(judge(r, {}).order.front(), 1U);
   EXPECT_NEAR(judge(r, {}).joints[1].limited(), 1, 1e-12);
 }
@@ -78,11 +101,13 @@ TEST(Judged, NothingOfTheStartCounts) {
   Recording r = ticks_of_ten_seconds();
   cell(r, 3, 0, 0) = 50;
   cell(r, 3, 0, 1) = 5;
-  limit(r, 0, 3, 1, 15);
+  limit(r, 0, kVoltageLimited, 1, 15);
   const Judged j = judge(r, {});
   EXPECT_DOUBLE_EQ(j.joints[0].torque_peak, 1);
   EXPECT_DOUBLE_EQ(j.joints[0].error_peak, 0.01);
-  EXPECT_EQ(j.limited(), 0U);
+  EXPECT_EQ(Judged::limited(j.joints), 0U);
+  EXPECT_EQ(Judged::limited(j.whole), 1U);
+  EXPECT_DOUBLE_EQ(j.whole[0].torque_peak, 50);
   EXPECT_NEAR(j.joints[0].torque_rms, 1, 1e-12);
   EXPECT_NEAR(j.joints[1].torque_rms, 2, 1e-12);
 }
@@ -92,14 +117,16 @@ TEST(Judged, PeaksHaveTheirTimesAndSayWhetherTheyAreTheLimit) {
   cell(r, 40, 0, 0) = 3;
   cell(r, 70, 0, 1) = 0.5;
   EXPECT_FALSE(judge(r, {}).joints[0].peak_at_limit);
-  limit(r, 0, 4, 39, 40);
+  cell(r, 40, 0, kPeakLimit) = 2;  // for an instant: no time passes
+  EXPECT_EQ(Judged::limited(judge(r, {}).joints), 1U);
   const Judged j = judge(r, {});
   EXPECT_DOUBLE_EQ(j.joints[0].torque_peak, 3);
   EXPECT_NEAR(j.joints[0].torque_peak_time, 4, 1e-12);
   EXPECT_TRUE(j.joints[0].peak_at_limit);
   EXPECT_DOUBLE_EQ(j.joints[0].error_peak, 0.5);
   EXPECT_NEAR(j.joints[0].error_peak_time, 7, 1e-12);
-  EXPECT_EQ(j.farthest(), 0U);
+  EXPECT_EQ(Judged::farthest(j.joints), 0U);
+  EXPECT_EQ(Judged::strongest(j.joints), 0U);
 }
 
 TEST(Judged, WithoutTicksThereAreJointsAllTheSame) {

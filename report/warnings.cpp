@@ -1,4 +1,4 @@
-#include "report/setup_warnings.h"
+#include "report/warnings.h"
 
 #include <fmt/format.h>
 
@@ -68,7 +68,7 @@ SourceLocation place_of(const Scenario& s, const std::string& key) {
   return place.line > 0 ? place : s.place(key.substr(0, key.find('.')));
 }
 
-void check_constants(const Scenario& s, const DcMotor* motors, std::vector<SetupWarning>& out) {
+void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warning>& out) {
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
     const DcMotor& m = motors[j];
     if (!(m.Kt > 0 && m.Ks > 0)) continue;
@@ -92,7 +92,19 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Setup
   }
 }
 
-void check_gain(const Scenario& s, const DcMotor* motors, std::vector<SetupWarning>& out) {
+/// Whether the derivative answers a step of the error with more than a quarter of what Kp does (Kd N / (Kd + N Ts), eq. 5): it
+/// then moves the bound on Kp.
+bool damps(const Numbers& settings, std::size_t joint, double period) {
+  const Numbers::Found* Kp = settings.find("Kp");
+  const Numbers::Found* Kd = settings.find("Kd");
+  const Numbers::Found* N = settings.find("N");
+  if (Kd == nullptr || !(Kd->value[joint] > 0)) return false;
+  const double d = Kd->value[joint];
+  const double step = N == nullptr ? d / period : d * N->value[joint] / (d + N->value[joint] * period);
+  return step > 0.25 * Kp->value[joint];
+}
+
+void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& out) {
   const Numbers settings(s.controller);
   const auto* gain = settings.find("Kp");
   if (gain == nullptr || make_controller(s.controller, info(*s.robot))->command_unit() != "V") return;
@@ -100,7 +112,7 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<SetupWarni
   std::size_t worst = 0;
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
     const double g = gain->value[j] * s.control_period / (motors[j].Ks * motors[j].gear);
-    if (!(g > largest)) continue;
+    if (!(g > largest) || damps(settings, j, s.control_period)) continue;
     largest = g;
     worst = j;
   }
@@ -116,7 +128,7 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<SetupWarni
        severe});
 }
 
-void check_degrees(const Scenario& s, std::vector<SetupWarning>& out) {
+void check_degrees(const Scenario& s, std::vector<Warning>& out) {
   const auto doubt = [&](const std::string& key, const std::string& what, double value) {
     out.push_back({place_of(s, key),
                    fmt::format("{} is {:.4g} rad, {:.3g} turns: angles are in rad; {:.4g} degrees are {:.4g} rad", what, value,
@@ -160,8 +172,8 @@ bool beside_field(const Ground& ground, double x, double y) {
   return !within(u, field.columns) || !within(v, field.rows());
 }
 
-std::vector<SetupWarning> setup_warnings(const Scenario& s) {
-  std::vector<SetupWarning> out;
+std::vector<Warning> setup_warnings(const Scenario& s) {
+  std::vector<Warning> out;
   if (s.actuator.entry != nullptr && !s.robot->joints.empty()) {
     const std::unique_ptr<Actuator> actuator = make_actuator(s.actuator, info(*s.robot));
     if (const DcMotor* motors = actuator->dc_motors()) {
@@ -177,6 +189,76 @@ std::vector<SetupWarning> setup_warnings(const Scenario& s) {
                      "the field under it (ground.origin) or the robot onto it (robot.position)",
                      s.position.x(), s.position.y())});
   }
+  return out;
+}
+
+namespace {
+
+constexpr double kJump = 0.05;         // rad: half the tracking error that the paper's figure 14 has room for
+constexpr double kBeyondOften = 0.01;  // share of the time
+constexpr double kLifted = 1e-3;       // m: less energy than lifting the robot by it is nothing
+
+std::size_t worst(const Recording& r, double JointStatistics::*member) {
+  std::size_t found = 0;
+  for (std::size_t j = 1; j < r.joints.size(); ++j) {
+    if (r.joints[j].*member > r.joints[found].*member) found = j;
+  }
+  return found;
+}
+
+std::string share_text(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+void check_joints(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
+  if (s.actuator.entry == nullptr || r.joints.empty()) return;
+  const std::size_t jumps = worst(r, &JointStatistics::start_jump);
+  if (const double jump = r.joints[jumps].start_jump; jump > kJump) {
+    const bool ramps = s.cpg.entry != nullptr && Numbers(s.cpg).find("model.ramp") != nullptr;
+    out.push_back(
+        {place_of(s, "cpg"),
+         fmt::format("the set point of joint {} is {:.3g} rad from its angle at t = 0, and its motor answers at once: "
+                     "peaks of the whole run may be of that; set initial.angles{}",
+                     s.robot->joints[jumps].name, jump, ramps ? ", or cpg.model.ramp" : "")});
+  }
+  const std::size_t beyond = worst(r, &JointStatistics::range_share);
+  if (const JointStatistics& joint = r.joints[beyond]; joint.range_share > kBeyondOften) {
+    out.push_back(
+        {place_of(s, "cpg"),
+         fmt::format("joint {} is beyond its range for {} of the time, by up to {:.3g} rad (its set point for {}): the "
+                     "motor works against the hinge stop there; take a smaller amplitude or offset",
+                     s.robot->joints[beyond].name, share_text(joint.range_share), joint.range_worst,
+                     share_text(joint.setpoint_outside))});
+  }
+}
+
+void check_way(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
+  const Series x = r.series("com.x");
+  const Series y = r.series("com.y");
+  if (x.empty() || y.empty() || beside_field(s.ground, x.front(), y.front())) return;  // a start beside it was told
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (!beside_field(s.ground, x[k], y[k])) continue;
+    out.push_back(
+        {place_of(s, "ground.heightfield"),
+         fmt::format("the robot leaves its heightfield at t = {:.2f} s, x {:.3g} m, y {:.3g} m: beyond it the heights of "
+                     "the border go on; take a larger field or spacing",
+                     std::min(static_cast<double>(k) * s.trace.period, r.simulated), x[k], y[k])});
+    return;
+  }
+}
+
+}  // namespace
+
+std::vector<Warning> run_warnings(const Scenario& s, const Recording& r) {
+  std::vector<Warning> out;
+  const double nothing = s.robot->mass * s.physics.gravity.norm() * kLifted;
+  if (s.actuator.entry != nullptr && r.ledger.electrical < -nothing) {
+    out.push_back(
+        {place_of(s, "actuator"),
+         fmt::format("the motors gave {:.3g} J back to their supply instead of drawing any, so that the cost of transport "
+                     "is negative: the robot went down, or a motor makes energy (Kt, Ks, efficiency)",
+                     -r.ledger.electrical)});
+  }
+  check_joints(s, r, out);
+  check_way(s, r, out);
   return out;
 }
 

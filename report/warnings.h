@@ -1,13 +1,14 @@
-// What of a scenario makes its results worthless before it has run: slips of units, mostly.
+// What makes results worthless, by the scenario or by the run: slips of units, mostly. What the steps cost: trust.h.
 #pragma once
 #include <string>
 #include <vector>
 
+#include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab::report {
 
-struct SetupWarning {
+struct Warning {
   SourceLocation place;
   std::string text;
   bool severe = true;  ///< false: a note
@@ -17,10 +18,14 @@ struct SetupWarning {
 /// - a motor that makes energy: Kt and Ks, which are one constant in SI units, are more than 1.3 apart, or eta Kt > Ks;
 /// - a position loop that cannot settle: sampled every Ts, an angle moves by u Ts / (Ks n) per tick, so that the error is
 ///   multiplied by 1 - g, g = Kp Ts / (Ks n). g > 2 diverges until the motor's limits stop it (warning), g > 1 overshoots
-///   (note). Of controllers with a gain `Kp` in V and DC motors;
+///   (note). Of controllers with a gain `Kp` in V, whose `Kd` does not move that bound, and DC motors;
 /// - angles that only degrees would explain: beyond two turns (ranges of hinges beyond 360 turn for ever, and are meant);
 /// - a robot that starts beside its heightfield.
-std::vector<SetupWarning> setup_warnings(const Scenario& scenario);
+std::vector<Warning> setup_warnings(const Scenario& scenario);
+
+/// Of a run: a set point that jumps at the start, a joint beyond its range for more than 1 % of the time, a robot that left its
+/// heightfield, motors that gave energy back instead of drawing any.
+std::vector<Warning> run_warnings(const Scenario& scenario, const Recording& record);
 
 /// Whether (x, y), m, is beyond the border of the heightfield; false on other grounds.
 bool beside_field(const Ground& ground, double x, double y);
