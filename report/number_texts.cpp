@@ -53,7 +53,7 @@ Lines steps(const RunData& run) {
 
 Lines robot(const RunData& run) {
   const Robot& robot = *run.scenario.robot;
-  const std::size_t dof = robot.dof(run.scenario.base);
+  const int dof = robot.dof(run.scenario.base);
   return {fmt::format("{}, {} bod{}, {}, {} degree{} of freedom, {:.3f} kg", counted(robot.modules.size(), "module"),
                       robot.bodies.size(), robot.bodies.size() == 1 ? "y" : "ies", counted(robot.joints.size(), "joint"), dof,
                       dof == 1 ? "" : "s", robot.mass)};
