@@ -62,7 +62,7 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
   for (std::size_t begin = 0; begin < text.size();) {
     const auto take = [&] {
       const std::size_t end = std::min(text.find('\n', begin), text.size());
-      const std::string line = text.substr(begin, end - begin);
+      std::string line = text.substr(begin, end - begin);
       begin = end + 1;
       return line;
     };
