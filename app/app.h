@@ -27,9 +27,6 @@ struct ScenarioArguments {
   bool quiet = false;
 };
 
-/// What `read` gives; an error of a --set that stands for another option is at that one: {"--set seed=x", "--seed"}.
-Scenario as_typed(const std::map<std::string, std::string>& options, const std::function<Scenario()>& read);
-
 /// Reads it with --set and --seed applied; prints its notes on stderr unless quiet.
 Scenario read(const ScenarioArguments& arguments, Catalog& catalog);
 /// Prints on stderr what makes a run doubtful: it fell, its step was too long, its torques or energies are off.

@@ -44,13 +44,22 @@ void check_command(const CLI::App& app, int argc, char** argv) {
   throw InputError(SourceLocation{"gaitlab"}, "unknown command " + in_quotes(argv[1]) + offer(argv[1], known, "commands"));
 }
 
+/// The options of a command and of those that were chosen within it.
+std::vector<std::string> options_of(const CLI::App& command) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  for (const CLI::App* within : command.get_subcommands()) {
+    for (std::string& name : options_of(*within)) known.push_back(std::move(name));
+  }
+  return known;
+}
+
 /// Of arguments that the chosen command does not take: the first option that it does not know.
 void check_options(const CLI::App& app, int argc, char** argv) {
   for (const CLI::App* command : app.get_subcommands()) {
-    std::vector<std::string> known;
-    for (const CLI::Option* option : command->get_options()) {
-      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-    }
+    const std::vector<std::string> known = options_of(*command);
     for (int i = 2; i < argc; ++i) {
       const std::string text = argv[i];
       const std::string name = text.substr(0, text.find('='));

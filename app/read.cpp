@@ -9,24 +9,30 @@
 
 namespace gaitlab::app {
 
-Scenario as_typed(const std::map<std::string, std::string>& options, const std::function<Scenario()>& read) {
-  try {
-    return read();
-  } catch (const InputError& error) {
-    std::vector<Problem> problems = error.problems();
-    for (Problem& problem : problems) {
-      if (const auto typed = options.find(problem.place.file); typed != options.end())
-        problem.place = SourceLocation{typed->second};
-    }
-    throw InputError(std::move(problems));
+namespace {
+
+/// What is wrong with the seed is told of --seed, which was typed, and not of the --set that stands for it.
+[[noreturn]] void raise_as_typed(const InputError& error, const std::string& seed) {
+  std::vector<Problem> problems = error.problems();
+  for (Problem& problem : problems) {
+    if (problem.place.file == "--set " + seed) problem.place = SourceLocation{"--seed"};
   }
+  throw InputError(std::move(problems));
 }
+
+}  // namespace
 
 Scenario read(const ScenarioArguments& arguments, Catalog& catalog) {
   std::vector<std::string> sets = arguments.sets;
-  if (arguments.seed) sets.push_back(fmt::format("seed={}", *arguments.seed));
-  Scenario scenario = as_typed({{"--set seed=" + arguments.seed.value_or(""), "--seed"}},
-                               [&] { return read_scenario(arguments.file, sets, catalog); });
+  const std::string seed = "seed=" + arguments.seed.value_or("");
+  if (arguments.seed) sets.push_back(seed);
+  Scenario scenario;
+  try {
+    scenario = read_scenario(arguments.file, sets, catalog);
+  } catch (const InputError& error) {
+    if (!arguments.seed) throw;
+    raise_as_typed(error, seed);
+  }
   if (!arguments.quiet) {
     for (const std::string& note : scenario.notes) fmt::print(stderr, "{}: note: {}\n", arguments.file, note);
   }

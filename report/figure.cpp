@@ -10,19 +10,14 @@
 #include <utility>
 
 #include "report/panel.h"
+#include "report/views.h"
 
 namespace gaitlab::report {
 
 namespace {
 
-constexpr double kLeft = 80, kRight = 920;                             // px, of all panels
-constexpr double kLeftOfNames = 120;                                   // px, where legs have their names at the left
 constexpr double kChartTop = 36, kChartHeight = 260, kChartFoot = 58;  // below the legend; px
-constexpr double kViewMost = 150;                                      // px, the tallest robot
-constexpr double kViewGap = 40;  // px, between one view's ground and the next one's headroom
-constexpr double kWindow = 8;    // s
-
-double left_edge(const FigureInput& input) { return input.footfalls.empty() ? kLeft : kLeftOfNames; }
+constexpr double kWindow = 8;                                          // s
 
 // First of the samples that are shown; `time` is not empty.
 std::size_t first_shown(const std::vector<double>& time) {
@@ -198,202 +193,6 @@ class Chart {
   Scale x_;
 };
 
-// ---- lower panel: side views
-
-struct RoleLook {
-  Role role;
-  std::string_view fill, name;
-};
-constexpr std::array<RoleLook, 4> kLooks = {
-    RoleLook{Role::active, colour::kSky, "active block"}, RoleLook{Role::link, colour::kGrey, "link"},
-    RoleLook{Role::passive, colour::kOrange, "passive block"}, RoleLook{Role::other, colour::kPale, "body"}};
-
-const RoleLook& look(Role role) {
-  return *std::find_if(kLooks.begin(), kLooks.end(), [role](const RoleLook& look) { return look.role == role; });
-}
-
-struct Extent {
-  Bounds x, z;
-};
-
-Extent extent(const View& view) {
-  Extent extent;
-  for (const Outline& outline : view.outlines) {
-    for (const Polygon& polygon : outline.polygons) {
-      for (const Point& point : polygon) {
-        extent.x.add(point.x);
-        extent.z.add(point.y);
-      }
-    }
-  }
-  return extent;
-}
-
-// The part of a polygon on one side of a vertical line: where sign * (x - at) >= 0.
-Polygon beside(const Polygon& polygon, double at, double sign) {
-  Polygon kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point a = polygon[i];
-    const Point b = polygon[(i + 1) % polygon.size()];
-    const bool a_in = sign * (a.x - at) >= 0;
-    if (a_in) kept.push_back(a);
-    if (a_in != (sign * (b.x - at) >= 0)) kept.push_back({at, a.y + (b.y - a.y) * (at - a.x) / (b.x - a.x)});
-  }
-  return kept;
-}
-
-class Views {
- public:
-  explicit Views(const FigureInput& input) : input_(input), left_(left_edge(input)) {
-    Bounds x;
-    for (const View& view : input.views) {
-      const Extent seen = extent(view);
-      x.add(seen.x.lo);
-      x.add(seen.x.hi);
-      floors_.push_back(input.ground || seen.z.empty() ? 0 : seen.z.lo);
-      if (seen.z.empty()) continue;
-      above_ = std::max(above_, seen.z.hi - floors_.back());
-      below_ = std::max(below_, floors_.back() - seen.z.lo);
-    }
-    if (x.empty()) x = {-0.5, 0.5};
-    const double width = std::max(1.06 * (x.hi - x.lo), 1e-3);
-    per_metre_ = (kRight - left_) / width;
-    if (above_ + below_ > 0) per_metre_ = std::min(per_metre_, kViewMost / (above_ + below_));
-    const double half = 0.5 * (kRight - left_) / per_metre_;
-    ticks_ = ticks_within(0.5 * (x.lo + x.hi) - half, 0.5 * (x.lo + x.hi) + half, 8);
-    x_ = {ticks_.lo, ticks_.hi, left_, kRight};
-  }
-
-  [[nodiscard]] double height() const { return head() + pitch() * static_cast<double>(input_.views.size()) + kFoot; }
-
-  void draw(Svg& svg, double top) const {
-    const double bottom = top + height() - kFoot;
-    header(svg, top);
-    for (const double x : ticks_.values()) svg.line({x_(x), top + head()}, {x_(x), bottom}, kGridLine);
-    std::vector<Point> centres;
-    for (std::size_t i = 0; i < input_.views.size(); ++i) {
-      const double floor = top + head() + pitch() * static_cast<double>(i + 1) - kViewGap / 2 - below_ * per_metre_;
-      const Scale z{floors_[i], floors_[i] + 1, floor, floor - per_metre_};
-      draw_view(svg, input_.views[i], z);
-      if (input_.views[i].com) centres.push_back({x_(*input_.views[i].com), floor + below_ * per_metre_ + 8});
-    }
-    for (const Point& m : centres)
-      svg.polygons(std::vector<Polygon>{{m, {m.x - 5, m.y + 8}, {m.x + 5, m.y + 8}}}, {.fill = colour::kInk});
-    axis(svg, bottom);
-  }
-
- private:
-  static constexpr double kFoot = 48, kLegendRow = 22;  // px
-
-  [[nodiscard]] double head() const { return 34 + (two_rows() ? kLegendRow : 0); }
-  [[nodiscard]] double pitch() const { return std::max(30.0, (above_ + below_) * per_metre_) + kViewGap; }
-
-  void draw_view(Svg& svg, const View& view, const Scale& z) const {
-    const auto paper = [&](Point p) { return Point{x_(p.x), z(p.y)}; };
-    if (input_.ground) {
-      svg.rectangle({left_, z(0)}, kRight - left_, 5, {.fill = colour::kPale});
-      svg.line({left_, z(0)}, {kRight, z(0)}, kAxisLine);
-    }
-    for (const Polygon& solid : input_.solids) {
-      Polygon seen = beside(beside(solid, ticks_.lo, 1), ticks_.hi, -1);
-      if (seen.size() < 3) continue;
-      std::transform(seen.begin(), seen.end(), seen.begin(), paper);
-      svg.polygons(std::vector<Polygon>{std::move(seen)}, {.stroke = colour::kGrey, .fill = colour::kPale, .width = 1});
-    }
-    for (const Outline& outline : view.outlines) {
-      std::vector<Polygon> polygons = outline.polygons;
-      for (Polygon& polygon : polygons) std::transform(polygon.begin(), polygon.end(), polygon.begin(), paper);
-      svg.polygons(polygons, {.stroke = colour::kInk, .fill = look(outline.role).fill, .width = 1.8, .stroke_below = true});
-    }
-    for (const Point& contact : view.contacts)
-      svg.circle(paper(contact), 2.6, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 0.8});
-    if (view.joint) arrow(svg, paper(*view.joint));
-    svg.text({left_ - 10, z(z.lo) + 4}, fmt::format("{:.6g} s", view.time), {.anchor = Anchor::end, .bold = true});
-  }
-
-  static void arrow(Svg& svg, Point tip) {
-    svg.line({tip.x, tip.y - 40}, {tip.x, tip.y - 10}, {.stroke = colour::kBlack, .width = 2});
-    svg.polygons(std::vector<Polygon>{{tip, {tip.x - 5, tip.y - 11}, {tip.x + 5, tip.y - 11}}}, {.fill = colour::kBlack});
-  }
-
-  struct Entry {
-    std::string_view name;
-    double symbol, gap;  ///< px, before the name and before the symbol
-    std::function<void(Svg&, Point)> draw;
-  };
-
-  /// From right to left.
-  [[nodiscard]] std::vector<Entry> legend() const {
-    std::vector<Entry> all;
-    if (any([](const View& view) { return view.com.has_value(); })) {
-      all.push_back({"centre of mass", 12, 26, [](Svg& svg, Point m) {
-                       svg.polygons(std::vector<Polygon>{{{m.x, m.y - 4}, {m.x - 5, m.y + 4}, {m.x + 5, m.y + 4}}},
-                                    {.fill = colour::kInk});
-                     }});
-    }
-    if (any([](const View& view) { return !view.contacts.empty(); })) {
-      all.push_back({"contact", 11, 24, [](Svg& svg, Point m) { svg.circle(m, 3, {.fill = colour::kVermillion}); }});
-    }
-    for (auto role = kLooks.rbegin(); role != kLooks.rend(); ++role) {
-      if (!any([&](const View& view) { return shows(view, role->role); })) continue;
-      all.push_back({role->name, 19, 20, [fill = role->fill](Svg& svg, Point corner) {
-                       svg.rectangle({corner.x, corner.y - 6}, 12, 12, {.stroke = colour::kInk, .fill = fill});
-                     }});
-    }
-    return all;
-  }
-
-  [[nodiscard]] std::string views_title() const {
-    if (!input_.views_title.empty()) return input_.views_title;
-    return any([](const View& view) { return view.joint.has_value(); }) ? "side view (arrow: joint above)" : "side view";
-  }
-
-  /// Whether the legend has no room beside the title.
-  [[nodiscard]] bool two_rows() const {
-    double width = text_width(views_title(), 13) * 1.1 + 20;  // bold
-    for (const Entry& entry : legend()) width += text_width(entry.name, 13) + entry.symbol + entry.gap;
-    return width > kRight - left_;
-  }
-
-  void header(Svg& svg, double top) const {
-    svg.text({left_, top + 14}, views_title(), {.bold = true});
-    double x = kRight;
-    const double y = top + 14 + (two_rows() ? kLegendRow : 0);
-    for (const Entry& entry : legend()) {
-      x -= text_width(entry.name, 13);
-      svg.text({x, y}, entry.name);
-      x -= entry.symbol;
-      entry.draw(svg, {x, y - 4.5});
-      x -= entry.gap;
-    }
-  }
-
-  void axis(Svg& svg, double bottom) const {
-    svg.line({left_, bottom}, {kRight, bottom}, kAxisLine);
-    for (const double x : ticks_.values()) {
-      svg.line({x_(x), bottom}, {x_(x), bottom + 5}, kAxisLine);
-      svg.text({x_(x), bottom + 20}, ticks_.label(x), {.anchor = Anchor::middle});
-    }
-    svg.text({(left_ + kRight) / 2, bottom + 40}, input_.views_axis, {.anchor = Anchor::middle});
-  }
-
-  static bool shows(const View& view, Role role) {
-    return std::any_of(view.outlines.begin(), view.outlines.end(), [role](const Outline& o) { return o.role == role; });
-  }
-  template <class Test>
-  [[nodiscard]] bool any(const Test& test) const {
-    return std::any_of(input_.views.begin(), input_.views.end(), test);
-  }
-
-  const FigureInput& input_;
-  double left_;
-  std::vector<double> floors_ = {};  // height drawn on the base line of each view, m
-  double above_ = 0, below_ = 0;     // of the base line, m
-  double per_metre_ = 1;
-  Ticks ticks_;
-  Scale x_;
-};
-
 void title(Svg& svg, const std::string& text) {
   double size = 18;
   while (size > 10 && text_width(text, size) > kRight - kLeft) size -= 1;
@@ -419,11 +218,10 @@ std::string figure_svg(const FigureInput& input) {
     if (!curves.left.empty() || !curves.right.empty()) charts.push_back(std::move(curves));
   }
   constexpr double kChart = kChartTop + kChartHeight + kChartFoot;
-  const Views views(input);
   const bool footfalls = !input.footfalls.empty() && !input.time.empty();
   const double footfall_top = kTitleHeight + kChart * static_cast<double>(charts.size());
   const double views_top = footfall_top + (footfalls ? footfall_height(input.footfalls.size()) : 0);
-  Svg svg(kWidth, views_top + (input.views.empty() ? 0 : views.height() + 8));
+  Svg svg(kWidth, views_top + (input.views.empty() ? 0 : views_height(input) + 8));
   title(svg, input.title);
   for (std::size_t i = 0; i < charts.size(); ++i) {
     const double top = kTitleHeight + kChart * static_cast<double>(i) + kChartTop;
@@ -433,7 +231,7 @@ std::string figure_svg(const FigureInput& input) {
     const Ticks time = shown_time(input.time);
     draw_footfalls(svg, input.footfalls, input.footfall_note, time, {time.lo, time.hi, kLeftOfNames, kRight}, footfall_top);
   }
-  if (!input.views.empty()) views.draw(svg, views_top);
+  if (!input.views.empty()) draw_views(svg, input, views_top);
   return svg.finish();
 }
 

@@ -26,10 +26,10 @@ double created(const Recording& record) {
   return sum;
 }
 
-std::size_t farthest(const RunData& run) {
-  const std::vector<JointStatistics>& all = run.record.joints;
-  const auto nearer = [](const JointStatistics& a, const JointStatistics& b) { return a.error_peak < b.error_peak; };
-  return static_cast<std::size_t>(std::max_element(all.begin(), all.end(), nearer) - all.begin());
+std::size_t worst(const Recording& record, double JointStatistics::*member) {
+  const std::vector<JointStatistics>& all = record.joints;
+  const auto less = [&](const JointStatistics& a, const JointStatistics& b) { return a.*member < b.*member; };
+  return static_cast<std::size_t>(std::max_element(all.begin(), all.end(), less) - all.begin());
 }
 
 // ---- the terminal
@@ -200,18 +200,14 @@ Lines created_energy(const RunData& run) {
 
 Lines range(const RunData& run) {
   std::size_t some = 0;
-  std::size_t worst = 0;
-  for (std::size_t j = 0; j < run.record.joints.size(); ++j) {
-    const JointStatistics& f = run.record.joints[j];
-    if (f.setpoint_outside > 0 || f.range_share > 0) ++some;
-    if (f.range_worst > run.record.joints[worst].range_worst) worst = j;
-  }
+  for (const JointStatistics& f : run.record.joints) some += f.setpoint_outside > 0 || f.range_share > 0 ? 1 : 0;
   if (some == 0) return {};
-  const JointStatistics& f = run.record.joints[worst];
-  return {
-      fmt::format("{} of {} joints beyond their range, {} farthest:", some, run.record.joints.size(), joint_name(run, worst)),
-      fmt::format("{:.3g} rad, {} of the time; set point {}", f.range_worst, percent(f.range_share),
-                  percent(f.setpoint_outside))};
+  const std::size_t farthest = worst(run.record, &JointStatistics::range_worst);
+  const JointStatistics& f = run.record.joints[farthest];
+  return {fmt::format("{} of {} joints beyond their range, {} farthest:", some, run.record.joints.size(),
+                      joint_name(run, farthest)),
+          fmt::format("{:.3g} rad, {} of the time; set point {}", f.range_worst, percent(f.range_share),
+                      percent(f.setpoint_outside))};
 }
 
 Lines stability(const RunData& run) {

@@ -14,8 +14,8 @@ std::string percent(double share);
 /// J: what the gears gave instead of losing it.
 double created(const Recording& record);
 
-/// The joint with the largest tracking error of the whole run.
-std::size_t farthest(const RunData& run);
+/// The joint with the largest value of one of its statistics over the whole run; there is a joint.
+std::size_t worst(const Recording& record, double JointStatistics::*member);
 
 Lines simulated(const RunData& run);
 Lines engine(const RunData& run);

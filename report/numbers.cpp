@@ -52,7 +52,7 @@ Json torque_errors(R run) {
 
 /// Of the joint that was farthest from its set point in the whole run; null: nothing drives the joints.
 Json tracked(R run, double F::*figure) {
-  return has_motors(run) ? Json(run.record.joints[texts::farthest(run)].*figure) : Json();
+  return has_motors(run) ? Json(run.record.joints[texts::worst(run.record, &F::error_peak)].*figure) : Json();
 }
 
 template <class Named>
@@ -356,7 +356,10 @@ std::vector<SummaryNumber> list() {
        .swap = {60, "tracking", "error, rad", 10, texts::tracking_cell}},
       {.key = "tracking_error.joint",
        .definition = "The joint that has it.",
-       .value = [](R r) { return has_motors(r) ? Json(r.scenario.robot->joints[texts::farthest(r)].name) : Json(); }},
+       .value =
+           [](R r) {
+             return has_motors(r) ? Json(r.scenario.robot->joints[texts::worst(r.record, &F::error_peak)].name) : Json();
+           }},
       {.key = "tracking_error.time",
        .unit = "s",
        .definition = "Start of the step in which it was reached.",

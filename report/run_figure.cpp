@@ -71,7 +71,7 @@ Sight sight(const Scenario& scenario, const Recording& r) {
     if (std::abs(along.y()) > kOffX) {
       s.camera = {along, Vec3::UnitZ(), Vec3(-along.y(), along.x(), 0)};
       const double degrees = std::remainder(angle, 2 * std::numbers::pi) * 180 / std::numbers::pi;
-      s.axis = std::abs(along.x()) < 1 - kAlongY ? fmt::format("along the way (m), {:.0f} degrees from x", degrees) : "x (m)";
+      s.axis = fmt::format("along the way (m), {:.0f} degrees from x", degrees);
       if (std::abs(std::abs(along.y()) - 1) < kAlongY) {
         s.camera = {Vec3(0, along.y() > 0 ? 1 : -1, 0), Vec3::UnitZ(), Vec3(along.y() > 0 ? -1 : 1, 0, 0)};
         s.axis = along.y() > 0 ? "y (m)" : "-y (m)";

@@ -78,9 +78,12 @@ std::string steps_text(const Scenario& scenario, const Recording& r) {
   return text;
 }
 
+double least_energy(const Scenario& s) {
+  return std::max(s.robot->mass * s.physics.gravity.norm() * kHeight, std::numeric_limits<double>::min());
+}
+
 double energy_scale(const Scenario& s, const Recording& r) {
-  return std::max({std::abs(r.ledger.electrical), std::abs(r.ledger.stored), s.robot->mass * s.physics.gravity.norm() * kHeight,
-                   std::numeric_limits<double>::min()});
+  return std::max({std::abs(r.ledger.electrical), std::abs(r.ledger.stored), least_energy(s)});
 }
 
 std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {

@@ -27,7 +27,10 @@ std::string steps_text(const Scenario& scenario, const Recording& record);
 /// off their law, steps that never reached the accuracy.
 std::vector<std::string> trust_warnings(const Scenario& scenario, const Recording& record);
 
-/// J: what a missing energy is measured by: drawn, or stored, or the robot lifted by 1 mm, whichever is more; above 0.
+/// J, above 0: of lifting the robot by 1 mm; less is nothing.
+double least_energy(const Scenario& scenario);
+
+/// J: what a missing energy is measured by: drawn, or stored, or the least, whichever is more.
 double energy_scale(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

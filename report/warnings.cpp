@@ -8,7 +8,8 @@
 
 #include "core/laws/dc_motor.h"
 #include "core/plugin/robot_info.h"
-#include "core/simulation/start.h"
+#include "report/number_texts.h"
+#include "report/trust.h"
 
 namespace gaitlab::report {
 
@@ -19,7 +20,7 @@ constexpr double kOvershoots = 1;       // gain of the sampled loop: with 1 the 
 constexpr double kCannotSettle = 2;     // measured: 1.3 to 1.9 settle, 2.3 does not
 constexpr double kRounding = 1 + 1e-9;  // of products that are equal on paper
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kDegrees = 360;  // what is larger is no angle in degrees either: a range that never ends
+constexpr double kDegrees = 360;  // a larger range is not an angle in degrees either: it stands for "no limit"
 
 /// The numbers of a plugin's settings, by key: `Kp`, `model.ramp`.
 class Numbers final : public Fields {
@@ -111,6 +112,7 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& 
   double largest = 0;
   std::size_t worst = 0;
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    if (!(motors[j].Ks > 0)) continue;  // nothing slows such a motor down: the rule is of another loop
     const double g = gain->value[j] * s.control_period / (motors[j].Ks * motors[j].gear);
     if (!(g > largest) || damps(settings, j, s.control_period)) continue;
     largest = g;
@@ -126,6 +128,15 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& 
                    severe ? kCannotSettle : kOvershoots, severe ? "cannot settle" : "overshoots",
                    two_digits(gain->value[worst] / largest)),
        severe});
+}
+
+void check_motors(const Scenario& s, std::vector<Warning>& out) {
+  if (s.actuator.entry == nullptr || s.robot->joints.empty()) return;
+  const std::unique_ptr<Actuator> actuator = make_actuator(s.actuator, info(*s.robot));
+  const DcMotor* const motors = actuator->dc_motors();
+  if (motors == nullptr) return;
+  check_constants(s, motors, out);
+  if (s.controller.entry != nullptr) check_gain(s, motors, out);
 }
 
 void check_degrees(const Scenario& s, std::vector<Warning>& out) {
@@ -174,19 +185,17 @@ bool beside_field(const Ground& ground, double x, double y) {
 
 std::vector<Warning> setup_warnings(const Scenario& s) {
   std::vector<Warning> out;
-  if (s.actuator.entry != nullptr && !s.robot->joints.empty()) {
-    const std::unique_ptr<Actuator> actuator = make_actuator(s.actuator, info(*s.robot));
-    if (const DcMotor* motors = actuator->dc_motors()) {
-      check_constants(s, motors, out);
-      if (s.controller.entry != nullptr) check_gain(s, motors, out);
-    }
+  try {
+    check_motors(s, out);
+    check_degrees(s, out);
+  } catch (const PluginError&) {
+    out.clear();  // the run says it, at its place
   }
-  check_degrees(s, out);
   if (beside_field(s.ground, s.position.x(), s.position.y())) {
     out.push_back(
-        {place_of(s, "ground.origin"),
+        {place_of(s, "ground.heightfield"),
          fmt::format("the robot starts at ({:.4g}, {:.4g}) m, beside the heightfield, whose edge heights go on there: put "
-                     "the field under it (ground.origin) or the robot onto it (robot.position)",
+                     "the field under it (ground.heightfield.origin) or the robot onto it (robot.position)",
                      s.position.x(), s.position.y())});
   }
   return out;
@@ -196,21 +205,10 @@ namespace {
 
 constexpr double kJump = 0.05;         // rad: half the tracking error that the paper's figure 14 has room for
 constexpr double kBeyondOften = 0.01;  // share of the time
-constexpr double kLifted = 1e-3;       // m: less energy than lifting the robot by it is nothing
-
-std::size_t worst(const Recording& r, double JointStatistics::*member) {
-  std::size_t found = 0;
-  for (std::size_t j = 1; j < r.joints.size(); ++j) {
-    if (r.joints[j].*member > r.joints[found].*member) found = j;
-  }
-  return found;
-}
-
-std::string share_text(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
 void check_joints(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
   if (s.actuator.entry == nullptr || r.joints.empty()) return;
-  const std::size_t jumps = worst(r, &JointStatistics::start_jump);
+  const std::size_t jumps = texts::worst(r, &JointStatistics::start_jump);
   if (const double jump = r.joints[jumps].start_jump; jump > kJump) {
     const bool ramps = s.cpg.entry != nullptr && Numbers(s.cpg).find("model.ramp") != nullptr;
     out.push_back(
@@ -219,14 +217,14 @@ void check_joints(const Scenario& s, const Recording& r, std::vector<Warning>& o
                      "peaks of the whole run may be of that; set initial.angles{}",
                      s.robot->joints[jumps].name, jump, ramps ? ", or cpg.model.ramp" : "")});
   }
-  const std::size_t beyond = worst(r, &JointStatistics::range_share);
+  const std::size_t beyond = texts::worst(r, &JointStatistics::range_share);
   if (const JointStatistics& joint = r.joints[beyond]; joint.range_share > kBeyondOften) {
     out.push_back(
         {place_of(s, "cpg"),
          fmt::format("joint {} is beyond its range for {} of the time, by up to {:.3g} rad (its set point for {}): the "
                      "motor works against the hinge stop there; take a smaller amplitude or offset",
-                     s.robot->joints[beyond].name, share_text(joint.range_share), joint.range_worst,
-                     share_text(joint.setpoint_outside))});
+                     s.robot->joints[beyond].name, texts::percent(joint.range_share), joint.range_worst,
+                     texts::percent(joint.setpoint_outside))});
   }
 }
 
@@ -249,8 +247,7 @@ void check_way(const Scenario& s, const Recording& r, std::vector<Warning>& out)
 
 std::vector<Warning> run_warnings(const Scenario& s, const Recording& r) {
   std::vector<Warning> out;
-  const double nothing = s.robot->mass * s.physics.gravity.norm() * kLifted;
-  if (s.actuator.entry != nullptr && r.ledger.electrical < -nothing) {
+  if (s.actuator.entry != nullptr && r.ledger.electrical < -least_energy(s)) {
     out.push_back(
         {place_of(s, "actuator"),
          fmt::format("the motors gave {:.3g} J back to their supply instead of drawing any, so that the cost of transport "

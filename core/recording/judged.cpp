@@ -24,15 +24,12 @@ void window(Judged& judged, double end, const MotionCycle& cycle) {
   judged.from = std::max(0.0, start());
 }
 
-/// The last row at `time` or before.
-std::size_t row_at(const Series& t, double time) {
+/// The last row at `time` or before, or at most `within` after it.
+std::size_t row_at(const Series& t, double time, double within) {
   std::size_t row = 0;
-  while (row + 1 < t.size() && t[row + 1] <= time + kSameTime) ++row;
+  while (row + 1 < t.size() && t[row + 1] <= time + within) ++row;
   return row;
 }
-
-/// Motors at one limit all have its torque, but for rounding: the first counts.
-bool larger(double a, double b) { return a > (1 + 1e-9) * b; }
 
 JudgedJoint from_ticks(const Trace& ticks, std::size_t joint, std::size_t first) {
   const auto column = [&](TickColumn which) { return Series(ticks, 1 + joint * kTickColumns + which); };
@@ -45,12 +42,12 @@ JudgedJoint from_ticks(const Trace& ticks, std::size_t joint, std::size_t first)
   const Series current = column(kCurrentLimited);
   JudgedJoint j;
   for (std::size_t k = first + 1; k < t.size(); ++k) {
-    if (larger(torque[k], j.torque_peak)) {
+    if (torque[k] > kLarger * j.torque_peak) {
       j.torque_peak = torque[k];
       j.torque_peak_time = t[k];
       j.peak_at_limit = limit[k] != 0;
     }
-    if (larger(error[k], j.error_peak)) {
+    if (error[k] > kLarger * j.error_peak) {
       j.error_peak = error[k];
       j.error_peak_time = t[k];
     }
@@ -69,7 +66,7 @@ JudgedJoint from_ticks(const Trace& ticks, std::size_t joint, std::size_t first)
 std::size_t most(const std::vector<JudgedJoint>& joints, double JudgedJoint::*member) {
   std::size_t found = 0;
   for (std::size_t j = 1; j < joints.size(); ++j) {
-    if (larger(joints[j].*member, joints[found].*member)) found = j;
+    if (joints[j].*member > kLarger * (joints[found].*member)) found = j;
   }
   return found;
 }
@@ -91,7 +88,9 @@ Judged judge(const Recording& r, const MotionCycle& cycle) {
   judged.joints.resize(r.joints.size());
   judged.whole.resize(r.joints.size());
   const bool known = r.ticks.rows() > 0 && r.ticks.columns.size() == 1 + kTickColumns * r.joints.size();
-  const std::size_t first = known ? row_at(Series(r.ticks, 0), judged.from) : 0;
+  // The period is an estimate, which must not decide whether a row at the start of the window belongs to it.
+  const double period = judged.periods > 0 ? cycle.period : 0;
+  const std::size_t first = known ? row_at(Series(r.ticks, 0), judged.from, std::max(kSameTime, kWholePeriod * period)) : 0;
   for (std::size_t j = 0; known && j < r.joints.size(); ++j) {
     judged.joints[j] = from_ticks(r.ticks, j, first);
     judged.whole[j] = from_ticks(r.ticks, j, 0);

@@ -16,13 +16,13 @@ struct JudgedJoint {
   double torque_rms = 0;                            ///< N m
   double voltage_limited = 0, current_limited = 0;  ///< share of the window
   double error_peak = 0, error_peak_time = 0;       ///< rad, largest magnitude of set point minus angle; s
-  bool reaches_limit = false;                       ///< at some instant, however short
+  bool reaches_limit = false;                       ///< for some time, or in the instant of the largest torque of a tick
   [[nodiscard]] double limited() const { return voltage_limited + current_limited; }
 };
 
 struct Judged {
   double from = 0, to = 0;          ///< s
-  std::size_t periods = 0;          ///< whole ones that the window holds; 0: there is no limit cycle
+  std::size_t periods = 0;          ///< whole periods in the window; 0: no limit cycle was found
   std::vector<JudgedJoint> joints;  ///< within the window
   std::vector<JudgedJoint> whole;   ///< the same of the whole run
   /// Worst first, by the share of time at a limit, then the RMS of the torque, then its peak; equal ones by their numbers.
@@ -38,7 +38,8 @@ struct Judged {
 /// The window holds whole periods up to the end of the run: from the limit cycle on, or from earlier on where more than one
 /// period would be left out. At most one period of a start is forgiven, because motors that are at their limits until a late
 /// limit cycle begins would count for nothing. Without a limit cycle it begins at 2 s or a fifth of the run, whichever is
-/// earlier. From Recording::ticks, which are of all steps, so that nothing depends on trace.period.
+/// earlier. From Recording::ticks, which are of all steps: beside the period, which is found in the rows, nothing depends on
+/// trace.period. The window begins at the row of ticks before its start.
 Judged judge(const Recording& recording, const MotionCycle& cycle);
 
 }  // namespace gaitlab

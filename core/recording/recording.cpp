@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace gaitlab {
@@ -77,6 +78,26 @@ std::vector<Column> tick_columns(std::size_t joints) {
     add("current_limited", "s", "time at the current limit from t = 0, over all steps");
   }
   return columns;
+}
+
+void halve_ticks(Trace& ticks) {
+  const std::size_t columns = ticks.columns.size();
+  const std::size_t rows = ticks.rows();
+  const auto row = [&](std::size_t k) { return Out(ticks.values).subspan(k * columns, columns); };
+  std::size_t kept = 1;
+  for (std::size_t k = 2; k < rows; k += 2, ++kept) {
+    const Out before = row(k - 1);
+    const Out now = row(k);
+    for (std::size_t c = 1; c < columns; c += kTickColumns) {
+      if (before[c + kTorquePeak] > now[c + kTorquePeak]) {
+        now[c + kTorquePeak] = before[c + kTorquePeak];
+        now[c + kPeakLimit] = before[c + kPeakLimit];
+      }
+      now[c + kErrorPeak] = std::max(before[c + kErrorPeak], now[c + kErrorPeak]);
+    }
+    std::ranges::copy(row(k), row(kept).begin());
+  }
+  ticks.values.resize(kept * columns);
 }
 
 }  // namespace gaitlab

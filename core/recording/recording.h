@@ -58,13 +58,13 @@ struct Recording {
   [[nodiscard]] Series series(const std::string& column) const;
   /// `joint.N.QUANTITY`: angle, setpoint, torque.
   [[nodiscard]] Series joint(std::size_t number, const char* quantity) const;
-  /// Centre of mass in a row.
+  /// Centre of mass at the time of a row.
   [[nodiscard]] Vec3 com(std::size_t row) const;
   /// Of the centre of mass, from the first row to the last.
   [[nodiscard]] Vec3 travel() const { return rows() == 0 ? Vec3(Vec3::Zero()) : Vec3(com(rows() - 1) - com(0)); }
   /// Whether `state` finds what it needs: always but in a folder of an older format.
   [[nodiscard]] bool has_states(const Robot& robot) const;
-  /// Angles and pose in a row; speeds 0.
+  /// Angles and pose at the time of a row; speeds 0.
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t row) const;
 };
 
@@ -82,5 +82,7 @@ enum TickColumn : std::size_t {
 
 /// The columns of Recording::ticks for so many joints.
 std::vector<Column> tick_columns(std::size_t joints);
+/// Makes one row of each two behind the first: the later one, with the larger of their peaks.
+void halve_ticks(Trace& ticks);
 
 }  // namespace gaitlab

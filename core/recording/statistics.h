@@ -6,6 +6,10 @@
 
 namespace gaitlab {
 
+/// By how much a value must exceed a peak to be a later one: motors at one limit all have its torque, but for rounding, and the
+/// first of these is the peak.
+inline constexpr double kLarger = 1 + 1e-9;
+
 /// Of one joint, over the steps so far. SI.
 struct JointStatistics {
   double torque_peak = 0, torque_rms = 0;                  ///< N m, motor torque

@@ -14,6 +14,15 @@
 namespace gaitlab {
 namespace {
 
+/// `docks[0][1]` as --set takes it: docks.0.1.
+std::string dotted(const std::string& key) {
+  std::string text;
+  for (const char c : key) {
+    if (c != ']') text += c == '[' ? '.' : c;
+  }
+  return clipped(text);
+}
+
 Node empty_map(const SourceLocation& place) { return {Node::Kind::map, place}; }
 
 std::string element(const std::string& key, std::size_t index) { return fmt::format("{}[{}]", key, index); }
@@ -65,10 +74,10 @@ void Reader::finish() {
     if (map_->items[i].kind == Node::Kind::null && colon != std::string::npos) {
       problems_.add(place, "unknown key " + in_quotes(key) + "; put a space after the colon");
     } else {
-      const bool indexed = key.find('[') != std::string::npos;
-      problems_.add(place, "unknown key " + in_quotes(key) +
-                               (indexed ? "; an item of a list is addressed by its number from 0: docks.0.1"
-                                        : offer(key, known_, "keys")));
+      problems_.add(
+          place, "unknown key " + in_quotes(key) +
+                     (key.find('[') == std::string::npos ? offer(key, known_, "keys")
+                                                         : "; an item of a list is addressed by its number: " + dotted(key)));
     }
   }
 }

@@ -9,9 +9,6 @@ namespace {
 
 using F = JointStatistics;
 
-// What is larger by rounding alone is no later peak: motors at one limit all have its torque.
-constexpr double kLarger = 1 + 1e-9;
-
 template <class Sums>
 double* at(Sums& sums, double F::*member) {
   const auto place = std::find_if(kJointStatistics.begin(), kJointStatistics.end(),

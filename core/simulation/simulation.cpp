@@ -17,27 +17,6 @@ namespace {
 // Beyond this no joint is a joint any more; a run stops here rather than at the overflow a few steps later.
 constexpr double kLargestSpeed = 1e5;  // rad/s
 
-/// Makes one row of each two behind the first: the later one, with the larger of their peaks.
-void halve(Trace& ticks) {
-  const std::size_t columns = ticks.columns.size();
-  const std::size_t rows = ticks.rows();
-  const auto row = [&](std::size_t k) { return Out(ticks.values).subspan(k * columns, columns); };
-  std::size_t kept = 1;
-  for (std::size_t k = 2; k < rows; k += 2, ++kept) {
-    const Out before = row(k - 1);
-    const Out now = row(k);
-    for (std::size_t c = 1; c < columns; c += kTickColumns) {
-      if (before[c + kTorquePeak] > now[c + kTorquePeak]) {
-        now[c + kTorquePeak] = before[c + kTorquePeak];
-        now[c + kPeakLimit] = before[c + kPeakLimit];
-      }
-      now[c + kErrorPeak] = std::max(before[c + kErrorPeak], now[c + kErrorPeak]);
-    }
-    std::ranges::copy(row(k), row(kept).begin());
-  }
-  ticks.values.resize(kept * columns);
-}
-
 }  // namespace
 
 std::int64_t whole(double period, double step) { return std::llround(period / step); }
@@ -266,7 +245,7 @@ void Simulation::record_tick(Lane& lane) {
   const std::size_t columns = ticks.columns.size();
   if (!ticks.values.empty() && ticks.values[ticks.values.size() - columns] == time()) return;
   if (ticks.rows() > kMostTickRows) {
-    halve(ticks);
+    halve_ticks(ticks);
     lane.ticks_per_row *= 2;
     if (lane.recording.control_ticks % lane.ticks_per_row != 0 && !lane.closed) return;
   }

@@ -30,6 +30,7 @@ class Messages : public ::testing::Test {
 TEST_F(Messages, ACommandOrOptionThatDoesNotExist) {
   refused("rnu ok.yaml", "gaitlab: error: unknown command 'rnu'; did you mean 'run'?");
   refused("run ok.yaml --sett duration=1", "gaitlab run: error: unknown option '--sett'; did you mean '--set'?");
+  refused("new plugin cpg mine --ot x", "gaitlab new: error: unknown option '--ot'; did you mean '--out'?");
   refused("run ok.yaml --quite", "gaitlab run: error: unknown option '--quite'; did you mean '--quiet'?");
 }
 
@@ -70,7 +71,7 @@ TEST_F(Messages, WhatWasTypedIsNamed) {
 
 TEST_F(Messages, AnItemOfAList) {
   refused("check ok.yaml --set robot.docks[0][1]=2",
-          "--set robot.docks[0][1]=2: error: unknown key 'docks[0][1]'; an item of a list is addressed by its number from 0: "
+          "--set robot.docks[0][1]=2: error: unknown key 'docks[0][1]'; an item of a list is addressed by its number: "
           "docks.0.1");
   EXPECT_EQ(call("check ok.yaml --set robot.docks.0.1=1").code, 0);
 }

@@ -83,8 +83,17 @@ TEST(Ticks, AreOfAllSteps) {
       for (std::size_t j = 0; j < r.joints.size(); ++j) {
         const auto at = [&](std::size_t row, const char* name) { return table.at(row, fmt::format("joint.{}.{}", j, name)); };
         double peak = 0;
-        for (std::size_t row = 0; row < r.ticks.rows(); ++row) peak = std::max(peak, at(row, "torque_peak"));
+        double error = 0;
+        for (std::size_t row = 0; row < r.ticks.rows(); ++row) {
+          peak = std::max(peak, at(row, "torque_peak"));
+          error = std::max(error, at(row, "error_peak"));
+          // Eq. 2 at i_max, on M-TRAN's motor: a torque below it is not at the current limit.
+          constexpr double kLimit = 0.7 * 0.00395 * 594 * 0.25;
+          const bool current = at(row, "peak_limit") == 2;
+          EXPECT_EQ(current, at(row, "torque_peak") > (1 - 1e-9) * kLimit) << engine << ' ' << j << ' ' << row;
+        }
         EXPECT_EQ(peak, r.joints[j].torque_peak) << engine << ' ' << j;
+        EXPECT_EQ(error, r.joints[j].error_peak) << engine << ' ' << j;
         // 1e-12: rounding of a square, a root and a division.
         EXPECT_NEAR(std::sqrt(at(60, "torque_square") / r.simulated), r.joints[j].torque_rms, 1e-12);
         EXPECT_NEAR(at(60, "current_limited") / r.simulated, r.joints[j].saturated_current, 1e-12);

@@ -103,6 +103,40 @@ TEST(Numbers, TheWorstTrackingErrorIsWhereTheTraceHasIt) {
   EXPECT_TRUE(Json::parse(to_json(summarise(still, swings, 1), still, swings)).at("tracking_error").is_null());
 }
 
+/// A row per step: a new command acts from the start of a step, whose row is older than it, and decays with the back-EMF.
+TEST(Numbers, TheTimeOfAPeakIsWhereTheTraceHasIt) {
+  const Scenario s = shipped("caterpillar.yaml", {"duration=0.1", "trace.period=2.5e-5"});
+  const Recording r = run(s);
+  const Table table(r.trace);
+  for (std::size_t j = 0; j < r.joints.size(); ++j) {
+    std::size_t largest = 0;
+    const auto torque = [&](std::size_t k) { return std::abs(table.at(k, fmt::format("joint.{}.torque", j))); };
+    for (std::size_t k = 1; k < r.trace.rows(); ++k) largest = torque(k) > torque(largest) ? k : largest;
+    const std::int64_t start = std::llround(r.joints[j].torque_peak_time / s.physics.step);
+    EXPECT_TRUE(start == static_cast<std::int64_t>(largest) || start + 1 == static_cast<std::int64_t>(largest)) << j;
+    EXPECT_GE(r.joints[j].torque_peak, torque(largest)) << j;
+    EXPECT_LT(r.joints[j].torque_peak, 1.2 * torque(largest)) << j;  // the lightest one loses 12 % within the step
+  }
+}
+
+/// The period is found in the rows, to some millionths; peaks, shares and RMS are of all steps.
+TEST(Numbers, OfTheWindowDoNotDependOnTheTracePeriod) {
+  Json first;
+  for (const char* period : {"5e-4", "0.005", "0.015"}) {
+    const Scenario s = shipped("caterpillar.yaml", {"duration=12", "physics.engine=articulated", "actuator.i_max=0.35",
+                                                    std::string("trace.period=") + period});
+    const Recording r = run(s);
+    const Json json = Json::parse(to_json(summarise(s, r, 1), s, r));
+    if (first.is_null()) first = json;
+    EXPECT_NEAR(json.at("judged").at("from"), first.at("judged").at("from"), 1e-4 * 4) << period;
+    EXPECT_EQ(json.at("judged").at("saturated"), first.at("judged").at("saturated")) << period;
+    EXPECT_EQ(json.at("judged").at("joint"), first.at("judged").at("joint")) << period;
+    for (const Joint& joint : s.robot->joints)
+      EXPECT_EQ(json.at("per_joint").at(joint.name).at("judged"), first.at("per_joint").at(joint.name).at("judged")) << period;
+  }
+  EXPECT_GT(first.at("judged").at("saturated"), 0.1);
+}
+
 TEST(Numbers, NamesAreMadeFromKeyAndUnit) {
   for (const SummaryNumber& number : summary_numbers()) {
     const std::string key = number.key;

@@ -52,6 +52,11 @@ TEST(SetupWarnings, TellALoopThatCannotSettle) {
   expect_one(of("caterpillar.yaml", {"controller.Kp={default: 100, m3/active: 400}"}), true, "of joint m3/active");
 }
 
+/// Without back-EMF nothing slows the motor down, and the rule's loop is another.
+TEST(SetupWarnings, DoNotJudgeAMotorWithoutBackEmf) {
+  EXPECT_TRUE(of("caterpillar.yaml", {"actuator.Ks=0", "controller.Kp=1000"}).empty());
+}
+
 /// 20 * 3000 / (20 + 3000 * 0.015) = 923 V/rad in the first tick: the derivative moves the bound, and nothing is said.
 TEST(SetupWarnings, DoNotJudgeALoopWithADerivativeGain) {
   EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=400", "controller.Kd=20", "controller.N=3000"}).empty());

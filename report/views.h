@@ -1,0 +1,17 @@
+// The lower part of a figure: the robot at a few instants, one below the other.
+#pragma once
+#include "report/figure.h"
+
+namespace gaitlab::report {
+
+inline constexpr double kLeft = 80, kRight = 920;  ///< px, of all parts of a figure
+inline constexpr double kLeftOfNames = 120;        ///< px, where legs have their names at the left
+
+/// px: where the panels of this figure begin.
+inline double left_edge(const FigureInput& input) { return input.footfalls.empty() ? kLeft : kLeftOfNames; }
+
+/// px, legend and axis included.
+double views_height(const FigureInput& input);
+void draw_views(Svg& svg, const FigureInput& input, double top);
+
+}  // namespace gaitlab::report
