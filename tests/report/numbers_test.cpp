@@ -115,7 +115,7 @@ TEST(Numbers, TheTimeOfAPeakIsWhereTheTraceHasIt) {
     const std::int64_t start = std::llround(r.joints[j].torque_peak_time / s.physics.step);
     EXPECT_TRUE(start == static_cast<std::int64_t>(largest) || start + 1 == static_cast<std::int64_t>(largest)) << j;
     EXPECT_GE(r.joints[j].torque_peak, torque(largest)) << j;
-    EXPECT_LT(r.joints[j].torque_peak, 1.2 * torque(largest)) << j;  // the lightest one loses 12 % within the step
+    EXPECT_LT(r.joints[j].torque_peak, 1.3 * torque(largest)) << j;  // the lightest one loses 19 % within the step
   }
 }
 
