@@ -5,43 +5,19 @@
 #include <limits>
 #include <tuple>
 
+#include "report/convex.h"
+
 namespace gaitlab::report {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr int kRoundSegments = 24;  // of a full circle: a half cylinder has 12
-
-// Points in the shape's frame whose hull is the shape, or close to it.
-std::vector<Vec3> vertices(const Shape& shape) {
-  std::vector<Vec3> points;
-  if (shape.kind == Shape::Kind::box) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5, (corner & 4) != 0 ? 0.5 : -0.5);
-      points.push_back(sign.cwiseProduct(shape.size));
-    }
-    return points;
-  }
-  const bool half = shape.kind == Shape::Kind::half_cylinder;
-  const double radius = shape.size.x();
-  for (int k = 0; k <= (half ? kRoundSegments / 2 : kRoundSegments); ++k) {
-    const double angle = 2 * kPi * k / kRoundSegments - kPi / 2;  // a half cylinder goes through +x
-    for (const double side : {-0.5, 0.5})
-      points.emplace_back(radius * math::cos(angle), side * shape.size.y(), radius * math::sin(angle));
-  }
-  return points;
-}
-
 // A sphere's picture is a circle whichever way its body is turned.
 std::vector<Vec3> world_vertices(const Shape& shape, const Pose& body, const Camera& camera) {
-  const Pose pose = body * shape.in_body;
+  if (shape.kind != Shape::Kind::sphere) return moved(convex(shape), body).vertices;
+  const double radius = shape.size.x();
   std::vector<Vec3> points;
-  if (shape.kind == Shape::Kind::sphere) {
-    for (const Vec3& p : vertices({Shape::Kind::cylinder, {}, {shape.size.x(), 2 * shape.size.x(), 0}}))
-      points.push_back(pose.p + p.x() * camera.right + p.y() * camera.away + p.z() * camera.up);
-  } else {
-    for (const Vec3& p : vertices(shape)) points.push_back(pose * p);
-  }
+  for (const Vec3& p : convex({Shape::Kind::cylinder, {}, {radius, 2 * radius, 0}}).vertices)
+    points.push_back(body * shape.in_body.p + p.x() * camera.right + p.y() * camera.away + p.z() * camera.up);
   return points;
 }
 
@@ -119,9 +95,13 @@ std::vector<Outline> side_view(const Robot& robot, const Kinematics& kinematics,
   }
   std::stable_sort(seen.begin(), seen.end(),
                    [](const Seen& a, const Seen& b) { return std::tie(a.front, a.mean) > std::tie(b.front, b.mean); });
+  const double middle = rounded_depth(camera.away.dot(sums(robot, kinematics, Vec3::Zero()).com));
   std::vector<Outline> outlines;
   outlines.reserve(seen.size());
-  for (Seen& each : seen) outlines.push_back(std::move(each.outline));
+  for (Seen& each : seen) {
+    each.outline.far = each.front > middle;
+    outlines.push_back(std::move(each.outline));
+  }
   return outlines;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/laws/dc_motor.h"
 #include "core/plugin/robot_info.h"
+#include "report/collisions.h"
 #include "report/number_texts.h"
 #include "report/trust.h"
 
@@ -72,9 +73,15 @@ SourceLocation place_of(const Scenario& s, const std::string& key) {
 void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warning>& out) {
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
     const DcMotor& m = motors[j];
-    if (!(m.Kt > 0 && m.Ks > 0)) continue;
-    const double apart = std::max(m.Kt / m.Ks, m.Ks / m.Kt);
     const std::string& name = s.robot->joints[j].name;
+    for (const auto& [key, value] : {std::pair{"Kt", m.Kt}, {"u_max", m.u_max}, {"i_max", m.i_max}}) {
+      if (value > 0) continue;
+      out.push_back({place_of(s, std::string("actuator.") + key),
+                     fmt::format("the motor of joint {} makes no torque: {} is {:g}", name, key, value)});
+      return;
+    }
+    if (!(m.Ks > 0)) continue;
+    const double apart = std::max(m.Kt / m.Ks, m.Ks / m.Kt);
     if (apart > kApart) {
       out.push_back(
           {place_of(s, "actuator.Kt"),
@@ -243,6 +250,32 @@ void check_way(const Scenario& s, const Recording& r, std::vector<Warning>& out)
   }
 }
 
+void check_bodies(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
+  if (s.contact.solver()) return;  // the engine's own solver keeps bodies apart
+  const std::optional<Sunk> deepest = sunk(s, r);
+  if (deepest && deepest->time > 0) {  // a start in the ground was told before the run
+    out.push_back(
+        {place_of(s, "contact.on"),
+         fmt::format("body {} goes {:.3g} mm into the ground (some body from t = {:.2f} s on), because contact.on: {} "
+                     "lets other parts of the robot through; set contact.on: all",
+                     s.robot->bodies[deepest->body].name, 1000 * deepest->depth, std::min(deepest->time, r.simulated),
+                     s.contact.on == ContactSet::feet   ? "feet"
+                     : s.contact.on == ContactSet::none ? "none"
+                                                        : "all")});
+  }
+  const std::optional<Collision> found = collisions(s, r);
+  if (!found) return;
+  const auto name = [&](std::size_t body) { return s.robot->bodies[body].name; };
+  std::string text = fmt::format("bodies {} and {} pass through one another from t = {:.2f} s on", name(found->first),
+                                 name(found->second), std::min(found->time, r.simulated));
+  text += found->pairs == 1 ? fmt::format(", by up to {:.3g} mm", 1000 * found->depth)
+                            : fmt::format(" ({} pairs of bodies in all, deepest {} and {}, {:.3g} mm)", found->pairs,
+                                          name(found->deepest_first), name(found->deepest_second), 1000 * found->depth);
+  out.push_back({place_of(s, "robot"),
+                 text + ": the robot cannot do that, and contact.law penalty, which knows the ground alone, does not keep "
+                        "them apart; take smaller amplitudes or offsets"});
+}
+
 }  // namespace
 
 std::vector<Warning> run_warnings(const Scenario& s, const Recording& r) {
@@ -256,6 +289,7 @@ std::vector<Warning> run_warnings(const Scenario& s, const Recording& r) {
   }
   check_joints(s, r, out);
   check_way(s, r, out);
+  check_bodies(s, r, out);
   return out;
 }
 

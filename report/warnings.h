@@ -15,6 +15,7 @@ struct Warning {
 };
 
 /// One per cause, each with its remedy:
+/// - a motor without torque: Kt, u_max or i_max is 0;
 /// - a motor that makes energy: Kt and Ks, which are one constant in SI units, are more than 1.3 apart, or eta Kt > Ks;
 /// - a position loop that cannot settle: sampled every Ts, an angle moves by u Ts / (Ks n) per tick, so that the error is
 ///   multiplied by 1 - g, g = Kp Ts / (Ks n). g > 2 diverges until the motor's limits stop it (warning), g > 1 overshoots
@@ -24,7 +25,7 @@ struct Warning {
 std::vector<Warning> setup_warnings(const Scenario& scenario);
 
 /// Of a run: a set point that jumps at the start, a joint beyond its range for more than 1 % of the time, a robot that left its
-/// heightfield, motors that gave energy back instead of drawing any.
+/// heightfield, motors that gave energy back instead of drawing any, bodies that pass through one another (collisions.h).
 std::vector<Warning> run_warnings(const Scenario& scenario, const Recording& record);
 
 /// Whether (x, y), m, is beyond the border of the heightfield; false on other grounds.

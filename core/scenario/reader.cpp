@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <set>
 
 #include "core/scenario/node_places.h"
@@ -21,6 +23,12 @@ std::string dotted(const std::string& key) {
     if (c != ']') text += c == '[' ? '.' : c;
   }
   return clipped(text);
+}
+
+/// What an angle beyond its range may have been meant as: `; 180 degrees are 3.142 rad`.
+std::string in_degrees(double value, const std::string& unit) {
+  if (unit != "rad" || !(std::abs(value) <= 3600)) return "";
+  return fmt::format("; {:.6g} degrees are {:.4g} rad", value, value * std::numbers::pi / 180);
 }
 
 Node empty_map(const SourceLocation& place) { return {Node::Kind::map, place}; }
@@ -89,8 +97,8 @@ bool Reader::read_one(const Node& node, const std::string& what, const Spec& spe
     return false;
   }
   if (reading.value < spec.min || reading.value > spec.max) {
-    problems_.add(node.place,
-                  fmt::format("{} is {}; allowed are {}", what, with_unit(reading.value, spec.unit), range_text(spec)));
+    problems_.add(node.place, fmt::format("{} is {}; allowed are {}{}", what, with_unit(reading.value, spec.unit),
+                                          range_text(spec), in_degrees(reading.value, spec.unit)));
     return false;
   }
   value = reading.value;

@@ -36,6 +36,13 @@ TEST(SetupWarnings, TellASlipOfUnits) {
   EXPECT_TRUE(of("caterpillar.yaml", {"actuator.Ks=0.005"}).empty()) << "1.27: of a data sheet";
 }
 
+TEST(SetupWarnings, TellAMotorWithoutTorque) {
+  for (const char* const key : {"Kt", "u_max", "i_max"}) {
+    const std::vector<Warning> found = of("caterpillar.yaml", {std::string("actuator.") + key + "=0"});
+    expect_one(found, true, std::string("m0/active makes no torque: ") + key + " is 0");
+  }
+}
+
 TEST(SetupWarnings, TellAMotorThatMakesEnergy) {
   expect_one(of("caterpillar.yaml", {"actuator.Kt=0.0045", "actuator.efficiency=1"}), true, "makes energy");
   EXPECT_TRUE(of("caterpillar.yaml", {"actuator.efficiency=1"}).empty()) << "an ideal motor";
@@ -87,6 +94,11 @@ std::string warnings_of(const Scenario& s) {
   return text;
 }
 
+TEST(RunWarnings, AreSilentOnShippedScenarios) {
+  for (const std::string& file : kShipped)
+    EXPECT_EQ(warnings_of(shipped(file, {"duration=4", "physics.engine=articulated"})), "") << file;
+}
+
 TEST(RunWarnings, TellASetPointThatJumps) {
   const std::vector<std::string> sine{"duration=0.3", "physics.engine=articulated", "cpg.type=sine"};
   const auto with = [&](const std::string& set) {
@@ -118,6 +130,33 @@ TEST(RunWarnings, TellARobotThatLeavesItsField) {
       "initial: {base_velocity: [3, 0, 0]}\nphysics: {engine: articulated}\nactuator: {type: none}\n"
       "ground: {type: heightfield, heightfield: {values: [[0, 0], [0, 0]], origin: [-0.5, -0.5, 0], spacing: 1}}\n");
   EXPECT_TRUE(contains(warnings_of(s), "leaves its heightfield at t = 0.1"));
+}
+
+/// Seven modules in a row coil up: hinges at 1.2 rad close a ring of 2 pi / 1.2 = 5.2 modules' halves.
+TEST(RunWarnings, TellBodiesThatPassThroughOneAnother) {
+  const char* const coil =
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 3, 4, 2, 0]], position: [0, 0, 1]}\n"
+      "initial: {angles: {default: %s}}\nduration: 0.02\nphysics: {engine: articulated, gravity: [0, 0, 0]}\n"
+      "actuator: {type: none}\nground: {type: none}\n";
+  const auto with = [&](const std::string& angle, const std::string& more) {
+    std::string text = coil;
+    return warnings_of(scenario(text.replace(text.find("%s"), 2, angle) + more));
+  };
+  const std::string text = with("1.2", "");
+  EXPECT_TRUE(contains(text, "bodies m0/passive and m3/active pass through one another from t = 0.00 s on")) << text;
+  EXPECT_EQ(with("0.6", ""), "");
+}
+
+/// Two modules stand on their end faces and lift their middle, or lower it: feet are at the ends alone.
+TEST(RunWarnings, TellBodiesThatGoThroughTheGround) {
+  const auto with = [&](const std::string& on) {
+    return warnings_of(
+        scenario("gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 1\nphysics: {engine: articulated}\n"
+                 "cpg: {type: sine, amplitude: 0.5, phase_lag: 1.2, frequency: 0.5, model: {ramp: 0.5}}\ncontact: {on: " +
+                 on + "}\n"));
+  };
+  EXPECT_TRUE(contains(with("feet"), "mm into the ground (some body from t = ")) << with("feet");
+  EXPECT_EQ(with("all"), "");
 }
 
 }  // namespace

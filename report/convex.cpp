@@ -1,0 +1,129 @@
+#include "report/convex.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "core/math/functions.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr int kRoundSegments = 24;  // of a full circle: a half cylinder has 12
+constexpr double kNoAxis = 1e-9;    // length of a product of edges that are parallel
+
+Convex block(const Vec3& size) {
+  Convex made;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5, (corner & 4) != 0 ? 0.5 : -0.5);
+    made.vertices.push_back(sign.cwiseProduct(size));
+  }
+  made.normals = made.directions = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  return made;
+}
+
+/// Axis y; the half one goes through +x.
+Convex prism(double radius, double length, bool half) {
+  Convex made;
+  const int sides = half ? kRoundSegments / 2 : kRoundSegments;
+  std::vector<Vec3> round;
+  for (int k = 0; k <= sides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kRoundSegments - std::numbers::pi / 2;
+    round.emplace_back(radius * math::cos(angle), 0, radius * math::sin(angle));
+    for (const double side : {-0.5, 0.5}) made.vertices.push_back(round.back() + side * length * Vec3::UnitY());
+  }
+  made.normals = made.directions = {Vec3::UnitY()};
+  if (half) round.push_back(round.front());
+  // Of a full circle the second half is parallel to the first.
+  const std::size_t edges = half ? round.size() - 1 : kRoundSegments / 2;
+  for (std::size_t k = 0; k < edges; ++k) {
+    made.directions.push_back((round[k + 1] - round[k]).normalized());
+    made.normals.push_back(made.directions.back().cross(Vec3::UnitY()));
+  }
+  return made;
+}
+
+/// Smallest overlap so far; 0 from the first axis on that separates, or nearly.
+class Overlap {
+ public:
+  Overlap(const Convex& a, const Convex& b, double ignored) : a_(a), b_(b), ignored_(ignored) {}
+
+  /// False: no axis is needed any more.
+  bool along(const Vec3& direction) {
+    const double length = direction.norm();
+    if (length < kNoAxis) return true;
+    const Vec3 axis = direction / length;
+    const auto [a_lo, a_hi] = range(a_, axis);
+    const auto [b_lo, b_hi] = range(b_, axis);
+    least_ = std::min({least_, a_hi - b_lo, b_hi - a_lo});
+    return least_ > ignored_;
+  }
+  [[nodiscard]] double depth() const { return least_ > ignored_ ? least_ : 0; }
+
+ private:
+  static std::pair<double, double> range(const Convex& of, const Vec3& axis) {
+    double lo = std::numeric_limits<double>::infinity();
+    double hi = -lo;
+    for (const Vec3& vertex : of.vertices) {
+      lo = std::min(lo, axis.dot(vertex));
+      hi = std::max(hi, axis.dot(vertex));
+    }
+    return {lo - of.radius, hi + of.radius};
+  }
+
+  const Convex& a_;
+  const Convex& b_;
+  double ignored_, least_ = std::numeric_limits<double>::infinity();
+};
+
+bool apart_from_sphere(Overlap& overlap, const Convex& sphere, const Convex& other) {
+  for (const Vec3& vertex : other.vertices) {
+    const Vec3 way = vertex - sphere.vertices.front();
+    if (!overlap.along(way)) return true;
+    for (const Vec3& edge : other.directions) {
+      if (!overlap.along(way - edge * edge.dot(way))) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+Convex convex(const Shape& shape) {
+  switch (shape.kind) {
+    case Shape::Kind::box:
+      return moved(block(shape.size), shape.in_body);
+    case Shape::Kind::sphere:
+      return {{shape.in_body.p}, {}, {}, shape.size.x()};
+    default:
+      return moved(prism(shape.size.x(), shape.size.y(), shape.kind == Shape::Kind::half_cylinder), shape.in_body);
+  }
+}
+
+Convex moved(const Convex& local, const Pose& pose) {
+  Convex there = local;
+  for (Vec3& vertex : there.vertices) vertex = pose * vertex;
+  for (Vec3& normal : there.normals) normal = pose.R * normal;
+  for (Vec3& direction : there.directions) direction = pose.R * direction;
+  return there;
+}
+
+double penetration(const Convex& a, const Convex& b, double ignored) {
+  Overlap overlap(a, b, ignored);
+  for (const Convex* of : {&a, &b}) {
+    for (const Vec3& normal : of->normals) {
+      if (!overlap.along(normal)) return 0;
+    }
+  }
+  if (a.radius > 0 && apart_from_sphere(overlap, a, b)) return 0;
+  if (b.radius > 0 && apart_from_sphere(overlap, b, a)) return 0;
+  for (const Vec3& first : a.directions) {
+    for (const Vec3& second : b.directions) {
+      if (!overlap.along(first.cross(second))) return 0;
+    }
+  }
+  return overlap.depth();
+}
+
+}  // namespace gaitlab::report

@@ -1,0 +1,93 @@
+#include "report/convex.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace gaitlab::report {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Convex at(const Shape& shape, const Vec3& p, const Vec3& axis = Vec3::UnitX(), double angle = 0) {
+  return moved(convex(shape), {turn(axis, angle).toRotationMatrix(), p});
+}
+
+Shape box(double x, double y, double z) { return {Shape::Kind::box, {}, {x, y, z}}; }
+Shape ball(double radius) { return {Shape::Kind::sphere, {}, {radius, 0, 0}}; }
+
+TEST(Convex, BoxesFaceToFace) {
+  EXPECT_NEAR(penetration(at(box(2, 2, 2), {0, 0, 0}), at(box(1, 1, 1), {1.4, 0, 0}), 0), 0.1, 1e-15);
+  EXPECT_EQ(penetration(at(box(2, 2, 2), {0, 0, 0}), at(box(1, 1, 1), {1.6, 0, 0}), 0), 0);
+  EXPECT_EQ(penetration(at(box(2, 2, 2), {0, 0, 0}), at(box(1, 1, 1), {1.4, 0, 0}), 0.2), 0) << "ignored";
+}
+
+/// An edge along y, sqrt(1/2) right of the left box's middle, against one along z: neither has a face that separates them.
+TEST(Convex, BoxesEdgeToEdge) {
+  const double reach = std::sqrt(0.5);
+  const Convex left = at(box(1, 8, 1), {0, 0, 0}, Vec3::UnitY(), kPi / 4);
+  const auto right = [&](double gap) { return at(box(1, 1, 8), {2 * reach + gap, 0, 0}, Vec3::UnitZ(), kPi / 4); };
+  EXPECT_NEAR(penetration(left, right(-0.01), 0), 0.01, 1e-14);
+  EXPECT_EQ(penetration(left, right(0.01), 0), 0);
+}
+
+TEST(Convex, SpheresWithSpheresFacesEdgesAndCorners) {
+  EXPECT_NEAR(penetration(at(ball(1), {0, 0, 0}), at(ball(2), {1, 2, 2}, Vec3::UnitX(), 1), 0), 0, 1e-15);
+  EXPECT_NEAR(penetration(at(ball(1), {0, 0, 0}), at(ball(2), {0.9, 1.8, 1.8}), 0), 0.3, 1e-15);
+  EXPECT_NEAR(penetration(at(ball(1), {1.9, 0, 0}), at(box(2, 2, 2), {0, 0, 0}), 0), 0.1, 1e-15);
+  // Middle at (1 + d, 1 + d): sqrt(2) d from the edge.
+  EXPECT_NEAR(penetration(at(ball(1), {1.7, 1.7, 0}), at(box(2, 2, 2), {0, 0, 0}), 0), 1 - 0.7 * std::sqrt(2), 1e-14);
+  EXPECT_NEAR(penetration(at(ball(1), {1.5, 1.5, 1.5}), at(box(2, 2, 2), {0, 0, 0}), 0), 1 - 0.5 * std::sqrt(3), 1e-14);
+  EXPECT_EQ(penetration(at(ball(1), {1.6, 1.6, 1.6}), at(box(2, 2, 2), {0, 0, 0}), 0), 0);
+}
+
+/// Two M-TRAN blocks back to back: their half cylinders touch at any angles of the hinges, and never meet.
+TEST(Convex, HalfCylindersOfOneModuleTouch) {
+  const Shape half{Shape::Kind::half_cylinder, {}, {0.0325, 0.065, 0}};
+  for (double angle = -1.5; angle <= 1.5; angle += 0.1) {
+    const Convex left = at(half, {0, 0, 0}, Vec3::UnitY(), angle);
+    const Convex right = moved(convex(half), {turn(Vec3::UnitZ(), kPi).toRotationMatrix(), {0.065, 0, 0}});
+    EXPECT_LT(penetration(left, right, 0), 1e-15) << angle;
+  }
+}
+
+/// The depth is the least value of the support function of the Minkowski difference; 20 000 directions find it to 2 %.
+TEST(Convex, AgreesWithSampledDirections) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vec = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+  const std::vector<Shape> shapes{
+      box(1, 0.6, 0.3), {Shape::Kind::cylinder, {}, {0.4, 0.9, 0}}, {Shape::Kind::half_cylinder, {}, {0.5, 0.7, 0}}, ball(0.4)};
+  std::vector<Vec3> directions;
+  constexpr int kDirections = 20000;
+  for (int k = 0; k < kDirections; ++k) {  // a spiral on the sphere
+    const double z = 1 - (2.0 * k + 1) / kDirections;
+    const double turn = kPi * (3 - std::sqrt(5.0)) * k;
+    directions.emplace_back(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+  }
+  int met = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Convex a = at(shapes[trial % 4], Vec3::Zero(), vec().normalized(), 3 * unit(random));
+    const Convex b = at(shapes[trial / 4 % 4], 0.7 * vec(), vec().normalized(), 3 * unit(random));
+    double least = 1e9;
+    for (const Vec3& d : directions) {
+      double high = -1e9;
+      double low = 1e9;
+      for (const Vec3& v : a.vertices) high = std::max(high, d.dot(v) + a.radius);
+      for (const Vec3& v : b.vertices) low = std::min(low, d.dot(v) - b.radius);
+      least = std::min(least, high - low);
+    }
+    const double depth = penetration(a, b, 0);
+    met += depth > 0 ? 1 : 0;
+    // A direction is at most 0.02 rad from a sampled one, and the support function's slope is at most the bodies' distance.
+    EXPECT_LE(depth, std::max(least, 0.0) + 1e-12) << trial;
+    EXPECT_GE(depth, least - 0.02 * 2.5) << trial;
+  }
+  EXPECT_GT(met, 20);
+  EXPECT_LT(met, 58);
+}
+
+}  // namespace
+}  // namespace gaitlab::report
