@@ -44,6 +44,7 @@ struct RunArguments : ScenarioArguments {
   std::optional<std::string> out;
   std::string format = "h5";
   SummaryOptions shown;
+  std::vector<std::string> joints;  ///< names, of the figure; none: those of the scenario
 };
 /// Runs a scenario that is read: writes the run folder, prints the summary; the exit code.
 int run(const Scenario& scenario, const RunArguments& arguments);

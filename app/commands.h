@@ -27,6 +27,10 @@ void add_command(Commands& commands, const char* name, const char* about, int (*
   command->callback([&commands, run, arguments] { commands.chosen = [run, arguments] { return run(*arguments); }; });
 }
 
+/// `--joint`, and what it does to a scenario.
+void add_joint(CLI::App& command, std::vector<std::string>& joints);
+void draw_joints(Scenario& scenario, const std::vector<std::string>& joints);
+
 /// What every command that reads a scenario takes.
 void add_scenario(CLI::App& command, ScenarioArguments& arguments);
 

@@ -12,6 +12,7 @@
 #include "core/recording/recording_file.h"
 #include "core/recording/run_files.h"
 #include "core/recording/run_folder.h"
+#include "core/scenario/sections.h"
 #include "report/run_figure.h"
 #include "report/summary.h"
 #include "report/trust.h"
@@ -27,6 +28,7 @@ struct ReportArguments {
   std::string run;                 ///< folder
   std::optional<std::string> out;  ///< folder for summary.json and figure.svg
   SummaryOptions shown;
+  std::vector<std::string> joints;  ///< names, of the figure
 };
 
 /// A value of the run's summary; null where there is none, or no summary that can be read.
@@ -78,7 +80,8 @@ int report(const ReportArguments& arguments) {
   const Recording& recording = read.recording;
   const StoredScenario stored = scenario_of(arguments.run, read);
   Catalog catalog = standard_catalog();
-  const Scenario scenario = read_stored(stored, catalog, OtherPlugins::taken);
+  Scenario scenario = read_stored(stored, catalog, OtherPlugins::taken);
+  draw_joints(scenario, arguments.joints);
   if (read.missing.empty()) check_fit(arguments.run, scenario, recording);
   if (arguments.out && !read.missing.empty()) {
     throw InputError(SourceLocation{arguments.run},
@@ -118,6 +121,21 @@ void add_shown(CLI::App& command, SummaryOptions& shown) {
   command.add_flag("--verbose", shown.verbose, "print the energy ledger and the limit of the step, too");
 }
 
+void add_joint(CLI::App& command, std::vector<std::string>& joints) {
+  command.add_option("--joint", joints, "joint to draw in figure.svg, by name; once per joint (default: the most loaded one)")
+      ->allow_extra_args(false);
+}
+
+void draw_joints(Scenario& scenario, const std::vector<std::string>& joints) {
+  std::vector<Problem> problems;
+  for (const std::string& name : joints) {
+    if (const std::string wrong = no_joint(name, joint_names(*scenario.robot)); !wrong.empty())
+      problems.push_back({SourceLocation{"--joint " + name}, wrong});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  if (!joints.empty()) scenario.figure.joints = joints;
+}
+
 void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary) {
   if (const std::string fall = report::fall_warning(scenario, recording); !fall.empty())
     fmt::print(stderr, "{}: warning: {}\n", scenario.file, fall);
@@ -137,6 +155,8 @@ void add_report(Commands& commands) {
                                  command.add_option("RUN", arguments.run, "run folder")->required()->check(not_empty);
                                  command.add_option("--out", arguments.out,
                                                     "folder for summary.json and figure.svg, made anew; new or empty");
+                                 add_joint(command, arguments.joints);
+                                 command.get_option("--joint")->needs("--out");
                                  add_shown(command, arguments.shown);
                                });
 }

@@ -51,7 +51,9 @@ void write_files(const std::filesystem::path& folder, const std::string& format,
 
 int run(const RunArguments& arguments) {
   Catalog catalog = standard_catalog();
-  return run(read(arguments, catalog), arguments);
+  Scenario scenario = read(arguments, catalog);
+  draw_joints(scenario, arguments.joints);
+  return run(scenario, arguments);
 }
 
 int run(const Scenario& scenario, const RunArguments& arguments) {
@@ -102,6 +104,7 @@ void add_run(Commands& commands) {
                                                  "run folder (default runs/NAME, then NAME-2 ...); new or empty");
                               command.add_option("--format", arguments.format, "format of the trace: h5 (default) or csv")
                                   ->check(CLI::IsMember({"h5", "csv"}));
+                              add_joint(command, arguments.joints);
                               add_shown(command, arguments.shown);
                             });
 }

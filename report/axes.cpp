@@ -12,6 +12,7 @@ namespace {
 constexpr double kSlack = 1e-9;  // of a step: a tick that rounding moved out of the range still counts
 constexpr double kTouch = 0.01;  // of a step: a peak may stick out so little rather than cost a whole step of paper
 constexpr double kAnyWaste = 1e300;
+constexpr double kMostWaste = 9;  // product of height over range of both axes
 constexpr double kHuge = 1e300;
 
 // A range that is empty or not finite, made drawable.
@@ -94,7 +95,8 @@ TwinTicks twin_ticks(double a_lo, double a_hi, double b_lo, double b_hi) {
       best = {{-below * a.step, above * a.step, a.step}, {-below * step, above * step, step}};
     }
   }
-  return best;
+  const TwinTicks own{ticks_around(a_lo, a_hi, 6), ticks_around(b_lo, b_hi, 6)};
+  return least_waste > kMostWaste ? own : best;
 }
 
 std::vector<Point> thinned(const std::vector<Point>& points) {

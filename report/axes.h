@@ -32,8 +32,8 @@ Ticks ticks_around(double lo, double hi, int count);
 Ticks ticks_within(double lo, double hi, int count);
 
 /// Two axes on one panel, for the ranges [lo, hi] of a and of b: as many steps below and above zero on both, so that the zeros
-/// and all grid lines meet; of several divisions the one that wastes least paper. If a does not come near zero, each axis has
-/// its own ticks.
+/// and all grid lines meet; of several divisions the one that wastes least paper. If a does not come near zero, or the ranges
+/// would fill less than a third of the paper on average (one curve above zero, the other below), each axis has its own ticks.
 struct TwinTicks {
   Ticks a, b;
 };

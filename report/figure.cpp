@@ -33,6 +33,9 @@ constexpr Style kAngle{.stroke = colour::kBlue, .width = 2};
 constexpr Style kSetpoint{.stroke = colour::kBlack, .width = 1.1, .dash = "2 3"};
 constexpr Style kTorque{.stroke = colour::kVermillion, .width = 1.6, .dash = "8 3"};
 
+constexpr Style kRestTorque{.stroke = colour::kVermillion, .width = 0.8, .dash = "1 3"};
+constexpr double kNear = 0.8;  // of the torque at rest
+
 // ---- upper panel: one joint over time
 
 struct Curve {
@@ -68,13 +71,16 @@ class Chart {
     }
     if (!right.empty()) {
       if (left.empty()) grid(right_ticks, right_y);
+      for (const double value : right_ticks.values())
+        svg_.line({kRight, right_y(value)}, {kRight + 4, right_y(value)}, kAxisLine);
       labels(right_ticks, right_y, kRight + 8, Anchor::start, colour::kVermillion);
       svg_.text({kRight + 62, (top_ + bottom_) / 2}, "torque (N m)",
                 {.anchor = Anchor::middle, .fill = colour::kVermillion, .upwards = true});
     }
     for (const Curve& curve : right) svg_.polyline(points(curve, right_y), curve.style);
     for (const Curve& curve : left) svg_.polyline(points(curve, left_y), curve.style);
-    if (!right.empty()) mark_peak(*right.front().values, right_y);
+    draw_rest_torques(bounds(right), right_y);
+    if (!right.empty()) mark_peak(*right.front().values, bounds(right), right_y);
     svg_.rectangle({left_, top_}, kRight - left_, bottom_ - top_, kAxisLine);
     legend(left, right);
   }
@@ -95,9 +101,19 @@ class Chart {
       a.add(-least);
       a.add(least);
     }
-    const Bounds b = bounds(right);
+    Bounds b = bounds(right);
+    for (const double limit : rest_torques(b)) b.add(limit);
     if (left.empty() || right.empty()) return {ticks_around(a.lo, a.hi, 6), ticks_around(b.lo, b.hi, 6)};
     return twin_ticks(a.lo, a.hi, b.lo, b.hi);
+  }
+
+  /// The motor's torque at rest, of each sign with which the curve comes near it.
+  [[nodiscard]] std::vector<double> rest_torques(const Bounds& torque) const {
+    std::vector<double> near;
+    const double most = panel_.rest_torque;
+    if (most > 0 && torque.hi > kNear * most) near.push_back(most);
+    if (most > 0 && torque.lo < -kNear * most) near.push_back(-most);
+    return near;
   }
 
   [[nodiscard]] bool limited() const {
@@ -119,7 +135,7 @@ class Chart {
   }
 
   // A peak is of all steps, the curve of rows: the mark is at the height of the peak, on the side of the nearest row.
-  void mark_peak(const std::vector<double>& torque, const Scale& y) {
+  void mark_peak(const std::vector<double>& torque, const Bounds& shown_torque, const Scale& y) {
     if (!(panel_.peak > 0)) return;
     std::size_t row = first_;
     while (row + 1 < torque.size() && input_.time[row] < panel_.peak_time - 1e-9) ++row;
@@ -129,9 +145,14 @@ class Chart {
       const double at = std::clamp(y(height), top_, bottom_);
       svg_.circle({x_(panel_.peak_time), at}, 3.5, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 1});
     }
-    svg_.text({kRight, bottom_ + 38},
-              fmt::format("peak {:.3g} N m at {:.2f} s{}", panel_.peak, panel_.peak_time, shown ? "" : ", not shown"),
-              {.anchor = Anchor::end, .fill = colour::kVermillion});
+    std::string text = fmt::format("peak {:.3g} N m at {:.2f} s{}", panel_.peak, panel_.peak_time, shown ? "" : ", not shown");
+    if (!rest_torques(shown_torque).empty())
+      text = fmt::format("dotted: its motor at rest, {:.3g} N m; {}", panel_.rest_torque, text);
+    svg_.text({kRight, bottom_ + 38}, text, {.anchor = Anchor::end, .fill = colour::kVermillion});
+  }
+
+  void draw_rest_torques(const Bounds& torque, const Scale& y) {
+    for (const double limit : rest_torques(torque)) svg_.line({left_, y(limit)}, {kRight, y(limit)}, kRestTorque);
   }
 
   void time_axis() {

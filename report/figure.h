@@ -25,6 +25,7 @@ struct JointPanel {
   std::vector<double> torque;           ///< N m; likewise
   std::vector<double> limit;            ///< not 0 where the motor is at a limit: shaded; likewise
   double peak = 0, peak_time = 0;       ///< N m, s: the largest torque of the window that is judged; 0: not told
+  double rest_torque = 0;               ///< N m: the most that the motor has at rest; 0: not known
   double least_angle = 0;               ///< rad: the angle axis spans at least -this to this, so that a joint at rest looks it
 };
 
@@ -42,9 +43,10 @@ struct FigureInput {
 };
 
 /// An SVG document, 1000 px wide, as high as the views need. A panel per joint (left out without its series): the last 8 s,
-/// angle and set point on the left axis, torque on the right one, zeros on one line, the largest torque marked, time at a limit
-/// shaded. Below it the footfalls over the same seconds (left out without `time`), and the views, all on one scale in both
-/// directions and over one x range, with the ground and an axis in metres. Values that are not finite leave a gap.
+/// angle and set point on the left axis, torque on the right one, zeros on one line where that costs less than half the height,
+/// the largest torque marked, time at a limit shaded, and the motor's torque at rest as a line where the curve comes near it.
+/// Below it the footfalls over the same seconds (left out without `time`), and the views, all on one scale in both directions
+/// and over one x range, with the ground and an axis in metres. Values that are not finite leave a gap.
 std::string figure_svg(const FigureInput& input);
 
 }  // namespace gaitlab::report

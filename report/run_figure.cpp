@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <numeric>
 
+#include "core/laws/dc_motor.h"
 #include "report/figure.h"
 
 namespace gaitlab::report {
@@ -24,6 +26,7 @@ struct Sight {
   std::string view = "side view";
   std::string axis = "x (m)";  ///< what goes to the right
   bool above = false;
+  [[nodiscard]] const char* scale() const { return above ? "both ways on one scale" : "heights on the same scale"; }
 };
 
 /// The main direction of points in the plane: of the first axis of their scatter, forwards along the way.
@@ -159,6 +162,13 @@ std::vector<double> times(const Scenario& scenario, const Recording& r, const Su
   return time;
 }
 
+/// N m: what the joint's motor has at rest; 0: it is not a DC motor.
+double rest_torque(const Scenario& scenario, std::size_t joint) {
+  const std::unique_ptr<Actuator> actuator = make_actuator(scenario.actuator, info(*scenario.robot));
+  const DcMotor* const motors = actuator->dc_motors();
+  return motors == nullptr ? 0 : motors[joint](motors[joint].u_max, 0.0).torque;
+}
+
 JointPanel joint_panel(const Scenario& scenario, const Recording& r, const Summary& summary, std::size_t joint) {
   JointPanel panel;
   panel.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
@@ -167,6 +177,7 @@ JointPanel joint_panel(const Scenario& scenario, const Recording& r, const Summa
     panel.setpoint = r.joint(joint, "setpoint").values();
     panel.torque = r.joint(joint, "torque").values();
     panel.limit = r.joint(joint, "saturation").values();
+    panel.rest_torque = rest_torque(scenario, joint);
     if (joint < summary.judged.joints.size()) {
       panel.peak = summary.judged.joints[joint].torque_peak;
       panel.peak_time = summary.judged.joints[joint].torque_peak_time;
@@ -214,37 +225,35 @@ void add_period(FigureInput& input, const Scenario& scenario, const Recording& r
   }
   input.views_title = fmt::format("{} over {} {:.3g} s (arrow: joint above)", from.view,
                                   cycle.found && cycle.period <= span ? "one period," : "the last", span);
-  input.views_axis = from.axis + (from.above ? ", both ways on one scale" : ", heights on the same scale");
+  input.views_axis = from.axis + ", " + from.scale();
   const double ahead = from.camera.right.dot(r.state(*scenario.robot, r.rows() - 1).orientation * Vec3::UnitX());
   if (std::abs(ahead) < 0.7) return;  // seen from the front rather than from the side
-  input.views_axis = fmt::format("{}, forward is {}; heights on the same scale", from.axis, ahead > 0 ? "right" : "left");
+  input.views_axis = fmt::format("{}, forward is {}; {}", from.axis, ahead > 0 ? "right" : "left", from.scale());
 }
 
-std::string legged_figure(const Scenario& scenario, const Recording& r, const Summary& summary, const std::vector<Leg>& legs) {
-  const Sight from = sight(scenario, r);
-  FigureInput input;
-  input.title = scenario.name;
-  input.ground = scenario.ground.kind != Ground::Kind::heightfield && !from.above;
-  input.solids = solids(scenario, r, from);
-  input.time = times(scenario, r, summary);
-  const double start = periods_from(summary);
-  const std::size_t spine = central_spine_joint(info(*scenario.robot), legs);
+struct Drawn {
+  std::size_t joint = 0;
+  std::string what = {};
+  double least_angle = 0;  ///< rad
+};
+
+/// Those of the figure's key; without it the most loaded joint, and of a robot on legs the middle of the spine.
+std::vector<Drawn> drawn_joints(const Scenario& scenario, const Summary& summary, const std::vector<Leg>& legs) {
+  const std::vector<Joint>& joints = scenario.robot->joints;
+  if (joints.empty()) return {};
+  std::vector<Drawn> drawn;
   const std::size_t worst = summary.most_loaded();
-  JointPanel middle = joint_panel(scenario, r, summary, spine);
-  middle.joint += ", middle of the spine";
-  middle.least_angle = kLeastAngle;
-  if (worst != spine) {
-    input.joints.push_back(joint_panel(scenario, r, summary, worst));
-    input.joints.back().joint += ", most loaded";
-  } else {
-    middle.joint += ", most loaded";
+  const auto told = [&](std::size_t joint) { return joint == worst ? ", most loaded" : ""; };
+  for (const std::string& name : scenario.figure.joints) {
+    const auto number = static_cast<std::size_t>(std::ranges::find(joints, name, &Joint::name) - joints.begin());
+    drawn.push_back({number, told(number)});
   }
-  input.joints.push_back(std::move(middle));
-  input.footfalls = footfalls(scenario, r, legs, input.time, start);
-  input.footfall_note = fmt::format("bars: load above {:.3g} % of the weight; at the right the duty factor over {:.3g} s",
-                                    100 * kStands, summary.simulated - start);
-  add_period(input, scenario, r, summary, from, worst);
-  return figure_svg(input);
+  if (!drawn.empty()) return drawn;
+  if (legs.empty()) return {{worst, told(worst)}};
+  const std::size_t spine = central_spine_joint(info(*scenario.robot), legs);
+  if (worst != spine) drawn.push_back({worst, told(worst)});
+  drawn.push_back({spine, std::string(", middle of the spine") + told(spine), kLeastAngle});
+  return drawn;
 }
 
 }  // namespace
@@ -275,29 +284,36 @@ std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& 
 }
 
 std::string run_figure(const Scenario& scenario, const Recording& r, const Summary& summary) {
-  const std::vector<Leg> legs = legs_that_walk(scenario);
-  const std::size_t ticks = r.rows();
-  if (!legs.empty() && ticks > 0) return legged_figure(scenario, r, summary, legs);
-  const std::size_t joint = summary.most_loaded();
+  const std::vector<Leg> legs = r.rows() > 0 ? legs_that_walk(scenario) : std::vector<Leg>();
+  const std::vector<Drawn> drawn = drawn_joints(scenario, summary, legs);
   const Sight from = sight(scenario, r);
   FigureInput input;
   input.title = scenario.name;
-  const bool flat = scenario.ground.kind == Ground::Kind::plane || scenario.ground.kind == Ground::Kind::boxes;
-  input.ground = flat && !from.above;
+  const Ground::Kind ground = scenario.ground.kind;
+  input.ground = !from.above && (ground == Ground::Kind::plane || ground == Ground::Kind::boxes);
   input.solids = solids(scenario, r, from);
-  input.views_title = from.view + (scenario.robot->joints.empty() ? "" : " (arrow: joint above)");
-  input.views_axis = from.axis + (from.above ? ", both ways on one scale" : ", heights on the same scale");
-  if (!scenario.robot->joints.empty()) {
-    input.time = times(scenario, r, summary);
-    input.joints.push_back(joint_panel(scenario, r, summary, joint));
+  input.views_title = from.view + (drawn.empty() ? "" : " (arrow: joint above)");
+  input.views_axis = from.axis + ", " + from.scale();
+  if (!drawn.empty()) input.time = times(scenario, r, summary);
+  for (const Drawn& each : drawn) {
+    input.joints.push_back(joint_panel(scenario, r, summary, each.joint));
+    input.joints.back().joint += each.what;
+    input.joints.back().least_angle = each.least_angle;
   }
-  if (summary.limit_cycle.found && !input.time.empty()) {
-    add_period(input, scenario, r, summary, from, joint);
-  } else {
-    const auto second = static_cast<std::size_t>(std::max<std::int64_t>(1, whole(1.0, scenario.trace.period)));
-    for (std::size_t back = kViews; back-- > 0;) {
-      if (ticks > back * second) input.views.push_back(view_at(scenario, r, from, ticks - 1 - back * second, joint));
-    }
+  if (!legs.empty()) {
+    const double start = periods_from(summary);
+    input.footfalls = footfalls(scenario, r, legs, input.time, start);
+    input.footfall_note = fmt::format("bars: load above {:.3g} % of the weight; at the right the duty factor over {:.3g} s",
+                                      100 * kStands, summary.simulated - start);
+  }
+  const std::size_t pointed = drawn.empty() ? 0 : drawn.front().joint;
+  if (!input.time.empty() && (summary.limit_cycle.found || !legs.empty())) {
+    add_period(input, scenario, r, summary, from, pointed);
+    return figure_svg(input);
+  }
+  const auto second = static_cast<std::size_t>(std::max<std::int64_t>(1, whole(1.0, scenario.trace.period)));
+  for (std::size_t back = kViews; back-- > 0;) {
+    if (r.rows() > back * second) input.views.push_back(view_at(scenario, r, from, r.rows() - 1 - back * second, pointed));
   }
   return figure_svg(input);
 }

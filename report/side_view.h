@@ -20,6 +20,7 @@ enum class Role { active, link, passive, other };
 struct Outline {
   std::vector<Polygon> polygons;
   Role role = Role::other;
+  bool far = false;  ///< wholly behind the robot's centre of mass
 };
 
 /// One outline per body that has shapes, far to near (by mean depth; at the same depth the body whose front is nearer comes

@@ -17,11 +17,12 @@ constexpr double kViewGap = 40;    // px, between one view's ground and the next
 
 struct RoleLook {
   Role role;
-  std::string_view fill, name;
+  std::string_view fill, far, name;  // far: half way to white
 };
-constexpr std::array<RoleLook, 4> kLooks = {
-    RoleLook{Role::active, colour::kSky, "active block"}, RoleLook{Role::link, colour::kGrey, "link"},
-    RoleLook{Role::passive, colour::kOrange, "passive block"}, RoleLook{Role::other, colour::kPale, "body"}};
+constexpr std::array<RoleLook, 4> kLooks = {RoleLook{Role::active, colour::kSky, "#CCE8F7", "active block"},
+                                            RoleLook{Role::link, colour::kGrey, "#E0E0E0", "link"},
+                                            RoleLook{Role::passive, colour::kOrange, "#F8E2B3", "passive block"},
+                                            RoleLook{Role::other, colour::kPale, "#F4F4F4", "body"}};
 
 const RoleLook& look(Role role) {
   return *std::find_if(kLooks.begin(), kLooks.end(), [role](const RoleLook& look) { return look.role == role; });
@@ -118,7 +119,10 @@ class Views {
     for (const Outline& outline : view.outlines) {
       std::vector<Polygon> polygons = outline.polygons;
       for (Polygon& polygon : polygons) std::transform(polygon.begin(), polygon.end(), polygon.begin(), paper);
-      svg.polygons(polygons, {.stroke = colour::kInk, .fill = look(outline.role).fill, .width = 1.8, .stroke_below = true});
+      svg.polygons(polygons, {.stroke = outline.far ? colour::kGrey : colour::kInk,
+                              .fill = outline.far ? look(outline.role).far : look(outline.role).fill,
+                              .width = 1.8,
+                              .stroke_below = true});
     }
     for (const Point& contact : view.contacts)
       svg.circle(paper(contact), 2.6, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 0.8});
@@ -148,6 +152,11 @@ class Views {
     }
     if (any([](const View& view) { return !view.contacts.empty(); })) {
       all.push_back({"contact", 11, 24, [](Svg& svg, Point m) { svg.circle(m, 3, {.fill = colour::kVermillion}); }});
+    }
+    if (any([](const View& view) { return std::ranges::any_of(view.outlines, &Outline::far); })) {
+      all.push_back({"far side", 19, 20, [](Svg& svg, Point corner) {
+                       svg.rectangle({corner.x, corner.y - 6}, 12, 12, {.stroke = colour::kGrey, .fill = "#F4F4F4"});
+                     }});
     }
     for (auto role = kLooks.rbegin(); role != kLooks.rend(); ++role) {
       if (!any([&](const View& view) { return shows(view, role->role); })) continue;

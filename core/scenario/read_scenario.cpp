@@ -162,6 +162,7 @@ class ScenarioReader {
     if (reads("ground")) scenario_.ground = fresh.ground;
     if (reads("contact")) scenario_.contact = fresh.contact;
     if (reads("trace")) scenario_.trace = fresh.trace;
+    if (reads("figure")) scenario_.figure = fresh.figure;
     if (reads("actuator")) scenario_.actuator = fresh.actuator;
     if (reads("controller")) {
       scenario_.controller = fresh.controller;
@@ -213,6 +214,7 @@ class ScenarioReader {
     checks.law();
     if (sections.actuator.none) refuse_controller();
     checks.initial_angles();
+    checks.figure_joints();
     checks.base_velocity();
     check_all_periods();
     const auto concerns = [&](const char* section) { return reads(section); };

@@ -52,6 +52,12 @@ struct TraceSettings {
   void fields(Fields& f);
 };
 
+/// What figure.svg shows.
+struct FigureSettings {
+  std::vector<std::string> joints;  ///< names, from top to bottom; none: what the figure chooses
+  void fields(Fields& f);
+};
+
 /// A plugin library named by the scenario.
 struct PluginFile {
   std::string path;  ///< canonical
@@ -77,6 +83,7 @@ struct Scenario {
   double cpg_step = 0;            ///< s, RK4 sub-step of the CPG
   double duration = 0;            ///< s
   TraceSettings trace;
+  FigureSettings figure;
   std::int64_t seed = 1;
   std::vector<std::string> notes;  ///< one line each for stderr: what --set dropped, how the CPG was set up
   /// Where the user gave a key: `physics.step`, `trace.columns` ...; of a rollout of a template first its own.

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/scenario/section_places.h"
+#include "core/scenario/sections.h"
 #include "core/scenario/wording.h"
 
 namespace gaitlab {
@@ -69,6 +70,18 @@ void ScenarioChecks::initial_angles() {
     const std::string others =
         outside.more == 1 ? "; so has 1 more joint" : fmt::format("; so have {} more joints", outside.more);
     problems_.add(outside.place, outside.text + (outside.more > 0 ? others : ""));
+  }
+}
+
+void ScenarioChecks::figure_joints() {
+  if (!scenario_.robot) return;
+  const std::vector<std::string>& named = scenario_.figure.joints;
+  const Node* figure = root_.find("figure");
+  const Node* list = figure == nullptr ? nullptr : figure->find("joints");
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const std::string wrong = no_joint(named[i], joint_names(*scenario_.robot));
+    const bool placed = list != nullptr && i < list->items.size();
+    if (!wrong.empty()) problems_.add(placed ? list->items[i].place : place_of(root_, "figure", "joints"), wrong);
   }
 }
 

@@ -15,6 +15,8 @@ class ScenarioChecks {
   void law();
   /// Within the hinges' ranges.
   void initial_angles();
+  /// Joints of the robot.
+  void figure_joints();
   /// A base cannot start with a velocity that it cannot have.
   void base_velocity();
   /// What only integrators that choose their steps have.

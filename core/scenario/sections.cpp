@@ -172,6 +172,13 @@ void TraceSettings::fields(Fields& f) {
   f.texts("columns", columns, "Names or patterns with * and ? of the columns to keep.");
 }
 
+void FigureSettings::fields(Fields& f) {
+  f.texts(
+      "joints", joints,
+      "Names of the joints to draw, from top to bottom; none: the most loaded one, and of a robot on legs also the middle of "
+      "its spine.");
+}
+
 SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type)
     : scenario(s),
       physics{s.physics, catalog, problems},
@@ -204,6 +211,7 @@ void SectionFields::fields(Fields& f) {
   if (has_cpg) group(cpg);
   f.number("duration", scenario.duration, {"s", kPositive, 1e6, "Simulated time; required."});
   f.group("trace", scenario.trace, "The recorded trace.");
+  if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "What figure.svg shows.");
   f.integer("seed", scenario.seed, {"", 0, 9e18, "Seed of the random number generator."});
 }
 
@@ -211,6 +219,10 @@ std::vector<std::string> joint_names(const Robot& robot) {
   std::vector<std::string> names;
   for (const Joint& joint : robot.joints) names.push_back(joint.name);
   return names;
+}
+
+std::string no_joint(const std::string& name, const std::vector<std::string>& joints) {
+  return std::ranges::find(joints, name) != joints.end() ? "" : "no joint " + in_quotes(name) + offer(name, joints, "joints");
 }
 
 }  // namespace gaitlab

@@ -69,6 +69,21 @@ TEST_F(Messages, WhatWasTypedIsNamed) {
   EXPECT_TRUE(result.err.starts_with("--columns: error: 'zzz' matches no column")) << result.err;
 }
 
+TEST_F(Messages, AJointOfTheFigure) {
+  refused("run ok.yaml --joint m1/activ", "--joint m1/activ: error: no joint 'm1/activ'; did you mean 'm1/active'?");
+  refused_text(
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.1\nfigure: {joints: [m0/active, "
+      "m7/active]}\n",
+      "s.yaml:4:30: error: no joint 'm7/active'; did you mean 'm0/active'?");
+  EXPECT_EQ(call("run ok.yaml --joint m1/active --joint m0/passive --quiet --out run").code, 0);
+  const std::string figure = read(folder_.path() / "run/figure.svg");
+  EXPECT_LT(figure.find("joint 2 (m1/active)"), figure.find("joint 1 (m0/passive)"));
+  EXPECT_TRUE(contains(read(folder_.path() / "run/scenario.resolved.yaml"), "\nfigure:\n  joints: [m1/active, m0/passive]\n"));
+  EXPECT_EQ(call("report run --out again --joint m1/passive").code, 0);
+  EXPECT_TRUE(contains(read(folder_.path() / "again/figure.svg"), "joint 3 (m1/passive)"));
+  EXPECT_FALSE(contains(read(folder_.path() / "again/figure.svg"), "m1/active"));
+}
+
 TEST_F(Messages, AnItemOfAList) {
   refused("check ok.yaml --set robot.docks[0][1]=2",
           "--set robot.docks[0][1]=2: error: unknown key 'docks[0][1]'; an item of a list is addressed by its number: "

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -60,6 +62,20 @@ TEST(Figure, ShowsTheLastEightSecondsOrAll) {
   input = sample::figure(4);
   input.views.clear();
   EXPECT_NE(figure_svg(input).find(">0.0</text>"), std::string::npos);
+}
+
+TEST(Figure, DrawsTheTorqueAtRestWhereTheCurveComesNear) {
+  FigureInput input = sample::figure();
+  double peak = 0;
+  for (const double torque : input.joints[0].torque) peak = std::max(peak, std::abs(torque));
+  const auto with = [&](double rest) {
+    input.joints[0].peak = peak;
+    input.joints[0].rest_torque = rest;
+    return figure_svg(input);
+  };
+  EXPECT_NE(with(1.1 * peak).find("dotted: its motor at rest"), std::string::npos);
+  EXPECT_EQ(with(2 * peak).find("dotted: its motor at rest"), std::string::npos);
+  EXPECT_EQ(with(0).find("dotted: its motor at rest"), std::string::npos);
 }
 
 TEST(Figure, LongTracesStaySmall) {

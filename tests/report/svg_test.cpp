@@ -106,6 +106,13 @@ TEST(Axes, TwinZerosMeet) {
   EXPECT_LE(b.lo, -1);
 }
 
+/// An angle above zero and a torque below it would each have half of the paper.
+TEST(Axes, TwinAxesOfOppositeSignsPart) {
+  const auto [a, b] = twin_ticks(0, 0.016, -0.65, 0.02);
+  EXPECT_LE(a.hi - a.lo, 1.5 * 0.016);
+  EXPECT_LE(b.hi - b.lo, 1.5 * 0.67);
+}
+
 TEST(Axes, ThinningKeepsPeaks) {
   std::vector<Point> points;
   for (int i = 0; i < 100000; ++i) points.push_back({i * 0.008, i == 54321 ? -7.0 : i == 54399 ? 9.0 : 0.0});
