@@ -30,8 +30,75 @@ class Messages : public ::testing::Test {
 TEST_F(Messages, ACommandOrOptionThatDoesNotExist) {
   refused("rnu ok.yaml", "gaitlab: error: unknown command 'rnu'; did you mean 'run'?");
   refused("run ok.yaml --sett duration=1", "gaitlab run: error: unknown option '--sett'; did you mean '--set'?");
-  refused("new plugin cpg mine --ot x", "gaitlab new: error: unknown option '--ot'; did you mean '--out'?");
+  refused("new plugin cpg mine --ot x", "gaitlab new plugin: error: unknown option '--ot'; did you mean '--out'?");
   refused("run ok.yaml --quite", "gaitlab run: error: unknown option '--quite'; did you mean '--quiet'?");
+}
+
+TEST_F(Messages, HelpIsACommandToo) {
+  for (const auto& [words, option] :
+       {std::pair("help", "--help"), {"help run", "run --help"}, {"help new plugin", "new plugin --help"}}) {
+    const Result result = call(words);
+    EXPECT_EQ(result.code, 0) << words;
+    EXPECT_EQ(result.err, "") << words;
+    EXPECT_EQ(result.out, call(option).out) << words;
+    EXPECT_TRUE(contains(result.out, "Usage: gaitlab")) << result.out;
+  }
+  refused("help rnu", "gaitlab: error: unknown command 'rnu'; did you mean 'run'?");
+}
+
+TEST_F(Messages, WhatIsMissing) {
+  refused("run", "gaitlab run: error: SCENARIO is missing: scenario file (YAML); expected gaitlab run SCENARIO");
+  refused("export ok.yaml --to csv",
+          "gaitlab export: error: FILE is missing: file to write; must not exist; expected gaitlab export SOURCE --to "
+          "csv|mjcf|urdf FILE");
+  refused("explain cpg",
+          "gaitlab explain: error: NAME is missing: name as `gaitlab list` prints it; expected gaitlab explain [KIND] [NAME]");
+  refused("new", "gaitlab new: error: a command is missing; expected gaitlab new and one of: plugin");
+  refused("new plugn", "gaitlab new: error: unknown command 'plugn'; did you mean 'plugin'?");
+  const Result bare = call("");
+  EXPECT_EQ(bare.code, 2);
+  EXPECT_TRUE(bare.err.starts_with("gaitlab: error: a command is missing; expected gaitlab and one of: run, report, check,"))
+      << bare.err;
+}
+
+TEST_F(Messages, AWordTooMany) {
+  refused("run ok.yaml extra", "gaitlab run: error: found 'extra', one argument too many; expected gaitlab run SCENARIO");
+  refused("run ok.yaml duration=1",
+          "gaitlab run: error: found 'duration=1', one argument too many; expected gaitlab run SCENARIO; did you mean --set "
+          "duration=1?");
+  refused("run ok.yaml quiet",
+          "gaitlab run: error: found 'quiet', one argument too many; expected gaitlab run SCENARIO; did you mean '--quiet'?");
+  refused("run ok.yaml check", "gaitlab run: error: found 'check', one argument too many; expected gaitlab run SCENARIO");
+  for (const char* words : {"run -x", "run ok.yaml -x"}) {
+    const Result result = call(words);
+    EXPECT_EQ(result.code, 2);
+    EXPECT_TRUE(result.err.starts_with("gaitlab run: error: unknown option '-x'; known options: --help, --set, --seed,"))
+        << result.err;
+  }
+  refused("--quiet run ok.yaml", "gaitlab: error: unknown option '--quiet'; expected after the command: gaitlab run --quiet");
+}
+
+TEST_F(Messages, AValueOfAnotherKind) {
+  const std::string jobs = "; expected a whole number from 1 to 1024";
+  refused("converge ok.yaml -j x", "gaitlab converge: error: -j is 'x'" + jobs);
+  refused("converge ok.yaml --jobs=0", "gaitlab converge: error: --jobs is '0'" + jobs);
+  refused("converge ok.yaml --jobs -3", "gaitlab converge: error: --jobs is '-3'" + jobs);
+  refused("converge ok.yaml --jobs 1.5", "gaitlab converge: error: --jobs is '1.5'" + jobs);
+  refused("run ok.yaml --format hd5", "gaitlab run: error: --format is 'hd5'; expected h5 or csv; did you mean 'h5'?");
+  refused("test '' ok.yaml",
+          "gaitlab test: error: SCENARIO is empty; expected scenario files, or folders of them (default: scenarios)");
+  refused("report ''", "gaitlab report: error: RUN is empty; expected run folder");
+  refused("run ok.yaml --quiet=5x", "gaitlab run: error: --quiet is given '5x'; expected no value");
+}
+
+TEST_F(Messages, AnOptionWithoutItsValueTwiceOrBesideAnother) {
+  const std::string folder = "expected one after it: run folder (default runs/NAME, then NAME-2 ...); new or empty";
+  refused("run ok.yaml --out", "gaitlab run: error: --out has no value; " + folder);
+  refused("run ok.yaml --out --quiet", "gaitlab run: error: --out has no value but the option '--quiet'; " + folder);
+  refused("run ok.yaml --out a --out b", "gaitlab run: error: --out is given 2 times; expected once");
+  refused("converge ok.yaml -j",
+          "gaitlab converge: error: -j has no value; expected one after it: a whole number from 1 to 1024");
+  refused("rerun x --verify --out y", "gaitlab rerun: error: found --out and --verify together; expected one of them alone");
 }
 
 TEST_F(Messages, ATabInTheIndentation) {
