@@ -171,6 +171,48 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
   EXPECT_TRUE(contains(call("check ok.yaml").out, "records 22 rows of ")) << call("check ok.yaml").out;
 }
 
+/// Seconds or years: before the run starts.
+TEST_F(Messages, HowLongARunTakes) {
+  const Result soon = call("check ok.yaml");
+  EXPECT_TRUE(contains(soon.out, "\n  takes less than 1 s on this machine (")) << soon.out;
+  const std::string endless = "check ok.yaml --set physics.step=1e-9 --set duration=1e6";
+  const Result never = call(endless + " --set trace.period=30");
+  EXPECT_EQ(never.code, 0) << never.err;
+  EXPECT_TRUE(contains(never.out, "\n  takes about ")) << never.out;
+  EXPECT_TRUE(contains(never.out, " years on this machine (")) << never.out;
+  const Result refused = call(endless + " --set trace.period=3e-5");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(contains(refused.err, " GB of memory")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "\nok.yaml: note: the run takes about ")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, " years on this machine (")) << refused.err;
+}
+
+TEST_F(Messages, ALongRunSaysSoBeforeItStarts) {
+  const std::string run = "'" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' run ok.yaml --set duration=3000";
+  folder_.write("run.sh", run +
+                              " --out slow 2>slow.err &\n"
+                              "n=0\n"
+                              "until grep -q takes slow.err || [ $n = 300 ]; do sleep 0.1; n=$((n + 1)); done\n"
+                              "kill $!\nwait $!\n"
+                              "timeout 1 " +
+                              run + " --quiet --out quiet 2>quiet.err\n");
+  ASSERT_EQ(std::system(("cd '" + (folder_ / "") + "' && sh run.sh >out; true").c_str()), 0);
+  const std::string slow = read(folder_ / "slow.err");
+  EXPECT_TRUE(slow.starts_with("ok.yaml: note: records 6e+05 rows of ")) << slow;
+  EXPECT_TRUE(contains(slow, "\nok.yaml: note: takes about ")) << slow;
+  EXPECT_FALSE(contains(read(folder_ / "quiet.err"), "takes")) << read(folder_ / "quiet.err");
+  EXPECT_FALSE(contains(call("run ok.yaml --out short").err, "takes"));
+}
+
+TEST_F(Messages, ARunThatFailsInItsFirstSteps) {
+  folder_.write("wild.yaml",
+                "gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\n"
+                "cpg: {type: equations, model: {states: {phi: exp(700)*exp(700)}, output: phi}}\n");
+  const Result result = call("check wild.yaml");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "\n  fails early: diverged at step ")) << result.out;
+}
+
 /// A terminal of 80 columns: nothing but equations and YAML is wider.
 TEST_F(Messages, ManualsFitATerminal) {
   for (const char* command : {"explain", "explain cpg hopf", "explain cpg equations", "explain actuator dc_motor"}) {
