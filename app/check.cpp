@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "app/commands.h"
+#include "app/run_time.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
 #include "report/trust.h"
@@ -11,17 +14,27 @@ namespace {
 
 std::string_view name_of(const PluginSelection& choice) { return choice.entry == nullptr ? "none" : choice.entry->name; }
 
+/// Checks the columns, the step and the memory. Who is refused a long run is told how long, too.
+std::unique_ptr<Simulation> made(const Scenario& s, const RunTime& time) try {
+  return std::make_unique<Simulation>(std::span<const Scenario>(&s, 1));
+} catch (const InputError& error) {
+  std::vector<Problem> problems = error.problems();
+  if (time.seconds > kLongRun) problems.front().notes.emplace_back(SourceLocation{s.file}, "the run " + to_string(time));
+  throw InputError(std::move(problems));
+}
+
 int check(const ScenarioArguments& arguments) {
   Catalog catalog = standard_catalog();
   const Scenario s = read(arguments, catalog);
   warn_of_start(s, arguments.quiet);
-  const Simulation simulation({&s, 1});  // checks the columns and the step, too
+  const RunTime time = measure(s);
+  const auto simulation = made(s, time);
   const Robot& robot = *s.robot;
   const auto contacts = contact_elements(robot, s.contact.on);
   fmt::print("{}: valid\n", s.name);
   fmt::print("  {} modules, {} bodies (moving as {}), {} degrees of freedom, {:.3f} kg\n", robot.modules.size(),
              robot.bodies.size(), robot.links.size(), robot.dof(s.base), robot.mass);
-  const double rate = simulation.standing().rate;
+  const double rate = simulation->standing().rate;
   fmt::print("  engine {} ({}), {}{}\n", s.physics.engine->name, s.physics.integrator->name, report::step_text(s.physics),
              rate > 0 ? fmt::format(": h lambda = {:.2f} standing (at most 1)", s.physics.step * rate) : "");
   const Vec3 start = start_state(s).position;
@@ -31,9 +44,11 @@ int check(const ScenarioArguments& arguments) {
                                                  : "position gives the height, on_ground is off");
   fmt::print("  cpg {}, controller {}, actuator {}, {} contact elements\n", name_of(s.cpg), name_of(s.controller),
              name_of(s.actuator), contacts.size());
-  const RowsNeeded needed = simulation.rows_needed(0);
+  const RowsNeeded needed = simulation->rows_needed(0);
   fmt::print("  records {:.0f} rows of {:.0f} columns ({:.3g} MB) in {:g} s\n", needed.rows, needed.columns,
              needed.bytes() / 1e6, s.duration);
+  if (!time.failure.empty()) fmt::print("  fails early: {}\n", time.failure);
+  if (time.seconds > 0) fmt::print("  {}\n", to_string(time));
   for (const PluginFile& plugin : s.plugins) fmt::print("  plugin {} ({})\n", plugin.path, plugin.hash);
   fmt::print("  joints (number, name, range in rad):\n");
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {

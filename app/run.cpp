@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/progress.h"
+#include "app/run_time.h"
 #include "core/recording/atomic_file.h"
 #include "core/recording/recording_file.h"
 #include "core/recording/run_folder.h"
@@ -47,6 +48,12 @@ void write_files(const std::filesystem::path& folder, const std::string& format,
   write_file(folder / "summary.json", report::to_json(summary, scenario, recording));
 }
 
+/// The first steps of the run tell how long it takes: nothing is simulated twice.
+void note_time(const Scenario& scenario, Simulation& simulation) {
+  const RunTime time = measure(simulation, scenario.duration);
+  if (time.seconds > kLongRun) fmt::print(stderr, "{}: note: {}\n", scenario.file, to_string(time));
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
@@ -60,18 +67,19 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   warn_of_start(scenario, arguments.quiet);  // first: a slip of units is why a step is refused
   Simulation simulation({&scenario, 1});
   RunFolder folder(arguments.out, scenario.name);
-  constexpr double kMuch = 1e9;  // bytes
+  constexpr double kMuch = 1e8;  // bytes
   if (const RowsNeeded needed = simulation.rows_needed(0); needed.bytes() > kMuch && !arguments.quiet) {
     fmt::print(
         stderr,
-        "{}: note: records {:.3g} rows of {:.0f} columns, {:.3g} GB in memory; trace.period and trace.columns make it less\n",
-        scenario.file, needed.rows, needed.columns, needed.bytes() / 1e9);
+        "{}: note: records {:.3g} rows of {:.0f} columns, {:.3g} MB in memory; trace.period and trace.columns make it less\n",
+        scenario.file, needed.rows, needed.columns, needed.bytes() / 1e6);
   }
 
   const StopOnSignal stop;
   std::string failure;
   const auto start = std::chrono::steady_clock::now();
   try {
+    if (!arguments.quiet) note_time(scenario, simulation);
     const Progress progress(arguments.quiet);
     if (!simulation.run(std::cref(progress), &interrupted))
       failure = fmt::format("interrupted at t = {:.6g} s", simulation.time());

@@ -1,4 +1,4 @@
-// A scenario under several CPGs: one table, one figure.
+// A scenario under several CPGs: one table, one figure, and the numbers for other programs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 #include "core/recording/run_folder.h"
 #include "core/simulation/batch.h"
 #include "golden/report.h"
-#include "report/curves.h"
-#include "report/numbers.h"
+#include "report/coincide.h"
+#include "report/swap_table.h"
 
 namespace gaitlab::app {
 
@@ -20,7 +20,7 @@ namespace {
 
 struct SwapArguments : ScenarioArguments {
   std::string cpgs;                ///< types, with commas between
-  std::optional<std::string> out;  ///< folder of the figure
+  std::optional<std::string> out;  ///< folder of figure and numbers
   int jobs = 1;                    ///< threads
 };
 
@@ -113,92 +113,77 @@ void run_all(std::vector<Swapped>& all, int jobs) {
   });
 }
 
-// ---- the table
-
-void print_row(std::string row) {
-  row.erase(row.find_last_not_of(' ') + 1);
-  fmt::print("{}\n", row);
-}
-
-template <class Text>
-std::string cells(std::string row, Text text) {
-  for (const report::SummaryNumber* number : report::placed(&report::SummaryNumber::swap)) {
-    const int width = number->swap.width;
-    row += width < 0 ? fmt::format(" {:<{}}", text(*number), -width) : fmt::format(" {:>{}}", text(*number), width);
-  }
-  return row;
-}
-
-void print_table(const std::vector<Swapped>& all) {
-  const Scenario& first = *all.front().scenario;
-  std::size_t width = 3;
-  for (const Swapped& swapped : all) width = std::max(width, swapped.cpg.size());
-  const auto name = [&](const std::string& text) { return fmt::format("{:<{}}", text, width); };
-  fmt::print("{}: {:g} s under each\n", first.name, first.duration);
-  print_row(cells(name(""), [](const report::SummaryNumber& number) { return number.swap.head; }));
-  print_row(cells(name("cpg"), [](const report::SummaryNumber& number) { return number.swap.under; }));
-  for (const Swapped& swapped : all) {
-    const report::RunData run{*swapped.scenario, swapped.record, swapped.summary};
-    const std::string& outcome = run.summary.outcome;
-    print_row(outcome != "done"
-                  ? name(swapped.cpg) + " " + outcome
-                  : cells(name(swapped.cpg), [&](const report::SummaryNumber& number) { return number.swap.cell(run); }));
-  }
+std::vector<report::NamedRun> named_runs(const std::vector<Swapped>& all) {
+  std::vector<report::NamedRun> runs;
+  for (const Swapped& one : all) runs.push_back({one.cpg, {*one.scenario, one.record, one.summary}});
+  return runs;
 }
 
 // ---- the figure
 
-std::string figure(const std::vector<Swapped>& all) {
+/// Set point and torque of the joint that is the most loaded under the first CPG, where something drives it; and the travel.
+report::CurvesInput figure(const std::vector<Swapped>& all) {
   const Scenario& first = *all.front().scenario;
   report::CurvesInput input;
   input.title = fmt::format("{} under {}", first.name, golden::plural(all.size(), "CPG"));
-  const std::size_t joints = first.robot->joints.size();
-  const std::size_t joint = all.front().summary.most_loaded();
-  report::CurvesPanel setpoint{"set point (rad)"};
-  report::CurvesPanel torque{"torque (N m)"};
+  report::CurvesPanel setpoint{"set point"};
+  report::CurvesPanel torque{"torque"};
   report::CurvesPanel travel{"travel of the centre of mass along x (m)"};
-  if (joints > 0) {
+  const bool driven = report::has_motors(first);
+  const std::size_t joint = all.front().summary.most_loaded();
+  if (driven) {
     const std::string where = fmt::format(" of joint {} ({})", joint, first.robot->joints[joint].name);
-    setpoint.title = "set point" + where + " (rad)";
-    torque.title = "torque" + where + " (N m)";
+    setpoint.title += where + " (rad)";
+    torque.title += where + " (N m)";
   }
   setpoint.from = torque.from = std::max(0.0, first.duration - kShown);
   for (const Swapped& swapped : all) {
     const Recording& r = swapped.record;
     input.names.push_back(swapped.cpg);
-    std::vector<double> time;
-    std::vector<double> set;
-    std::vector<double> load;
-    std::vector<double> way;
+    std::vector<double>& time = input.time.emplace_back();
+    std::vector<double>& way = travel.values.emplace_back();
     const Series x = r.series("com.x");
     for (std::size_t k = 0; k < x.size(); ++k) {
       time.push_back(std::min(static_cast<double>(k) * first.trace.period, swapped.summary.simulated));
       way.push_back(x[k] - x.front());
     }
-    if (joints > 0 && first.actuator.entry != nullptr) {
-      set = r.joint(joint, "setpoint").values();
-      load = r.joint(joint, "torque").values();
-    }
-    input.time.push_back(std::move(time));
-    setpoint.values.push_back(std::move(set));
-    torque.values.push_back(std::move(load));
-    travel.values.push_back(std::move(way));
+    if (!driven) continue;
+    setpoint.values.push_back(r.joint(joint, "setpoint").values());
+    torque.values.push_back(r.joint(joint, "torque").values());
   }
-  if (!setpoint.values.front().empty()) input.panels = {setpoint, torque};
+  if (driven) {
+    input.panels = {setpoint, torque};
+    input.coincide = report::coinciding(input.time, input.panels);
+  }
   input.panels.push_back(travel);
-  return report::curves_svg(input);
+  return input;
+}
+
+void print_coinciding(const std::vector<Swapped>& all, const report::CurvesInput& shown) {
+  const Scenario& first = *all.front().scenario;
+  for (const std::vector<std::size_t>& group : shown.coincide) {
+    fmt::print("coincide within {:g} % of their range: {} (set point and torque of {}, {:g} to {:g} s)\n",
+               100 * report::kCoincide, report::run_names(group, shown.names),
+               first.robot->joints[all.front().summary.most_loaded()].name, shown.panels.front().from, first.duration);
+  }
 }
 
 int swap_cpgs(const SwapArguments& arguments) {
   Catalog catalog = standard_catalog();
   std::vector<Swapped> all = read_all(arguments, catalog);
-  RunFolder folder(arguments.out, "swap-" + all.front().scenario->name);
+  const Scenario& first = *all.front().scenario;
+  RunFolder folder(arguments.out, "swap-" + first.name);
   run_all(all, arguments.jobs);
-  print_table(all);
-  const std::filesystem::path file = folder.path() / "overlay.svg";
-  write_file(file, figure(all));
+  const std::vector<report::NamedRun> runs = named_runs(all);
+  const report::CurvesInput shown = figure(all);
+  fmt::print("{}: {:g} s under each\n{}", first.name, first.duration, report::swap_table(runs));
+  print_coinciding(all, shown);
+  write_file(folder.path() / "overlay.svg", report::curves_svg(shown));
+  write_file(folder.path() / "swap.csv", report::swap_csv(runs));
+  write_file(folder.path() / "swap.json", report::swap_json(runs));
   folder.keep();
-  fmt::print("figure: {}\n", file.string());
+  fmt::print("figure: {}\n", (folder.path() / "overlay.svg").string());
+  fmt::print("numbers: {}, swap.json\n", (folder.path() / "swap.csv").string());
   const bool broke_off = std::any_of(all.begin(), all.end(), [](const Swapped& s) { return s.summary.outcome != "done"; });
   return broke_off ? 1 : 0;
 }
@@ -207,14 +192,14 @@ int swap_cpgs(const SwapArguments& arguments) {
 
 void add_swap(Commands& commands) {
   add_command<SwapArguments>(
-      commands, "swap", "Run a scenario under several CPGs: one table, one figure.", swap_cpgs,
+      commands, "swap", "Run a scenario under several CPGs: one table, one figure, CSV and JSON.", swap_cpgs,
       [](CLI::App& command, SwapArguments& arguments) {
         add_scenario(command, arguments);
         command
             .add_option("--cpg", arguments.cpgs,
                         "types of the CPGs, separated by commas; their common keys are kept, `model` gets its defaults")
             ->required();
-        command.add_option("--out", arguments.out, "folder of the figure (default runs/swap-NAME)");
+        command.add_option("--out", arguments.out, "folder of figure and numbers (default runs/swap-NAME); new or empty");
         command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
       });
 }

@@ -16,6 +16,8 @@ struct CurvesInput {
   std::vector<std::string> names;         ///< of the runs, in the legend
   std::vector<std::vector<double>> time;  ///< s, rising; one per run
   std::vector<CurvesPanel> panels;
+  /// Groups of runs whose curves lie on each other: each is dashed so that all are seen, and the legend names them.
+  std::vector<std::vector<std::size_t>> coincide = {};
 };
 
 /// An SVG document, 1000 px wide. The runs keep colour and dash from panel to panel.

@@ -28,6 +28,8 @@ struct SummaryNumber {
   /// null: not known. A group (`torque_error`) of which a number is null is null.
   std::function<nlohmann::ordered_json(const RunData&)> value = {};
   std::function<double(const RunData&, std::size_t joint)> of_joint = {};  ///< instead of `value`: for every joint
+  bool list = false;                                                       ///< an array or an object: not for a table's cell
+  bool clock = false;                                                      ///< of the clock: two equal runs do not share it
 
   struct Line {
     int place = 0;
@@ -62,6 +64,9 @@ struct SummaryNumber {
 
 /// In the order of summary.json.
 const std::vector<SummaryNumber>& summary_numbers();
+
+/// The object of summary.json.
+nlohmann::ordered_json numbers_json(const RunData& run);
 
 /// Those that have a place, in its order: placed(&SummaryNumber::golden).
 template <class Shown>

@@ -101,8 +101,7 @@ Summary summarise(const Scenario& scenario, const Recording& r, double wall_time
   return s;
 }
 
-std::string to_json(const Summary& s, const Scenario& scenario, const Recording& r) {
-  const RunData run{scenario, r, s};
+Json numbers_json(const RunData& run) {
   Json json;
   for (const SummaryNumber& number : summary_numbers()) {
     if (number.of_joint == nullptr) {
@@ -110,10 +109,14 @@ std::string to_json(const Summary& s, const Scenario& scenario, const Recording&
       continue;
     }
     json.emplace("per_joint", Json::object());  // without joints, too
-    for (std::size_t j = 0; j < r.joints.size(); ++j)
-      put(json, number, scenario.robot->joints[j].name, number.of_joint(run, j));
+    for (std::size_t j = 0; j < run.record.joints.size(); ++j)
+      put(json, number, run.scenario.robot->joints[j].name, number.of_joint(run, j));
   }
-  return json.dump(2) + "\n";
+  return json;
+}
+
+std::string to_json(const Summary& s, const Scenario& scenario, const Recording& r) {
+  return numbers_json({scenario, r, s}).dump(2) + "\n";
 }
 
 std::string to_text(const Summary& s, const Scenario& scenario, const Recording& r, bool verbose) {

@@ -30,7 +30,7 @@ bool Simulation::any(bool (Simulation::*tick)(const Lane&) const) const {
   return std::any_of(lanes_.begin(), lanes_.end(), [&](const auto& lane) { return (this->*tick)(*lane); });
 }
 
-void Simulation::step() {
+void Simulation::step() try {
   if (any(&Simulation::trace_tick)) record();
   if (any(&Simulation::control_tick)) {
     sense();
@@ -42,6 +42,8 @@ void Simulation::step() {
   if (step_error_) step_error_->follow(step_number(), plant_state_, command_, h_);
   state_[0] += 1;
   check();
+} catch (const PluginError& error) {
+  throw stopped(error);
 }
 
 bool Simulation::done() const {

@@ -33,7 +33,7 @@ bool can_share(const Scenario& a, const Scenario& b);
 /// a lane's bits are those it has alone, whatever the others hold. Throws std::invalid_argument where they do not share it, or
 /// the engine has no such number of lanes. The constructor checks the step: InputError where h lambda > 1 for the standing
 /// robot, naming the largest step allowed and the joint or contact that sets it. step() allocates nothing. A lane that leaves
-/// the numbers throws SimulationError if it is alone; beside others it ends there, and failure() tells.
+/// the numbers, or whose plugin throws, throws SimulationError if alone; beside others it ends there, and failure() tells.
 class Simulation {
  public:
   explicit Simulation(std::span<const Scenario> lanes);

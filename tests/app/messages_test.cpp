@@ -30,8 +30,75 @@ class Messages : public ::testing::Test {
 TEST_F(Messages, ACommandOrOptionThatDoesNotExist) {
   refused("rnu ok.yaml", "gaitlab: error: unknown command 'rnu'; did you mean 'run'?");
   refused("run ok.yaml --sett duration=1", "gaitlab run: error: unknown option '--sett'; did you mean '--set'?");
-  refused("new plugin cpg mine --ot x", "gaitlab new: error: unknown option '--ot'; did you mean '--out'?");
+  refused("new plugin cpg mine --ot x", "gaitlab new plugin: error: unknown option '--ot'; did you mean '--out'?");
   refused("run ok.yaml --quite", "gaitlab run: error: unknown option '--quite'; did you mean '--quiet'?");
+}
+
+TEST_F(Messages, HelpIsACommandToo) {
+  for (const auto& [words, option] :
+       {std::pair("help", "--help"), {"help run", "run --help"}, {"help new plugin", "new plugin --help"}}) {
+    const Result result = call(words);
+    EXPECT_EQ(result.code, 0) << words;
+    EXPECT_EQ(result.err, "") << words;
+    EXPECT_EQ(result.out, call(option).out) << words;
+    EXPECT_TRUE(contains(result.out, "Usage: gaitlab")) << result.out;
+  }
+  refused("help rnu", "gaitlab: error: unknown command 'rnu'; did you mean 'run'?");
+}
+
+TEST_F(Messages, WhatIsMissing) {
+  refused("run", "gaitlab run: error: SCENARIO is missing: scenario file (YAML); expected gaitlab run SCENARIO");
+  refused("export ok.yaml --to csv",
+          "gaitlab export: error: FILE is missing: file to write; must not exist; expected gaitlab export SOURCE --to "
+          "csv|mjcf|urdf FILE");
+  refused("explain cpg",
+          "gaitlab explain: error: NAME is missing: name as `gaitlab list` prints it; expected gaitlab explain [KIND] [NAME]");
+  refused("new", "gaitlab new: error: a command is missing; expected gaitlab new and one of: plugin");
+  refused("new plugn", "gaitlab new: error: unknown command 'plugn'; did you mean 'plugin'?");
+  const Result bare = call("");
+  EXPECT_EQ(bare.code, 2);
+  EXPECT_TRUE(bare.err.starts_with("gaitlab: error: a command is missing; expected gaitlab and one of: run, report, check,"))
+      << bare.err;
+}
+
+TEST_F(Messages, AWordTooMany) {
+  refused("run ok.yaml extra", "gaitlab run: error: found 'extra', one argument too many; expected gaitlab run SCENARIO");
+  refused("run ok.yaml duration=1",
+          "gaitlab run: error: found 'duration=1', one argument too many; expected gaitlab run SCENARIO; did you mean --set "
+          "duration=1?");
+  refused("run ok.yaml quiet",
+          "gaitlab run: error: found 'quiet', one argument too many; expected gaitlab run SCENARIO; did you mean '--quiet'?");
+  refused("run ok.yaml check", "gaitlab run: error: found 'check', one argument too many; expected gaitlab run SCENARIO");
+  for (const char* words : {"run -x", "run ok.yaml -x"}) {
+    const Result result = call(words);
+    EXPECT_EQ(result.code, 2);
+    EXPECT_TRUE(result.err.starts_with("gaitlab run: error: unknown option '-x'; known options: --help, --set, --seed,"))
+        << result.err;
+  }
+  refused("--quiet run ok.yaml", "gaitlab: error: unknown option '--quiet'; expected after the command: gaitlab run --quiet");
+}
+
+TEST_F(Messages, AValueOfAnotherKind) {
+  const std::string jobs = "; expected a whole number from 1 to 1024";
+  refused("converge ok.yaml -j x", "gaitlab converge: error: -j is 'x'" + jobs);
+  refused("converge ok.yaml --jobs=0", "gaitlab converge: error: --jobs is '0'" + jobs);
+  refused("converge ok.yaml --jobs -3", "gaitlab converge: error: --jobs is '-3'" + jobs);
+  refused("converge ok.yaml --jobs 1.5", "gaitlab converge: error: --jobs is '1.5'" + jobs);
+  refused("run ok.yaml --format hd5", "gaitlab run: error: --format is 'hd5'; expected h5 or csv; did you mean 'h5'?");
+  refused("test '' ok.yaml",
+          "gaitlab test: error: SCENARIO is empty; expected scenario files, or folders of them (default: scenarios)");
+  refused("report ''", "gaitlab report: error: RUN is empty; expected run folder");
+  refused("run ok.yaml --quiet=5x", "gaitlab run: error: --quiet is given '5x'; expected no value");
+}
+
+TEST_F(Messages, AnOptionWithoutItsValueTwiceOrBesideAnother) {
+  const std::string folder = "expected one after it: run folder (default runs/NAME, then NAME-2 ...); new or empty";
+  refused("run ok.yaml --out", "gaitlab run: error: --out has no value; " + folder);
+  refused("run ok.yaml --out --quiet", "gaitlab run: error: --out has no value but the option '--quiet'; " + folder);
+  refused("run ok.yaml --out a --out b", "gaitlab run: error: --out is given 2 times; expected once");
+  refused("converge ok.yaml -j",
+          "gaitlab converge: error: -j has no value; expected one after it: a whole number from 1 to 1024");
+  refused("rerun x --verify --out y", "gaitlab rerun: error: found --out and --verify together; expected one of them alone");
 }
 
 TEST_F(Messages, ATabInTheIndentation) {
@@ -117,6 +184,48 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
     EXPECT_TRUE(result.err.starts_with("--set duration=1e6: error: the run would record 4e+10 rows of ")) << result.err;
   }
   EXPECT_TRUE(contains(call("check ok.yaml").out, "records 22 rows of ")) << call("check ok.yaml").out;
+}
+
+/// Seconds or years: before the run starts.
+TEST_F(Messages, HowLongARunTakes) {
+  const Result soon = call("check ok.yaml");
+  EXPECT_TRUE(contains(soon.out, "\n  takes less than 1 s on this machine (")) << soon.out;
+  const std::string endless = "check ok.yaml --set physics.step=1e-9 --set duration=1e6";
+  const Result never = call(endless + " --set trace.period=30");
+  EXPECT_EQ(never.code, 0) << never.err;
+  EXPECT_TRUE(contains(never.out, "\n  takes about ")) << never.out;
+  EXPECT_TRUE(contains(never.out, " years on this machine (")) << never.out;
+  const Result refused = call(endless + " --set trace.period=3e-5");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(contains(refused.err, " GB of memory")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "\nok.yaml: note: the run takes about ")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, " years on this machine (")) << refused.err;
+}
+
+TEST_F(Messages, ALongRunSaysSoBeforeItStarts) {
+  const std::string run = "'" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' run ok.yaml --set duration=3000";
+  folder_.write("run.sh", run +
+                              " --out slow 2>slow.err &\n"
+                              "n=0\n"
+                              "until grep -q takes slow.err || [ $n = 300 ]; do sleep 0.1; n=$((n + 1)); done\n"
+                              "kill $!\nwait $!\n"
+                              "timeout 1 " +
+                              run + " --quiet --out quiet 2>quiet.err\n");
+  ASSERT_EQ(std::system(("cd '" + (folder_ / "") + "' && sh run.sh >out; true").c_str()), 0);
+  const std::string slow = read(folder_ / "slow.err");
+  EXPECT_TRUE(slow.starts_with("ok.yaml: note: records 6e+05 rows of ")) << slow;
+  EXPECT_TRUE(contains(slow, "\nok.yaml: note: takes about ")) << slow;
+  EXPECT_FALSE(contains(read(folder_ / "quiet.err"), "takes")) << read(folder_ / "quiet.err");
+  EXPECT_FALSE(contains(call("run ok.yaml --out short").err, "takes"));
+}
+
+TEST_F(Messages, ARunThatFailsInItsFirstSteps) {
+  folder_.write("wild.yaml",
+                "gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\n"
+                "cpg: {type: equations, model: {states: {phi: exp(700)*exp(700)}, output: phi}}\n");
+  const Result result = call("check wild.yaml");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "\n  fails early: diverged at step ")) << result.out;
 }
 
 /// A terminal of 80 columns: nothing but equations and YAML is wider.

@@ -1,6 +1,9 @@
 // `gaitlab swap`: the table, the figure, and what it refuses.
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "core/scenario/wording.h"
+#include "report/numbers.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -19,6 +22,26 @@ class Swap : public ::testing::Test {
   Result call(const std::string& arguments) { return gaitlab("swap creep.yaml " + arguments, folder / ""); }
   Folder folder;
 };
+
+/// Of a text in which no cell holds a quote or a line break.
+std::vector<std::vector<std::string>> cells(const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string>& row = rows.emplace_back(1);
+    bool quoted = false;
+    for (const char c : line) {
+      if (c == '"') {
+        quoted = !quoted;
+      } else if (c == ',' && !quoted) {
+        row.emplace_back();
+      } else {
+        row.back() += c;
+      }
+    }
+  }
+  return rows;
+}
 
 TEST_F(Swap, OneRowACpgAndAFigure) {
   const Result result = call("--cpg phase_oscillator,sine -j 2");
@@ -86,6 +109,81 @@ TEST_F(Swap, OneThatDivergesKeepsItsRow) {
   EXPECT_NE(wild.out.find("\nequations "), std::string::npos) << wild.out;
   EXPECT_NE(wild.out.find("\nsine "), std::string::npos) << wild.out;
   EXPECT_TRUE(fs::exists(folder / "runs/swap-wild/overlay.svg"));
+  // Its outcome, and nothing else.
+  const auto numbers = nlohmann::json::parse(read(folder / "runs/swap-wild/swap.json"));
+  for (const auto& [key, value] : numbers["equations"].items()) {
+    EXPECT_EQ(value.is_null(), key != "outcome") << key;
+    EXPECT_TRUE(numbers["sine"].contains(key)) << key;
+  }
+  const std::string outcome = numbers["equations"]["outcome"];
+  EXPECT_NE(outcome, "done");
+  EXPECT_EQ(numbers["sine"]["outcome"], "done");
+  const std::vector<std::vector<std::string>> table = cells(read(folder / "runs/swap-wild/swap.csv"));
+  ASSERT_EQ(table.size(), 3U);
+  for (std::size_t column = 1; column < table[0].size(); ++column)
+    EXPECT_EQ(table[1][column], table[0][column] == "outcome" ? outcome : "") << table[0][column];
+}
+
+TEST_F(Swap, CsvAndJsonHoldTheNumbersOfARun) {
+  const Result result = call("--cpg phase_oscillator,sine --out two");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("\nnumbers: two/swap.csv, swap.json\n"), std::string::npos) << result.out;
+  ASSERT_EQ(gaitlab("run creep.yaml --set cpg.type=sine --quiet --out run", folder / "").code, 0);
+  const auto json = nlohmann::ordered_json::parse(read(folder / "two/swap.json"));
+  auto run = nlohmann::ordered_json::parse(read(folder / "run/summary.json"));
+  for (const char* key : {"wall_time", "real_time_factor"}) EXPECT_EQ(run.erase(key), 1U) << key;
+  EXPECT_EQ(json["sine"], run);
+  EXPECT_EQ(json.begin().key(), "phase_oscillator");
+
+  const std::vector<std::vector<std::string>> table = cells(read(folder / "two/swap.csv"));
+  ASSERT_EQ(table.size(), 3U);
+  EXPECT_EQ(table[0][0], "cpg");
+  EXPECT_EQ(table[1][0], "phase_oscillator");
+  EXPECT_EQ(table[2][0], "sine");
+  std::size_t column = 1;
+  for (const report::SummaryNumber& number : report::summary_numbers()) {
+    const nlohmann::ordered_json::json_pointer at(number.pointer());
+    if (number.of_joint != nullptr || number.clock) continue;
+    const bool known = json["sine"].contains(at);  // a group that is not known is null
+    const nlohmann::ordered_json value = known ? json["sine"][at] : nlohmann::ordered_json();
+    EXPECT_EQ(value.is_structured(), number.list && known) << number.key;
+    if (number.list) continue;
+    const std::string unit = number.unit;
+    EXPECT_EQ(table[0].at(column), unit.empty() ? number.key : fmt::format("{} ({})", number.key, unit));
+    const std::string text = value.is_null()           ? ""
+                             : value.is_string()       ? value.get<std::string>()
+                             : value.is_number_float() ? number_text(value)
+                                                       : value.dump();
+    EXPECT_EQ(table[2].at(column), text) << number.key;
+    ++column;
+  }
+  EXPECT_EQ(table[0].size(), column);
+}
+
+TEST_F(Swap, EveryFileIsTheSameWithAnyNumberOfThreads) {
+  ASSERT_EQ(call("--cpg phase_oscillator,sine,hopf --out one").code, 0);
+  ASSERT_EQ(call("--cpg phase_oscillator,sine,hopf --out more -j 3").code, 0);
+  for (const std::string file : {"overlay.svg", "swap.csv", "swap.json"})
+    EXPECT_EQ(read(folder / ("one/" + file)), read(folder / ("more/" + file))) << file;
+}
+
+/// `equations` that say what `sine` does: the same set points but for rounding; keyframes stand apart.
+TEST_F(Swap, CurvesOnEachOtherAreNamedAndDashed) {
+  folder.write("twins.yaml",
+               "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.3\n"
+               "cpg: {type: equations, frequency: 1, amplitude: 0.4, phase_lag: 1.2,\n"
+               "  model: {states: {phi: omega}, initial: {phi: phase}, output: amplitude*sin(phi)}}\n");
+  const Result result = gaitlab("swap twins.yaml --cpg equations,hopf,sine", folder / "");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("\ncoincide within 0.5 % of their range: equations, sine (set point and torque of m"),
+            std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find(", 0 to 0.3 s)\nfigure: "), std::string::npos) << result.out;
+  const std::string figure = read(folder / "runs/swap-twins/overlay.svg");
+  EXPECT_NE(figure.find(">coincide: equations, sine<"), std::string::npos);
+  EXPECT_NE(figure.find("stroke-dasharray=\"14.0 14.0\""), std::string::npos);
+  const Result apart = call("--cpg sine");
+  EXPECT_EQ(apart.out.find("coincide"), std::string::npos) << apart.out;
 }
 
 }  // namespace

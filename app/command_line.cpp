@@ -1,0 +1,245 @@
+#include "app/command_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/scenario/wording.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+std::string full_name(const CLI::App& command) {
+  return command.get_parent() == nullptr ? "gaitlab" : full_name(*command.get_parent()) + " " + command.get_name();
+}
+
+[[noreturn]] void refuse(const CLI::App& command, const std::string& text) {
+  throw InputError(SourceLocation{full_name(command)}, text);
+}
+
+/// The program, the command that was chosen, and what was chosen within it.
+std::vector<const CLI::App*> levels(const CLI::App& app) {
+  std::vector<const CLI::App*> all{&app};
+  while (!all.back()->get_subcommands().empty()) all.push_back(all.back()->get_subcommands().front());
+  return all;
+}
+
+/// The commands within a command, as its help shows them.
+Words shown_commands(const CLI::App& command) {
+  Words known;
+  for (const CLI::App* within : command.get_subcommands({})) {
+    if (!within->get_group().empty()) known.push_back(within->get_name());
+  }
+  return known;
+}
+
+Words long_options(const CLI::App& command) {
+  Words known;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  return known;
+}
+
+bool is_option(const CLI::App& command, const std::string& word) {
+  const auto named = [&](const CLI::Option* option) { return word.starts_with('-') && option->check_name(word); };
+  const auto options = command.get_options();
+  return std::any_of(options.begin(), options.end(), named);
+}
+
+bool among(const Words& known, const std::string& name) { return std::find(known.begin(), known.end(), name) != known.end(); }
+
+bool looks_like_option(const std::string& word) { return word.size() > 1 && word[0] == '-' && word != "--"; }
+
+/// `h5, csv` of the parser's `TEXT:{h5,csv}`; empty where any text will do.
+Words choices(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const std::size_t open = type.find('{');
+  if (open == std::string::npos) return {};
+  return CLI::detail::split(type.substr(open + 1, type.find('}') - open - 1), ',');
+}
+
+/// `gaitlab swap SCENARIO --cpg ...`: what must be there, and in brackets what else has its place.
+std::string usage(const CLI::App& command) {
+  std::string text = full_name(command);
+  for (const CLI::Option* option : command.get_options()) {
+    const bool place = option->get_positional();
+    if (!place && !option->get_required()) continue;
+    const Words list = choices(*option);
+    std::string part = place ? option->get_name() : fmt::format("{} {}", option->get_name(), fmt::join(list, "|"));
+    if (!place && list.empty()) part += "...";
+    if (place && option->get_items_expected_max() > 1) part += "...";
+    text += option->get_required() ? " " + part : " [" + part + "]";
+  }
+  return text;
+}
+
+/// The value that an option takes, in words.
+std::string expected(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  if (const Words list = choices(option); !list.empty()) return fmt::format("{}", fmt::join(list, " or "));
+  const bool whole = type.starts_with("INT") || type.starts_with("UINT");
+  const std::size_t open = type.find('[');
+  const std::size_t dash = type.find(" - ", open);
+  if (open == std::string::npos || dash == std::string::npos) return whole ? "a whole number" : option.get_description();
+  const std::string low = type.substr(open + 1, dash - open - 1);
+  const std::string high = type.substr(dash + 3, type.find(']') - dash - 3);
+  return fmt::format("{} from {} to {}", whole ? "a whole number" : "a number", low, high);
+}
+
+void check_command(const CLI::App& app, const Words& words) {
+  if (words.empty() || words.front().starts_with('-')) return;
+  const auto all = app.get_subcommands({});
+  if (std::any_of(all.begin(), all.end(), [&](const CLI::App* one) { return one->get_name() == words.front(); })) return;
+  Words known = shown_commands(app);
+  known.push_back("help");
+  refuse(app, "unknown command " + in_quotes(words.front()) + offer(words.front(), known, "commands"));
+}
+
+/// Words that begin with a dash, and are no option of their command.
+void check_options(const std::vector<const CLI::App*>& chosen) {
+  for (const CLI::App* command : chosen) {
+    for (const std::string& word : command->remaining()) {
+      if (!looks_like_option(word)) continue;
+      const std::string name = word.substr(0, word.find('='));
+      const bool later = command != chosen.back() && is_option(*chosen.back(), name);
+      refuse(*command, "unknown option " + in_quotes(name) +
+                           (later ? "; expected after the command: " + full_name(*chosen.back()) + " " + name
+                                  : offer(name, long_options(*command), "options")));
+    }
+  }
+}
+
+/// A command that takes another after it.
+void check_within(const CLI::App& command) {
+  if (command.get_require_subcommand_min() == 0 || !command.get_subcommands().empty()) return;
+  const Words known = shown_commands(command);
+  const Words left = command.remaining();
+  if (!left.empty()) refuse(command, "unknown command " + in_quotes(left.front()) + offer(left.front(), known, "commands"));
+  refuse(command, fmt::format("a command is missing; expected {} and one of: {}", full_name(command), fmt::join(known, ", ")));
+}
+
+void check_missing(const CLI::App& command) {
+  std::vector<const CLI::Option*> missing;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_required() && option->count() == 0) missing.push_back(option);
+    if (option->count() == 0) continue;
+    for (const CLI::Option* needed : option->get_needs()) {
+      if (needed->count() == 0) missing.push_back(needed);
+    }
+  }
+  Problems problems;
+  for (const CLI::Option* option : missing) {
+    problems.add(SourceLocation{full_name(command)},
+                 fmt::format("{} is missing: {}; expected {}", option->get_name(), option->get_description(), usage(command)));
+  }
+  problems.raise();
+}
+
+void check_exclusions(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    for (const CLI::Option* other : option->get_excludes()) {
+      if (option->count() == 0 || other->count() == 0) continue;
+      refuse(command,
+             fmt::format("found {} and {} together; expected one of them alone", option->get_name(), other->get_name()));
+    }
+  }
+}
+
+void check_extras(const CLI::App& command) {
+  for (const std::string& word : command.remaining()) {
+    if (word == "--") continue;
+    const Words known = long_options(command);
+    const std::string option = nearest("--" + word, known);
+    std::string remedy;
+    if (word.find('=') != std::string::npos && among(known, "--set")) remedy = "; did you mean --set " + clipped(word) + "?";
+    if (remedy.empty() && !option.empty()) remedy = "; did you mean '" + option + "'?";
+    refuse(command, fmt::format("found {}, one argument too many; expected {}{}", in_quotes(word), usage(command), remedy));
+  }
+}
+
+/// The option that a message of the parser is about: the longest name of those that stand in it.
+const CLI::Option* named_in(const CLI::App& command, const std::string& message) {
+  const CLI::Option* found = nullptr;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (name.empty() || message.find(name) == std::string::npos) continue;
+    if (found == nullptr || name.size() > found->get_name().size()) found = option;
+  }
+  return found;
+}
+
+/// -j, where that was typed for --jobs.
+std::string as_typed(const CLI::Option& option, const Words& words) {
+  for (const std::string& name : option.get_snames()) {
+    if (std::any_of(words.begin(), words.end(), [&](const std::string& word) { return word.starts_with("-" + name); }))
+      return "-" + name;
+  }
+  return option.get_name();
+}
+
+constexpr const char* kNoValue = "{} has no value{}; expected one after it: {}";
+
+/// A value that is missing, one too many, or not of its kind.
+void check_value(const CLI::App& command, const Words& words, const CLI::ParseError& error) {
+  const CLI::Option* option = named_in(command, error.what());
+  if (option == nullptr) return;
+  const std::string name = as_typed(*option, words);
+  if (option->count() == 0) refuse(command, fmt::format(kNoValue, name, "", expected(*option)));
+  if (error.get_name() == "ArgumentMismatch") {
+    refuse(command, fmt::format("{} is given {} times; expected once", name, option->count()));
+  }
+  const bool empty = among(option->results(), "");
+  const std::string value = empty ? "" : option->results().back();
+  const std::string close = nearest(value, choices(*option));
+  refuse(command, fmt::format("{} is {}; expected {}{}", name, empty ? "empty" : in_quotes(value), expected(*option),
+                              close.empty() ? "" : "; did you mean '" + close + "'?"));
+}
+
+/// What the parser takes without a word: another option as a value, and a value of what has none.
+void check_taken_values(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    const bool flag = option->get_items_expected_max() == 0;
+    for (const std::string& value : option->results()) {
+      if (flag && value != "true" && value != "false") {
+        refuse(command, fmt::format("{} is given {}; expected no value", name, in_quotes(value)));
+      }
+      if (flag || option->get_positional() || !is_option(command, value)) continue;
+      refuse(command, fmt::format(kNoValue, name, " but the option " + in_quotes(value), expected(*option)));
+    }
+  }
+}
+
+}  // namespace
+
+bool read_command_line(CLI::App& app, std::vector<std::string> words) {
+  bool help = false;
+  for (; !words.empty() && words.front() == "help"; help = true) words.erase(words.begin());
+  if (help) words.emplace_back("--help");
+  check_command(app, words);
+  try {
+    app.parse(Words(words.rbegin(), words.rend()));
+  } catch (const CLI::Success& asked) {
+    app.exit(asked);
+    return false;
+  } catch (const CLI::ParseError& error) {
+    const auto chosen = levels(app);
+    const CLI::App& command = *chosen.back();
+    check_taken_values(command);
+    check_options(chosen);
+    check_within(command);
+    check_exclusions(command);
+    check_missing(command);
+    check_extras(command);
+    check_value(command, words, error);
+    refuse(command, error.what());
+  }
+  check_taken_values(*levels(app).back());
+  return true;
+}
+
+}  // namespace gaitlab::app

@@ -1,0 +1,67 @@
+#include "app/run_time.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "core/errors.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+/// Two digits: `14`, `1100`, `0.5`.
+std::string rounded(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return fmt::format("{:g}", std::round(value / unit) * unit);
+}
+
+std::string duration_text(double seconds) {
+  constexpr double kMinute = 60, kHour = 3600, kDay = 86400, kYear = 365.25 * kDay;
+  if (seconds < 1) return "less than 1 s";
+  if (seconds < 2 * kMinute) return rounded(seconds) + " s";
+  if (seconds < 2 * kHour) return rounded(seconds / kMinute) + " min";
+  if (seconds < 2 * kDay) return rounded(seconds / kHour) + " h";
+  if (seconds < 2 * kYear) return rounded(seconds / kDay) + " days";
+  return rounded(seconds / kYear) + " years";
+}
+
+}  // namespace
+
+RunTime measure(Simulation& simulation, double duration) {
+  constexpr double kMeasured = 0.1;  // s: at the next doubling of the steps that is twice as much
+  struct Moment {
+    double used = 0, time = 0, steps = 0;
+  } before, now;
+  const std::clock_t start = std::clock();
+  // A look at the clock can take longer than a step; and the later half of the steps is more like those that follow.
+  for (std::int64_t look = 1; !simulation.done() && now.used < kMeasured; look *= 2) {
+    before = now;
+    while (!simulation.done() && simulation.step_number() < look) simulation.step();
+    now = {static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, simulation.time(),
+           static_cast<double>(simulation.step_number())};
+  }
+  const double used = now.used - before.used;
+  if (!(used > 0 && now.time > before.time)) return {};
+  return {now.used + (duration - now.time) * used / (now.time - before.time), (now.steps - before.steps) / used};
+}
+
+RunTime measure(const Scenario& scenario) try {
+  Scenario start = scenario;
+  start.duration = std::min(scenario.duration, 100 * scenario.control_period);
+  Simulation simulation({&start, 1});
+  return measure(simulation, scenario.duration);
+} catch (const InputError&) {
+  return {};
+} catch (const RunError& error) {
+  return {.failure = error.what()};
+}
+
+std::string to_string(const RunTime& time) {
+  const std::string about = time.seconds < 1 ? "" : "about ";
+  return fmt::format("takes {}{} on this machine ({} steps/s)", about, duration_text(time.seconds), rounded(time.rate));
+}
+
+}  // namespace gaitlab::app
