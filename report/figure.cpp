@@ -33,7 +33,7 @@ constexpr Style kAngle{.stroke = colour::kBlue, .width = 2};
 constexpr Style kSetpoint{.stroke = colour::kBlack, .width = 1.1, .dash = "2 3"};
 constexpr Style kTorque{.stroke = colour::kVermillion, .width = 1.6, .dash = "8 3"};
 
-constexpr Style kRestTorque{.stroke = colour::kVermillion, .width = 0.8, .dash = "1 3"};
+constexpr Style kRestTorque{.stroke = colour::kVermillion, .width = 1, .dash = "10 3 2 3"};
 constexpr double kNear = 0.8;  // of the torque at rest
 
 // ---- upper panel: one joint over time
@@ -80,7 +80,7 @@ class Chart {
     for (const Curve& curve : right) svg_.polyline(points(curve, right_y), curve.style);
     for (const Curve& curve : left) svg_.polyline(points(curve, left_y), curve.style);
     draw_rest_torques(bounds(right), right_y);
-    if (!right.empty()) mark_peak(*right.front().values, bounds(right), right_y);
+    if (!right.empty()) mark_peak(*right.front().values, right_y);
     svg_.rectangle({left_, top_}, kRight - left_, bottom_ - top_, kAxisLine);
     legend(left, right);
   }
@@ -122,20 +122,31 @@ class Chart {
                        [](double l) { return l != 0; });
   }
 
-  // A span lasts from its first row to the row after its last.
+  struct Limit {
+    double saturation;  ///< as in the trace
+    std::string_view fill;
+    const char* name;
+  };
+  static constexpr std::array<Limit, 2> kLimits{{{1, "#E3E3E3", "voltage limit"}, {2, "#F3D3BD", "current limit"}}};
+
+  /// A span lasts from its first row to the row after its last.
   void shade_limits() {
     if (!limited()) return;
-    for (std::size_t i = first_; i < panel_.limit.size(); ++i) {
-      if (panel_.limit[i] == 0) continue;
-      const double from = x_(input_.time[i]);
-      while (i < panel_.limit.size() && panel_.limit[i] != 0) ++i;
-      const double to = x_(input_.time[std::min(i, panel_.limit.size() - 1)]);
-      svg_.rectangle({from, top_}, std::max(to - from, 0.5), bottom_ - top_, {.fill = colour::kPale});
+    for (std::size_t i = first_; i < panel_.limit.size();) {
+      std::size_t next = i + 1;
+      while (next < panel_.limit.size() && panel_.limit[next] == panel_.limit[i]) ++next;
+      for (const Limit& limit : kLimits) {
+        if (panel_.limit[i] != limit.saturation) continue;
+        const double from = x_(input_.time[i]);
+        const double to = x_(input_.time[std::min(next, panel_.limit.size() - 1)]);
+        svg_.rectangle({from, top_}, std::max(to - from, 0.5), bottom_ - top_, {.fill = limit.fill});
+      }
+      i = next;
     }
   }
 
   // A peak is of all steps, the curve of rows: the mark is at the height of the peak, on the side of the nearest row.
-  void mark_peak(const std::vector<double>& torque, const Bounds& shown_torque, const Scale& y) {
+  void mark_peak(const std::vector<double>& torque, const Scale& y) {
     if (!(panel_.peak > 0)) return;
     std::size_t row = first_;
     while (row + 1 < torque.size() && input_.time[row] < panel_.peak_time - 1e-9) ++row;
@@ -145,14 +156,18 @@ class Chart {
       const double at = std::clamp(y(height), top_, bottom_);
       svg_.circle({x_(panel_.peak_time), at}, 3.5, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 1});
     }
-    std::string text = fmt::format("peak {:.3g} N m at {:.2f} s{}", panel_.peak, panel_.peak_time, shown ? "" : ", not shown");
-    if (!rest_torques(shown_torque).empty())
-      text = fmt::format("dotted: its motor at rest, {:.3g} N m; {}", panel_.rest_torque, text);
-    svg_.text({kRight, bottom_ + 38}, text, {.anchor = Anchor::end, .fill = colour::kVermillion});
+    svg_.text({kRight, bottom_ + 38},
+              fmt::format("peak {:.3g} N m at {:.2f} s{}", panel_.peak, panel_.peak_time, shown ? "" : ", not shown"),
+              {.anchor = Anchor::end, .fill = colour::kVermillion});
   }
 
   void draw_rest_torques(const Bounds& torque, const Scale& y) {
-    for (const double limit : rest_torques(torque)) svg_.line({left_, y(limit)}, {kRight, y(limit)}, kRestTorque);
+    const std::vector<double> near = rest_torques(torque);
+    for (const double limit : near) svg_.line({left_, y(limit)}, {kRight, y(limit)}, kRestTorque);
+    if (near.empty()) return;
+    svg_.line({left_, bottom_ + 33.5}, {left_ + 34, bottom_ + 33.5}, kRestTorque);
+    svg_.text({left_ + 42, bottom_ + 38}, fmt::format("torque of the motor at rest, {:.3g} N m", panel_.rest_torque),
+              {.fill = colour::kVermillion});
   }
 
   void time_axis() {
@@ -160,7 +175,10 @@ class Chart {
       svg_.line({x_(t), top_}, {x_(t), bottom_}, kGridLine);
       svg_.text({x_(t), bottom_ + 18}, time_.label(t), {.anchor = Anchor::middle});
     }
-    svg_.text({(left_ + kRight) / 2, bottom_ + 38}, "time (s)", {.anchor = Anchor::middle});
+    const double shown = input_.time.back() - input_.time[first_];
+    svg_.text({(left_ + kRight) / 2, bottom_ + 38},
+              first_ > 0 ? fmt::format("time (s), the last {:.3g} of {:.4g}", shown, input_.time.back()) : "time (s)",
+              {.anchor = Anchor::middle});
   }
 
   void grid(const Ticks& ticks, const Scale& y) {
@@ -193,11 +211,14 @@ class Chart {
         x -= 62;
       }
     }
-    if (limited()) {
-      const char* const name = "at a limit";
-      x -= text_width(name, 13);
-      svg_.text({x, y}, name);
-      svg_.rectangle({x - 20, y - 10}, 12, 12, {.fill = colour::kPale});
+    for (const Limit& limit : kLimits) {
+      if (!limited() || std::find(panel_.limit.begin() + static_cast<std::ptrdiff_t>(first_), panel_.limit.end(),
+                                  limit.saturation) == panel_.limit.end())
+        continue;
+      x -= text_width(limit.name, 13);
+      svg_.text({x, y}, limit.name);
+      svg_.rectangle({x - 20, y - 10}, 12, 12, {.fill = limit.fill});
+      x -= 36;
     }
     const std::string name = "joint " + panel_.joint;
     double size = 13;

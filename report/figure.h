@@ -23,7 +23,7 @@ struct JointPanel {
   std::string joint;                    ///< name of the joint shown, `m3/passive`
   std::vector<double> angle, setpoint;  ///< rad; as long as the figure's time, or empty: not drawn
   std::vector<double> torque;           ///< N m; likewise
-  std::vector<double> limit;            ///< not 0 where the motor is at a limit: shaded; likewise
+  std::vector<double> limit;            ///< 1 at the limit of voltage, 2 of current: shaded; likewise
   double peak = 0, peak_time = 0;       ///< N m, s: the largest torque of the window that is judged; 0: not told
   double rest_torque = 0;               ///< N m: the most that the motor has at rest; 0: not known
   double least_angle = 0;               ///< rad: the angle axis spans at least -this to this, so that a joint at rest looks it

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/scenario/wording.h"
+#include "report/motors.h"
 #include "report/trust.h"
 
 namespace gaitlab::report::texts {
@@ -106,15 +107,41 @@ Lines window(const RunData& run) {
   const Judged& j = run.summary.judged;
   const std::string stretch = fmt::format("t = {:.4g} to {:.4g} s, ", j.from, j.to);
   if (j.periods == 0) return {stretch + "not a whole period of a limit cycle"};
-  return {stretch +
-          fmt::format("{} period{} of {:.4g} s", j.periods, j.periods == 1 ? "" : "s", run.summary.limit_cycle.period)};
+  return {stretch + fmt::format("the last {} of {:.4g} s", counted(j.periods, "period"), run.summary.limit_cycle.period)};
 }
+
+namespace {
+
+const char* name_of(MotorLimit limit) { return limit == MotorLimit::current ? "current" : "voltage"; }
+
+/// The limit at which the joint that is named is not, or another is longer.
+Lines other_limits(const RunData& run, std::size_t named) {
+  struct Kind {
+    MotorLimit limit;
+    double JudgedJoint::*share;
+  };
+  const std::vector<JudgedJoint>& joints = run.summary.judged.joints;
+  Lines lines;
+  for (const auto& [limit, share] :
+       {Kind{MotorLimit::voltage, &JudgedJoint::voltage_limited}, {MotorLimit::current, &JudgedJoint::current_limited}}) {
+    const auto longest = std::ranges::max_element(joints, {}, share);
+    const auto number = static_cast<std::size_t>(longest - joints.begin());
+    if (!((*longest).*share > joints[named].*share)) continue;
+    const auto some = std::ranges::count_if(joints, [&](const JudgedJoint& j) { return j.*share > 0; });
+    lines.push_back(fmt::format("{} limit: {} joint{}, {} longest, {}", name_of(limit), some, some == 1 ? "" : "s",
+                                joint_name(run, number), percent((*longest).*share)));
+  }
+  return lines;
+}
+
+}  // namespace
 
 Lines limits(const RunData& run) {
   if (!has_motors(run)) return {};
   const Judged& judged = run.summary.judged;
   const std::size_t worst = run.summary.most_loaded();
   const std::size_t some = Judged::limited(judged.joints);
+  const std::size_t all = Judged::limited(judged.whole);
   Lines lines;
   if (some == 0) {
     lines.emplace_back("no joint at a limit of its motor");
@@ -122,18 +149,40 @@ Lines limits(const RunData& run) {
     lines.push_back(
         fmt::format("{} of {} joints reach a limit, {} longest:", some, judged.joints.size(), joint_name(run, worst)));
     lines.push_back("at its limit " + share_at_limit(judged.joints[worst]));
+    for (std::string& other : other_limits(run, worst)) lines.push_back(std::move(other));
   } else {
     lines.push_back(fmt::format("{} of {} joints reach a limit, for an instant", some, judged.joints.size()));
   }
-  if (some == 0 && Judged::limited(judged.whole) > 0) {
-    const auto longer = [](const JudgedJoint& a, const JudgedJoint& b) { return a.limited() < b.limited(); };
-    const auto start = std::max_element(judged.whole.begin(), judged.whole.end(), longer);
-    lines.push_back(fmt::format("before: {} of {} joints, {} longest: {} of the run", Judged::limited(judged.whole),
-                                judged.whole.size(), joint_name(run, static_cast<std::size_t>(start - judged.whole.begin())),
-                                percent(start->limited())));
+  if (some == 0 && all > 0) {
+    const auto longest = std::ranges::max_element(judged.whole, {}, &JudgedJoint::limited);
+    lines.push_back(fmt::format("before: {} of {} joints, {} longest: {} of the run", all, judged.whole.size(),
+                                joint_name(run, static_cast<std::size_t>(longest - judged.whole.begin())),
+                                percent(longest->limited())));
+  }
+  if (all > 0) {
+    const std::size_t first = Judged::first(judged.whole);
+    lines.push_back(fmt::format("first of the run: {} at t = {:.2f} s ({})", joint_name(run, first),
+                                judged.whole[first].first_limit_time, name_of(judged.whole[first].first_limit)));
   }
   return lines;
 }
+
+namespace {
+
+/// The joint whose peak is nearest to what its motor has, or beyond it; nothing where one is at a limit, which says more.
+Lines nearest_to_rest(const RunData& run) {
+  const std::vector<double> rest = rest_torques(run.scenario);
+  const std::vector<JudgedJoint>& joints = run.summary.judged.joints;
+  std::size_t nearest = 0;
+  const auto share = [&](std::size_t j) { return rest[j] > 0 ? joints[j].torque_peak / rest[j] : 0; };
+  if (rest.size() != joints.size() || Judged::limited(joints) > 0) return {};
+  for (std::size_t j = 1; j < joints.size(); ++j) nearest = share(j) > kLarger * share(nearest) ? j : nearest;
+  if (!(share(nearest) > 0)) return {};
+  return {fmt::format("at most {:.0f} % of what a motor has at rest ({}, {:.3f} N m)", 100 * share(nearest),
+                      joint_name(run, nearest), rest[nearest])};
+}
+
+}  // namespace
 
 Lines most_loaded(const RunData& run) {
   if (!has_motors(run)) return {};
@@ -141,14 +190,17 @@ Lines most_loaded(const RunData& run) {
   const std::size_t worst = run.summary.most_loaded();
   const auto text = [&](const JudgedJoint& j) {
     return fmt::format("{:.3f} N m at t = {:.2f} s{}", j.torque_peak, j.torque_peak_time,
-                       j.peak_at_limit ? " (its limit)" : "");
+                       j.peak_limit == MotorLimit::none ? "" : fmt::format(" ({} limit)", name_of(j.peak_limit)));
   };
-  Lines lines{fmt::format("{}: peak {}, RMS {:.3f} N m", joint_name(run, worst), text(judged.joints[worst]),
-                          judged.joints[worst].torque_rms)};
-  const std::size_t most = Judged::strongest(judged.whole);
-  const JudgedJoint& all = judged.whole[most];
-  if (most != worst || all.torque_peak_time != judged.joints[worst].torque_peak_time)
-    lines.push_back(fmt::format("whole run: {}: {}", joint_name(run, most), text(all)));
+  Lines lines{fmt::format("{}: peak {}", joint_name(run, worst), text(judged.joints[worst])),
+              fmt::format("RMS {:.3f} N m", judged.joints[worst].torque_rms)};
+  const std::size_t most = Judged::strongest(judged.joints);
+  if (most != worst && judged.joints[most].torque_peak > kLarger * judged.joints[worst].torque_peak)
+    lines.push_back(fmt::format("largest: {}: {}", joint_name(run, most), text(judged.joints[most])));
+  const std::size_t ever = Judged::strongest(judged.whole);
+  if (judged.whole[ever].torque_peak > kLarger * judged.joints[most].torque_peak)
+    lines.push_back(fmt::format("before: {}: {}", joint_name(run, ever), text(judged.whole[ever])));
+  for (std::string& line : nearest_to_rest(run)) lines.push_back(std::move(line));
   return lines;
 }
 
@@ -160,7 +212,7 @@ Lines tracking(const RunData& run) {
     return fmt::format("{}: {:.3f} rad at t = {:.2f} s", joint_name(run, j), joints[j].error_peak, joints[j].error_peak_time);
   };
   Lines lines{text(judged.joints)};
-  if (text(judged.whole) != lines.front()) lines.push_back("whole run: " + text(judged.whole));
+  if (text(judged.whole) != lines.front()) lines.push_back("before: " + text(judged.whole));
   return lines;
 }
 

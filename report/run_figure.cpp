@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <numeric>
 
-#include "core/laws/dc_motor.h"
 #include "report/figure.h"
+#include "report/motors.h"
 
 namespace gaitlab::report {
 
@@ -162,13 +161,6 @@ std::vector<double> times(const Scenario& scenario, const Recording& r, const Su
   return time;
 }
 
-/// N m: what the joint's motor has at rest; 0: it is not a DC motor.
-double rest_torque(const Scenario& scenario, std::size_t joint) {
-  const std::unique_ptr<Actuator> actuator = make_actuator(scenario.actuator, info(*scenario.robot));
-  const DcMotor* const motors = actuator->dc_motors();
-  return motors == nullptr ? 0 : motors[joint](motors[joint].u_max, 0.0).torque;
-}
-
 JointPanel joint_panel(const Scenario& scenario, const Recording& r, const Summary& summary, std::size_t joint) {
   JointPanel panel;
   panel.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
@@ -177,7 +169,7 @@ JointPanel joint_panel(const Scenario& scenario, const Recording& r, const Summa
     panel.setpoint = r.joint(joint, "setpoint").values();
     panel.torque = r.joint(joint, "torque").values();
     panel.limit = r.joint(joint, "saturation").values();
-    panel.rest_torque = rest_torque(scenario, joint);
+    if (const std::vector<double> rest = rest_torques(scenario); joint < rest.size()) panel.rest_torque = rest[joint];
     if (joint < summary.judged.joints.size()) {
       panel.peak = summary.judged.joints[joint].torque_peak;
       panel.peak_time = summary.judged.joints[joint].torque_peak_time;
@@ -223,8 +215,9 @@ void add_period(FigureInput& input, const Scenario& scenario, const Recording& r
     if (tick >= input.time.size() || (i > 0 && input.time[tick] <= input.views.back().time)) continue;
     input.views.push_back(view_at(scenario, r, from, tick, joint));
   }
-  input.views_title = fmt::format("{} over {} {:.3g} s (arrow: joint above)", from.view,
-                                  cycle.found && cycle.period <= span ? "one period," : "the last", span);
+  input.views_title =
+      fmt::format("{} over {} {:.3g} s (arrow: {})", from.view,
+                  cycle.found && cycle.period <= span ? "one period," : "the last", span, scenario.robot->joints[joint].name);
   input.views_axis = from.axis + ", " + from.scale();
   const double ahead = from.camera.right.dot(r.state(*scenario.robot, r.rows() - 1).orientation * Vec3::UnitX());
   if (std::abs(ahead) < 0.7) return;  // seen from the front rather than from the side
@@ -289,10 +282,12 @@ std::string run_figure(const Scenario& scenario, const Recording& r, const Summa
   const Sight from = sight(scenario, r);
   FigureInput input;
   input.title = scenario.name;
+  const std::size_t pointed = drawn.empty() ? 0 : drawn.front().joint;
+  const std::string arrow = drawn.empty() ? "" : fmt::format(" (arrow: {})", scenario.robot->joints[pointed].name);
   const Ground::Kind ground = scenario.ground.kind;
   input.ground = !from.above && (ground == Ground::Kind::plane || ground == Ground::Kind::boxes);
   input.solids = solids(scenario, r, from);
-  input.views_title = from.view + (drawn.empty() ? "" : " (arrow: joint above)");
+  input.views_title = from.view + arrow;
   input.views_axis = from.axis + ", " + from.scale();
   if (!drawn.empty()) input.time = times(scenario, r, summary);
   for (const Drawn& each : drawn) {
@@ -306,7 +301,6 @@ std::string run_figure(const Scenario& scenario, const Recording& r, const Summa
     input.footfall_note = fmt::format("bars: load above {:.3g} % of the weight; at the right the duty factor over {:.3g} s",
                                       100 * kStands, summary.simulated - start);
   }
-  const std::size_t pointed = drawn.empty() ? 0 : drawn.front().joint;
   if (!input.time.empty() && (summary.limit_cycle.found || !legs.empty())) {
     add_period(input, scenario, r, summary, from, pointed);
     return figure_svg(input);

@@ -139,15 +139,23 @@ std::string joint_table(const Summary& s, const Scenario& scenario) {
   std::string text = fmt::format("  {:<{}}  {:^15}  {:^24}  {}\n  {:<{}} {:>8} {:>8} {:>9} {:>8} {:>6}  {:>8} {:>8}\n", "",
                                  width, "at a limit", "torque, N m", " tracking error", "joint", width, "voltage", "current",
                                  "peak", "at s", "RMS", "rad", "at s");
+  const auto share = [](double limited) {
+    return limited > 0 && limited < 0.0005 ? "< 0.1 %" : fmt::format("{:.1f} %", 100 * limited);
+  };
   for (const std::size_t j : s.judged.order) {
     const JudgedJoint& joint = s.judged.joints[j];
-    text += fmt::format("  {:<{}} {:>8} {:>8} {:>8.3f}{} {:>8.2f} {:>6.3f}  {:>8.3f} {:>8.2f}\n",
-                        scenario.robot->joints[j].name, width, texts::percent(joint.voltage_limited),
-                        texts::percent(joint.current_limited), joint.torque_peak, joint.peak_at_limit ? '*' : ' ',
-                        joint.torque_peak_time, joint.torque_rms, joint.error_peak, joint.error_peak_time);
+    text +=
+        fmt::format("  {:<{}} {:>8} {:>8} {:>8.3f}{} {:>8.2f} {:>6.3f}  {:>8.3f} {:>8.2f}\n", scenario.robot->joints[j].name,
+                    width, share(joint.voltage_limited), share(joint.current_limited), joint.torque_peak,
+                    joint.peak_limit == MotorLimit::none      ? ' '
+                    : joint.peak_limit == MotorLimit::voltage ? 'u'
+                                                              : 'i',
+                    joint.torque_peak_time, joint.torque_rms, joint.error_peak, joint.error_peak_time);
   }
-  const bool marked = std::ranges::any_of(s.judged.joints, &JudgedJoint::peak_at_limit);
-  return text + (marked ? "  *: at the motor's limit\n" : "");
+  const bool marked =
+      std::ranges::any_of(s.judged.joints, [](const JudgedJoint& j) { return j.peak_limit != MotorLimit::none; });
+  return text + "  the most loaded first: by time at a limit, then RMS, then peak\n" +
+         (marked ? "  u, i: the peak is at the limit of voltage, of current\n" : "");
 }
 
 namespace {

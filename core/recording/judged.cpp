@@ -31,6 +31,11 @@ std::size_t row_at(const Series& t, double time, double within) {
   return row;
 }
 
+/// Of the column `peak_limit`.
+MotorLimit motor_limit(double saturation) {
+  return saturation == 2 ? MotorLimit::current : saturation == 1 ? MotorLimit::voltage : MotorLimit::none;
+}
+
 JudgedJoint from_ticks(const Trace& ticks, std::size_t joint, std::size_t first) {
   const auto column = [&](TickColumn which) { return Series(ticks, 1 + joint * kTickColumns + which); };
   const Series t(ticks, 0);
@@ -45,20 +50,23 @@ JudgedJoint from_ticks(const Trace& ticks, std::size_t joint, std::size_t first)
     if (torque[k] > kLarger * j.torque_peak) {
       j.torque_peak = torque[k];
       j.torque_peak_time = t[k];
-      j.peak_at_limit = limit[k] != 0;
+      j.peak_limit = motor_limit(limit[k]);
     }
     if (error[k] > kLarger * j.error_peak) {
       j.error_peak = error[k];
       j.error_peak_time = t[k];
     }
-    j.reaches_limit = j.reaches_limit || limit[k] != 0;
+    if (j.reaches_limit()) continue;
+    if (voltage[k] > voltage[k - 1]) j.first_limit = MotorLimit::voltage;
+    if (current[k] > current[k - 1]) j.first_limit = MotorLimit::current;
+    if (!j.reaches_limit()) j.first_limit = motor_limit(limit[k]);
+    j.first_limit_time = t[k];
   }
   const double span = t.back() - t[first];
   if (!(span > 0)) return j;
   j.torque_rms = std::sqrt(std::max(0.0, square.back() - square[first]) / span);
   j.voltage_limited = (voltage.back() - voltage[first]) / span;
   j.current_limited = (current.back() - current[first]) / span;
-  j.reaches_limit = j.reaches_limit || j.limited() > 0;
   return j;
 }
 
@@ -75,12 +83,19 @@ std::size_t most(const std::vector<JudgedJoint>& joints, double JudgedJoint::*me
 
 std::size_t Judged::limited(const std::vector<JudgedJoint>& joints) {
   return static_cast<std::size_t>(
-      std::count_if(joints.begin(), joints.end(), [](const JudgedJoint& j) { return j.reaches_limit; }));
+      std::count_if(joints.begin(), joints.end(), [](const JudgedJoint& j) { return j.reaches_limit(); }));
 }
 
 std::size_t Judged::farthest(const std::vector<JudgedJoint>& joints) { return most(joints, &JudgedJoint::error_peak); }
 
 std::size_t Judged::strongest(const std::vector<JudgedJoint>& joints) { return most(joints, &JudgedJoint::torque_peak); }
+
+std::size_t Judged::first(const std::vector<JudgedJoint>& joints) {
+  const auto earlier = [](const JudgedJoint& a, const JudgedJoint& b) {
+    return a.reaches_limit() && (!b.reaches_limit() || a.first_limit_time < b.first_limit_time);
+  };
+  return static_cast<std::size_t>(std::min_element(joints.begin(), joints.end(), earlier) - joints.begin());
+}
 
 Judged judge(const Recording& r, const MotionCycle& cycle) {
   Judged judged;

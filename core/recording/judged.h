@@ -9,14 +9,19 @@
 
 namespace gaitlab {
 
+enum class MotorLimit { none, voltage, current };
+
 /// Of one joint, within the window. A time is the end of the row of Recording::ticks in which the peak was reached.
 struct JudgedJoint {
   double torque_peak = 0, torque_peak_time = 0;     ///< N m, largest magnitude of the motor torque; s
-  bool peak_at_limit = false;                       ///< whether the motor was at a limit then
+  MotorLimit peak_limit = MotorLimit::none;         ///< at which the motor was then
   double torque_rms = 0;                            ///< N m
   double voltage_limited = 0, current_limited = 0;  ///< share of the window
   double error_peak = 0, error_peak_time = 0;       ///< rad, largest magnitude of set point minus angle; s
-  bool reaches_limit = false;                       ///< for some time, or in the instant of the largest torque of a tick
+  /// The first limit that it was at, for some time or in the instant of the largest torque of a tick; s.
+  MotorLimit first_limit = MotorLimit::none;
+  double first_limit_time = 0;
+  [[nodiscard]] bool reaches_limit() const { return first_limit != MotorLimit::none; }
   [[nodiscard]] double limited() const { return voltage_limited + current_limited; }
 };
 
@@ -33,6 +38,8 @@ struct Judged {
   /// The joint with the largest tracking error; of the largest torque. The first of those that differ by rounding.
   [[nodiscard]] static std::size_t farthest(const std::vector<JudgedJoint>& joints);
   [[nodiscard]] static std::size_t strongest(const std::vector<JudgedJoint>& joints);
+  /// Of the joints that reach a limit, which there must be, the first to do so.
+  [[nodiscard]] static std::size_t first(const std::vector<JudgedJoint>& joints);
 };
 
 /// The window holds whole periods up to the end of the run: from the limit cycle on, or from earlier on where more than one

@@ -73,9 +73,9 @@ TEST(Figure, DrawsTheTorqueAtRestWhereTheCurveComesNear) {
     input.joints[0].rest_torque = rest;
     return figure_svg(input);
   };
-  EXPECT_NE(with(1.1 * peak).find("dotted: its motor at rest"), std::string::npos);
-  EXPECT_EQ(with(2 * peak).find("dotted: its motor at rest"), std::string::npos);
-  EXPECT_EQ(with(0).find("dotted: its motor at rest"), std::string::npos);
+  EXPECT_NE(with(1.1 * peak).find("torque of the motor at rest"), std::string::npos);
+  EXPECT_EQ(with(2 * peak).find("torque of the motor at rest"), std::string::npos);
+  EXPECT_EQ(with(0).find("torque of the motor at rest"), std::string::npos);
 }
 
 TEST(Figure, LongTracesStaySmall) {

@@ -147,7 +147,7 @@ TEST(Footfall, FigureOfAHexapodShowsItsGait) {
   for (const std::string part :
        {"joint 5 (m2/passive), middle of the spine", ">m9 front left<", ">m10 front right<", ">m7 middle left<",
         ">m8 middle right<", ">m5 rear left<", ">m6 rear right<", "load above 2 % of the weight", "forward is right",
-        ", most loaded", "arrow: joint above", "centre of mass", "far side"}) {
+        ", most loaded", "arrow: m", "centre of mass", "far side"}) {
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   }
   // Five views, a fifth of the 2 s cycle apart; without a limit cycle (a ramp of 1 s, 4 s) likewise.
@@ -176,7 +176,7 @@ TEST(Footfall, WithoutContactsTheFigureIsTheCommonOne) {
   const Summary summary = summarise(shown_hexapod().scenario, shown_hexapod().record, 0);
   const std::string svg = run_figure(scenario, shown_hexapod().record, summary);
   EXPECT_EQ(svg.find("footfall"), std::string::npos);
-  EXPECT_NE(svg.find("side view (arrow: joint above)"), std::string::npos);
+  EXPECT_NE(svg.find("side view (arrow: m"), std::string::npos);
 }
 
 }  // namespace

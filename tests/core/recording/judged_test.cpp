@@ -116,13 +116,16 @@ TEST(Judged, PeaksHaveTheirTimesAndSayWhetherTheyAreTheLimit) {
   Recording r = ticks_of_ten_seconds();
   cell(r, 40, 0, 0) = 3;
   cell(r, 70, 0, 1) = 0.5;
-  EXPECT_FALSE(judge(r, {}).joints[0].peak_at_limit);
+  EXPECT_EQ(judge(r, {}).joints[0].peak_limit, MotorLimit::none);
   cell(r, 40, 0, kPeakLimit) = 2;  // for an instant: no time passes
   EXPECT_EQ(Judged::limited(judge(r, {}).joints), 1U);
   const Judged j = judge(r, {});
   EXPECT_DOUBLE_EQ(j.joints[0].torque_peak, 3);
   EXPECT_NEAR(j.joints[0].torque_peak_time, 4, 1e-12);
-  EXPECT_TRUE(j.joints[0].peak_at_limit);
+  EXPECT_EQ(j.joints[0].peak_limit, MotorLimit::current);
+  EXPECT_EQ(j.joints[0].first_limit, MotorLimit::current);
+  EXPECT_NEAR(j.joints[0].first_limit_time, 4, 1e-12);
+  EXPECT_EQ(Judged::first(j.joints), 0U);
   EXPECT_DOUBLE_EQ(j.joints[0].error_peak, 0.5);
   EXPECT_NEAR(j.joints[0].error_peak_time, 7, 1e-12);
   EXPECT_EQ(Judged::farthest(j.joints), 0U);

@@ -1,0 +1,21 @@
+#include "report/motors.h"
+
+#include <memory>
+
+#include "core/laws/dc_motor.h"
+#include "core/plugin/plugin_instance.h"
+#include "core/plugin/robot_info.h"
+
+namespace gaitlab::report {
+
+std::vector<double> rest_torques(const Scenario& scenario) {
+  if (scenario.actuator.entry == nullptr) return {};
+  const std::unique_ptr<Actuator> actuator = make_actuator(scenario.actuator, info(*scenario.robot));
+  const DcMotor* const motors = actuator->dc_motors();
+  std::vector<double> torques;
+  for (std::size_t j = 0; motors != nullptr && j < scenario.robot->joints.size(); ++j)
+    torques.push_back(motors[j](motors[j].u_max, 0.0).torque);
+  return torques;
+}
+
+}  // namespace gaitlab::report
