@@ -34,6 +34,7 @@ struct GoldenProvenance {
   double step = 0;              ///< s
   std::string build, compiler;  ///< build id; its compiler
   std::string scenario;         ///< hash() of the resolved scenario's text
+  std::string resolved = {};    ///< that text, whose last line ends, too; empty in a golden of before it was kept
 };
 
 struct Golden {

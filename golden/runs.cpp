@@ -141,9 +141,11 @@ GoldenProvenance golden_origin(const Scenario& scenario) {
   const std::string build = report::build_id();
   // `VERSION (COMPILER; LIBRARIES)`
   const std::size_t from = std::min(build.find('('), build.size() - 1) + 1;
-  return {scenario.name,           engine.name, scenario.physics.integrator->name,
-          scenario.physics.step,   build,       build.substr(from, build.find_first_of(";)", from) - from),
-          hash(resolved(scenario))};
+  std::string text = resolved(scenario);
+  std::string text_hash = hash(text);
+  return {scenario.name,         engine.name,    scenario.physics.integrator->name,
+          scenario.physics.step, build,          build.substr(from, build.find_first_of(";)", from) - from),
+          std::move(text_hash),  std::move(text)};
 }
 
 Scenario perturbed(const Scenario& scenario, int member) {

@@ -41,7 +41,7 @@ TEST_F(ApproveCommand, ApproveKeepsTheBandsOfTheSameGaitAlone) {
   folder.write("good.yaml", other_motor);
   result = call("approve good.yaml --reason 'the motor that we bought'");
   EXPECT_EQ(result.code, 0);
-  EXPECT_TRUE(result.out.starts_with("since approval 2 (nothing new):\n  scenario: its resolved text is another\n  column "))
+  EXPECT_TRUE(result.out.starts_with("since approval 2 (nothing new):\n  scenario: its resolved text is another:\n    line "))
       << result.out;
   expect_contains(result.out, "; bands made\n");
   after = read_golden(folder / "good.golden");

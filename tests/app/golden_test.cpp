@@ -50,7 +50,8 @@ TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   expect_contains(result.out, " of 19 columns and ");
   expect_contains(result.out,
                   " of 17 numbers outside their bands\nsince approval 1 (first golden):\n"
-                  "  scenario: its resolved text is another\n  column ");
+                  "  scenario: its resolved text is another:\n    line ");
+  expect_contains(result.out, ": \"  Kt: 0.0039895\", was \"  Kt: 0.00395\"\n  column ");
   expect_contains(result.out, "\n  joint.3.torque ");
   expect_contains(result.out, "\n  m1/passive.torque.peak ");
   expect_contains(result.out, "\n  figure: runs/test/good.svg\n");
