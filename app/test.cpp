@@ -14,6 +14,7 @@
 #include "core/recording/atomic_file.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
+#include "golden/advice.h"
 #include "golden/cases.h"
 #include "golden/report.h"
 #include "report/overlay.h"
@@ -151,10 +152,15 @@ std::string failure(const GoldenCase& c) {
          differences(c.difference, Shown::failing) + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n");
 }
 
-/// That it was approved from another text explains a failure, and is not a failure.
+/// What is no failure: numbers of which little is seen; and another text than was approved, which explains a failure.
 void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
-    if (c.verdict != Verdict::passed || c.other_engine || hash(resolved(*c.scenario)) == c.golden->origin.scenario) continue;
+    if (c.verdict != Verdict::passed) continue;
+    if (const std::string names = wide_number_names(*c.golden); !names.empty()) {
+      fmt::print(stderr, "{}: note: numbers with bands above {}, within which a change is not seen: {}\n", c.file,
+                 percent(kWideNumber), names);
+    }
+    if (c.other_engine || hash(resolved(*c.scenario)) == c.golden->origin.scenario) continue;
     fmt::print(stderr, "{}: note: its resolved text is no longer that of the golden\n", c.file);
   }
 }

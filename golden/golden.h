@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct Band {
 struct Number {
   std::string name, unit;
   double value = 0;
+  std::optional<double> at_start = {};  ///< s; when a peak was reached, if before the window by which its run is judged
 };
 
 struct Approval {
