@@ -96,13 +96,12 @@ std::string explanation(const Number& number, const Band& band, const Scenario& 
   std::string text =
       fmt::format("{} changes it by {}, and three times that is the band; ",
                   adapts ? "a tenth of physics.accuracy" : "half the step", percent(band.halving / kHalvingFactor));
-  if (number.at_start) {
-    text += fmt::format(
-        "the peak is of the start (t = {:.3g} s), not of the gait: begin nearer to the gait (initial.angles, or "
-        "ramp where the cpg has it), or ",
-        *number.at_start);
-  }
-  return text + (adapts ? "make physics.accuracy smaller" : "take a smaller step");
+  text += adapts ? "make physics.accuracy smaller" : "take a smaller step";
+  if (!number.at_start) return text;
+  return text + fmt::format(
+                    "; the peak is of the start (t = {:.3g} s), not of the gait: where the first set points are far from "
+                    "initial.angles, other angles may help, too",
+                    *number.at_start);
 }
 
 /// The same of integrator `extrapolated`, by its band at `step`; "" where no step will do.
@@ -154,15 +153,17 @@ std::string wide_numbers(const Golden& golden, const Scenario& scenario) {
                         scenario.file, number.name, percent(band.width()), with_its_unit(most), with_its_unit(number.value),
                         explanation(number, band, scenario));
   }
-  if (found.size() > kMostExplained)
+  if (found.size() > kMostExplained) {
     text += fmt::format("{}: warning: ... and {} with bands above {}\n", scenario.file,
                         plural(found.size() - kMostExplained, "more number"), percent(kWideNumber));
+  }
   return text;
 }
 
 std::string wide_number_names(const Golden& golden) {
   const std::vector<std::size_t> found = wide(golden);
   std::vector<std::string> names;
+  names.reserve(found.size());
   for (const std::size_t i : found) {
     names.push_back(fmt::format("{} {}", golden.numbers[i].name, percent(golden.number_bands[i].width())));
   }
