@@ -15,6 +15,7 @@
 #include "app/progress.h"
 #include "core/errors.h"
 #include "core/recording/atomic_file.h"
+#include "golden/advice.h"
 #include "golden/cases.h"
 #include "golden/compare.h"
 #include "golden/golden.h"
@@ -37,9 +38,7 @@ struct ApproveArguments {
 
 namespace fs = std::filesystem;
 
-constexpr double kFiner = 10;  // accuracy of the run that stands for a finer one, where the integrator chooses its steps
-constexpr int kEnsemble = 4;   // runs
-constexpr double kWidestBand = 0.002;  // of the range; the smallest mutant that has to be seen moves a torque by 0.4 %
+constexpr int kEnsemble = 4;  // runs
 
 /// Blank where there is none.
 std::string reason(const ApproveArguments& arguments) {
@@ -114,8 +113,18 @@ std::vector<GoldenRun> simulate(const std::vector<Scenario>& scenarios, const st
   return runs;
 }
 
+std::size_t widest_of(const std::vector<Band>& bands) {
+  const auto narrower = [](const Band& a, const Band& b) { return a.width() < b.width(); };
+  return static_cast<std::size_t>(std::max_element(bands.begin(), bands.end(), narrower) - bands.begin());
+}
+
+struct Calibration {
+  Bands bands;
+  GoldenRun halved;
+};
+
 /// From an ensemble of starts and from half the step.
-Bands bands_around(const GoldenRun& base, const Scenario& scenario, int jobs) {
+Calibration bands_around(const GoldenRun& base, const Scenario& scenario, int jobs) {
   std::vector<Scenario> scenarios;
   std::vector<std::string> names;
   for (int i = 0; i < kEnsemble; ++i) {
@@ -123,27 +132,24 @@ Bands bands_around(const GoldenRun& base, const Scenario& scenario, int jobs) {
     names.push_back(fmt::format("{}, start {} of {} moved by 1e-7 rad", scenario.file, i + 1, kEnsemble));
   }
   scenarios.push_back(scenario);
-  scenarios.back().physics.refine(scenario.physics.adapts() ? kFiner : 2);
+  scenarios.back().physics.refine(finer_by(scenario.physics));
   names.push_back(scenario.file + (scenario.physics.adapts() ? ", a finer accuracy" : ", half the step"));
-  const std::vector<GoldenRun> runs = simulate(scenarios, names, jobs);
-  return calibrate(base, std::span(runs).first(kEnsemble), runs.back());
+  std::vector<GoldenRun> runs = simulate(scenarios, names, jobs);
+  Bands bands = calibrate(base, std::span(runs).first(kEnsemble), runs.back());
+  return {std::move(bands), std::move(runs.back())};
 }
 
 /// A band so wide would let a changed motor pass.
-void check_widest(const Golden& golden, const Scenario& scenario) {
-  std::size_t widest = 0;
-  for (std::size_t i = 1; i < golden.bands.size(); ++i) {
-    if (golden.bands[i].width() > golden.bands[widest].width()) widest = i;
-  }
-  const Band& band = golden.bands[widest];
-  if (band.width() <= kWidestBand) return;
+void check_widest(const Calibration& made, const Scenario& scenario, int jobs) {
+  const std::vector<Band>& bands = made.bands.columns;
+  const std::size_t widest = widest_of(bands);
+  if (bands[widest].width() <= kWidestColumn) return;
+  const Progress progress(false);
+  const std::string remedy = narrower_columns(bands, scenario, made.halved, jobs, std::cref(progress));
   throw InputError(SourceLocation{scenario.file},
-                   fmt::format("the band of {} would be {} of its range, more than {}: {}; shorten the run{}, so that less "
-                               "grows from nothing. Nothing was written",
-                               golden.run.trace.columns[widest].name, percent(band.width()), percent(kWidestBand), parts(band),
-                               band.halving > band.ensemble
-                                   ? (scenario.physics.adapts() ? " or set physics.accuracy: 0.001" : " or take a smaller step")
-                                   : ""));
+                   fmt::format("the band of {} would be {} of its range, more than {}: {}; {}. Nothing was written",
+                               made.halved.trace.columns[widest].name, percent(bands[widest].width()), percent(kWidestColumn),
+                               parts(bands[widest]), remedy));
 }
 
 /// What a person should see before it becomes the reference.
@@ -163,10 +169,6 @@ std::uintmax_t size_of(const fs::path& folder) {
 }
 
 void tell(const Golden& golden, const fs::path& folder, bool calibrated) {
-  const auto widest = [](const std::vector<Band>& bands) {
-    const auto narrower = [](const Band& a, const Band& b) { return a.width() < b.width(); };
-    return static_cast<std::size_t>(std::max_element(bands.begin(), bands.end(), narrower) - bands.begin());
-  };
   fmt::print("{}: approval {}: {} of {}, {}, {:.0f} kB; bands {}\n", folder.string(), golden.history.back().number,
              plural(golden.bands.size() - 1, "column"), plural(golden.run.trace.rows(), "row"),
              plural(golden.numbers.size(), "number"), std::ceil(static_cast<double>(size_of(folder)) / 1000),
@@ -174,9 +176,9 @@ void tell(const Golden& golden, const fs::path& folder, bool calibrated) {
   const auto line = [](const std::string& name, const Band& band) {
     fmt::print("  widest band: {} {} = {}\n", name, percent(band.width()), parts(band));
   };
-  const std::size_t column = widest(golden.bands);
+  const std::size_t column = widest_of(golden.bands);
   line(golden.run.trace.columns[column].name, golden.bands[column]);
-  const std::size_t number = widest(golden.number_bands);
+  const std::size_t number = widest_of(golden.number_bands);
   line(golden.numbers[number].name, golden.number_bands[number]);
 }
 
@@ -219,14 +221,15 @@ int approve(const ApproveArguments& arguments) {
   golden.history.push_back({static_cast<std::int64_t>(golden.history.size()) + 1, why, golden.origin.build});
   if (calibrates) {
     base.numbers = golden.numbers;
-    Bands bands = bands_around(base, scenario, arguments.jobs);
-    golden.bands = std::move(bands.columns);
-    golden.number_bands = std::move(bands.numbers);
+    Calibration made = bands_around(base, scenario, arguments.jobs);
+    check_widest(made, scenario, arguments.jobs);
+    golden.bands = std::move(made.bands.columns);
+    golden.number_bands = std::move(made.bands.numbers);
   }
-  check_widest(golden, scenario);
   if (before && calibrates) fmt::print("{}", band_changes(*before, golden));
   write_golden(golden, folder);
   tell(golden, folder, calibrates);
+  fmt::print(stderr, "{}", wide_numbers(golden, scenario));
   return 0;
 }
 

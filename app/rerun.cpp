@@ -14,6 +14,7 @@
 #include "core/recording/csv.h"
 #include "core/recording/h5.h"
 #include "core/recording/run_files.h"
+#include "core/scenario/changed_lines.h"
 #include "core/scenario/resolved.h"
 #include "core/simulation/simulation.h"
 #include "report/build_id.h"
@@ -105,21 +106,6 @@ Again run_again(const Scenario& scenario, const Past& past, bool early) {
   return again;
 }
 
-/// `line N: "NOW", was "THEN"` of the first line in which two texts differ.
-std::string first_difference(const std::string& then, const std::string& now) {
-  std::size_t line = 1;
-  std::size_t start = 0;
-  for (std::size_t i = 0; i < std::min(then.size(), now.size()) && then[i] == now[i]; ++i) {
-    if (then[i] != '\n') continue;
-    ++line;
-    start = i + 1;
-  }
-  const auto line_of = [&](const std::string& text) {
-    return start < text.size() ? "\"" + text.substr(start, text.find('\n', start) - start) + "\"" : std::string("nothing");
-  };
-  return fmt::format("line {}: {}, was {}", line, line_of(now), line_of(then));
-}
-
 /// What is not as it was when the run was recorded, a line each.
 std::vector<std::string> changes(const StoredScenario& stored, const Past& past, const Scenario& scenario, const Again& again) {
   std::vector<std::string> found;
@@ -133,12 +119,13 @@ std::vector<std::string> changes(const StoredScenario& stored, const Past& past,
     found.push_back(fmt::format("plugin {}: another file: hash then {}, now {}", plugin.path, plugin.then, plugin.now));
   }
   if (!past.scenario.empty() && past.scenario != stored.text) {
-    found.push_back(fmt::format("scenario: {} is not the one in {}: {}", stored.shown, past.file.filename().string(),
-                                first_difference(past.scenario, stored.text)));
+    found.push_back(fmt::format("scenario: {} is not the one in {}:\n    {}", stored.shown, past.file.filename().string(),
+                                fmt::join(changed_lines(past.scenario, stored.text), "\n    ")));
   }
   const std::string now = resolved(scenario);
   if (plugins.empty() && now != stored.text)  // their hashes stand in it
-    found.push_back(fmt::format("scenario: resolved again it is another: {}", first_difference(stored.text, now)));
+    found.push_back(
+        fmt::format("scenario: resolved again it is another:\n    {}", fmt::join(changed_lines(stored.text, now), "\n    ")));
   if (!past.summary_hash.empty() && past.summary_hash != hash(past.trace)) {
     found.push_back(fmt::format("trace: {} is not the one that summary.json was made from{}", past.file.filename().string(),
                                 past.summary_hash == hash(again.trace) ? "; the run again gives that one" : ""));

@@ -14,6 +14,7 @@
 #include "core/recording/atomic_file.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
+#include "golden/advice.h"
 #include "golden/cases.h"
 #include "golden/report.h"
 #include "report/overlay.h"
@@ -26,6 +27,8 @@ using namespace golden;
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMostDrawn = 6;  // columns; the figure is to be seen at one look
 
 // ---- the table
 
@@ -86,18 +89,22 @@ std::string outside(const GoldenDifference& d) {
          (d.findings.empty() ? "" : ", and a run of another form");
 }
 
-/// The columns outside their bands, the first to stray first; where only numbers are, the column nearest to its band.
+/// Of the columns outside their bands the worst, the first to stray first; where only numbers are, the column nearest to its
+/// band.
 std::vector<const ColumnCheck*> strayed(const GoldenCase& c) {
   std::vector<const ColumnCheck*> found;
   for (const ColumnCheck& check : c.difference.columns) {
     if (!check.passed()) found.push_back(&check);
   }
   if (const ColumnCheck* worst = c.difference.worst_column(); found.empty() && worst != nullptr) found.push_back(worst);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const ColumnCheck* a, const ColumnCheck* b) { return a->ratio() > b->ratio(); });
+  found.resize(std::min(found.size(), kMostDrawn));
   const double never = c.scenario->duration + 1;
   std::stable_sort(found.begin(), found.end(), [&](const ColumnCheck* a, const ColumnCheck* b) {
     const double from_a = a->outside.value_or(never);
     const double from_b = b->outside.value_or(never);
-    return from_a != from_b ? from_a < from_b : a->ratio() > b->ratio();
+    return from_a < from_b;
   });
   return found;
 }
@@ -133,8 +140,11 @@ class Figures {
     if (!folder_) folder_.emplace(std::nullopt, "test");
     fs::path file = folder_->path() / (c.scenario->name + ".svg");
     for (int k = 2; fs::exists(file); ++k) file.replace_filename(fmt::format("{}-{}.svg", c.scenario->name, k));
-    const std::string title = fmt::format("{}: {} outside their bands, the first to stray on top", c.scenario->name,
-                                          plural(failing(c.difference.columns), "column"));
+    const std::size_t all = failing(c.difference.columns);
+    const std::string title =
+        all == 0 ? fmt::format("{}: no column outside its band, shown is the nearest", c.scenario->name)
+                 : fmt::format("{}: {}{} of {} outside their bands, the first to stray on top", c.scenario->name,
+                               all > shown.size() ? "the worst " : "", shown.size(), plural(all, "column"));
     write_file(file, report::overlay_svg(title, shown));
     folder_->keep();
     return file.string();
@@ -151,10 +161,15 @@ std::string failure(const GoldenCase& c) {
          differences(c.difference, Shown::failing) + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n");
 }
 
-/// That it was approved from another text explains a failure, and is not a failure.
+/// What is no failure: numbers of which little is seen; and another text than was approved, which explains a failure.
 void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
-    if (c.verdict != Verdict::passed || c.other_engine || hash(resolved(*c.scenario)) == c.golden->origin.scenario) continue;
+    if (c.verdict != Verdict::passed) continue;
+    if (const std::string names = wide_number_names(*c.golden); !names.empty()) {
+      fmt::print(stderr, "{}: note: numbers with bands above {}, within which a change is not seen: {}\n", c.file,
+                 percent(kWideNumber), names);
+    }
+    if (c.other_engine || hash(resolved(*c.scenario)) == c.golden->origin.scenario) continue;
     fmt::print(stderr, "{}: note: its resolved text is no longer that of the golden\n", c.file);
   }
 }

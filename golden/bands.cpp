@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kOfTheLargest = 1e-3;  // range, among columns of one unit
 constexpr double kOfTheUnit = 1e-6;     // um, urad, uN m, uA: below what the model means
-constexpr double kEnsembleFactor = 10, kHalvingFactor = 3;
 constexpr double kLeastOfRange = 1e-6;  // other compilers' rounding, grown over a run, stays below
 
 struct Extent {

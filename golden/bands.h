@@ -27,14 +27,16 @@ double mean_square(const Trace& a, const Trace& b, std::size_t column);
 /// The same of every column: Golden::rounding, from a run as it was and as its golden's file gives it back.
 std::vector<double> mean_squares(const Trace& a, const Trace& b);
 
+inline constexpr double kEnsembleFactor = 10, kHalvingFactor = 3;  ///< bands over what was measured
+
 struct Bands {
   std::vector<Band> columns, numbers;  ///< as in Golden
 };
 
-/// The bands of `base`: per column max(10 x the largest RMS difference of a run of the ensemble, 3 x that of the run with half
-/// the step, 1e-6 of the range); per number the same of its difference. That is below the golden's precision: what rounding
-/// took is known exactly (Golden::rounding) and taken off. All runs have the columns, rows and numbers of `base` (and
-/// maybe others), and finite values. std::invalid_argument: one lacks a number.
+/// The bands of `base`: per column max(kEnsembleFactor x the largest RMS difference of a run of the ensemble, kHalvingFactor x
+/// that of the run with half the step, 1e-6 of the range); per number the same of its difference. That is below the golden's
+/// precision: what rounding took is known exactly (Golden::rounding) and taken off. All runs have the columns, rows and numbers
+/// of `base` (and maybe others), and finite values. std::invalid_argument: one lacks a number.
 Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, const GoldenRun& halved);
 
 }  // namespace gaitlab

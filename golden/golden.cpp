@@ -79,6 +79,16 @@ std::string history_text(const Golden& golden) {
   return text + "\n  ]";
 }
 
+std::string resolved_text(const GoldenProvenance& origin) {
+  std::string text = "[";
+  for (std::size_t at = 0; at < origin.resolved.size();) {
+    const std::size_t end = std::min(origin.resolved.find('\n', at), origin.resolved.size());
+    text += fmt::format("{}\n    {}", at == 0 ? "" : ",", text_of(origin.resolved.substr(at, end - at)));
+    at = end + 1;
+  }
+  return text + "\n  ]";
+}
+
 std::string json_text(const Golden& golden, std::string_view trace_bytes) {
   const GoldenProvenance& o = golden.origin;
   const Trace& trace = golden.run.trace;
@@ -97,6 +107,8 @@ std::string json_text(const Golden& golden, std::string_view trace_bytes) {
   add("trace", text_of(hash(trace_bytes)));
   add("columns", columns_text(golden));
   add("numbers", numbers_text(golden));
+  // Left out where JSON cannot hold it: a path that is not UTF-8.
+  if (!o.resolved.empty() && Json::parse(text_of(o.resolved)) == o.resolved) add("resolved", resolved_text(o));
   return text + checksum_line(text);
 }
 
@@ -132,10 +144,18 @@ Json checked(const fs::path& file, const std::string& text) {
 
 Band band_of(const Json& json) { return {json.at("ensemble"), json.at("halving"), json.at("floor")}; }
 
+std::string resolved_of(const Json& lines, const std::string& hash_then) {
+  std::string text;
+  for (const Json& line : lines) text += line.get<std::string>() + "\n";
+  if (hash(text) != hash_then) throw std::runtime_error("its resolved scenario is not the one that was approved");
+  return text;
+}
+
 Golden from_json(const Json& json) {
   Golden golden;
   golden.origin = {json.at("name"),  json.at("engine"),   json.at("integrator"), json.at("step"),
                    json.at("build"), json.at("compiler"), json.at("scenario")};
+  if (json.contains("resolved")) golden.origin.resolved = resolved_of(json["resolved"], golden.origin.scenario);
   for (const Json& entry : json.at("history"))
     golden.history.push_back({entry.at("number"), entry.at("reason"), entry.at("build")});
   for (const auto& [name, entry] : json.at("numbers").items()) {

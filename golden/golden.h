@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct Band {
 struct Number {
   std::string name, unit;
   double value = 0;
+  std::optional<double> at_start = {};  ///< s; when a peak was reached, if before the window by which its run is judged
 };
 
 struct Approval {
@@ -34,6 +36,7 @@ struct GoldenProvenance {
   double step = 0;              ///< s
   std::string build, compiler;  ///< build id; its compiler
   std::string scenario;         ///< hash() of the resolved scenario's text
+  std::string resolved = {};    ///< that text, whose last line ends, too; empty in a golden of before it was kept
 };
 
 struct Golden {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/scenario/changed_lines.h"
+
 namespace gaitlab::golden {
 
 namespace {
@@ -90,8 +92,10 @@ std::string origin_changes(const Golden& golden, const GoldenProvenance& now) {
   add("engine", then.engine, now.engine);
   add("integrator", then.integrator, now.integrator);
   add("step", then.step, now.step);
-  if (then.scenario != now.scenario) text += "  scenario: its resolved text is another\n";
-  return text;
+  if (then.scenario == now.scenario) return text;
+  text += "  scenario: its resolved text is another";
+  if (then.resolved.empty()) return text + "\n";
+  return text + fmt::format(":\n    {}\n", fmt::join(changed_lines(then.resolved, now.resolved), "\n    "));
 }
 
 std::string band_changes(const Golden& before, const Golden& now) {

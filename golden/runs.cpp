@@ -41,6 +41,15 @@ Trace thinned(const Trace& trace, double period) {
   return thin;
 }
 
+/// When the peak was reached of which `number` is the size; nullptr: it is none, or nobody notes that.
+const report::SummaryNumber* time_of(const report::SummaryNumber& number) {
+  const std::string key = std::string(number.key) + "_time";
+  for (const report::SummaryNumber& other : report::summary_numbers()) {
+    if (other.key == key && other.of_joint != nullptr) return &other;
+  }
+  return nullptr;
+}
+
 std::vector<Number> numbers(const Scenario& scenario, const Recording& record) {
   const report::Summary summary = report::summarise(scenario, record, 0);
   std::vector<const report::SummaryNumber*> kept = report::placed(&report::SummaryNumber::golden);
@@ -53,8 +62,10 @@ std::vector<Number> numbers(const Scenario& scenario, const Recording& record) {
   for (std::size_t j = 0; j < record.joints.size(); ++j) {
     for (const report::SummaryNumber* number : kept) {
       if (number->of_joint == nullptr) continue;
-      all.push_back(
-          {number->name(scenario.robot->joints[j].name), number->unit, number->of_joint({scenario, record, summary}, j)});
+      const report::RunData run{scenario, record, summary};
+      all.push_back({number->name(scenario.robot->joints[j].name), number->unit, number->of_joint(run, j)});
+      if (const report::SummaryNumber* time = time_of(*number); time != nullptr && time->of_joint(run, j) < summary.judged.from)
+        all.back().at_start = time->of_joint(run, j);
     }
   }
   return all;
@@ -141,9 +152,11 @@ GoldenProvenance golden_origin(const Scenario& scenario) {
   const std::string build = report::build_id();
   // `VERSION (COMPILER; LIBRARIES)`
   const std::size_t from = std::min(build.find('('), build.size() - 1) + 1;
-  return {scenario.name,           engine.name, scenario.physics.integrator->name,
-          scenario.physics.step,   build,       build.substr(from, build.find_first_of(";)", from) - from),
-          hash(resolved(scenario))};
+  std::string text = resolved(scenario);
+  std::string text_hash = hash(text);
+  return {scenario.name,         engine.name,    scenario.physics.integrator->name,
+          scenario.physics.step, build,          build.substr(from, build.find_first_of(";)", from) - from),
+          std::move(text_hash),  std::move(text)};
 }
 
 Scenario perturbed(const Scenario& scenario, int member) {

@@ -41,7 +41,7 @@ TEST_F(ApproveCommand, ApproveKeepsTheBandsOfTheSameGaitAlone) {
   folder.write("good.yaml", other_motor);
   result = call("approve good.yaml --reason 'the motor that we bought'");
   EXPECT_EQ(result.code, 0);
-  EXPECT_TRUE(result.out.starts_with("since approval 2 (nothing new):\n  scenario: its resolved text is another\n  column "))
+  EXPECT_TRUE(result.out.starts_with("since approval 2 (nothing new):\n  scenario: its resolved text is another:\n    line "))
       << result.out;
   expect_contains(result.out, "; bands made\n");
   after = read_golden(folder / "good.golden");
@@ -123,6 +123,40 @@ TEST_F(ApproveCommand, ApproveRefusesBandsThatWouldNoticeNothing) {
   folder.write("good.yaml", kCaterpillar + "controller: {Kp: 400}\n");
   EXPECT_EQ(call("approve good.yaml --reason 'why not'").code, 2);
   EXPECT_EQ(bytes("good.golden"), before);
+}
+
+/// The value that stands behind `key: ` in a message, up to a blank.
+std::string advised(const std::string& message, const std::string& key) {
+  const std::size_t at = message.find(key + ": ");
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + key.size() + 2;
+  return message.substr(from, message.find(' ', from) - from);
+}
+
+// Whoever does what the refusal says has a golden, in one go.
+TEST_F(ApproveCommand, WhatARefusalAdvisesHelps) {
+  const auto approve_with = [&](const std::string& physics) {
+    folder.write("long.yaml", kCaterpillar + "physics: {engine: articulated, " + physics + "}\n");
+    return call("approve long.yaml --reason 'as advised'");
+  };
+  const auto expect_helps = [&](const std::string& physics) {
+    const Result result = approve_with(physics);
+    EXPECT_EQ(result.code, 0) << physics << "\n" << result.err;
+    fs::remove_all(folder / "long.golden");
+  };
+  Result result = approve_with("step: 0.0005");
+  EXPECT_EQ(result.code, 2);
+  expect_contains(result.err, "; take physics.integrator: extrapolated with physics.step: ");
+  expect_contains(result.err, "), or physics.step: ");
+  expect_contains(result.err, ", so its order is ");
+  expect_contains(result.err, "). Nothing was written\n");
+  expect_helps("step: " + advised(result.err, "or physics.step"));
+  expect_helps("integrator: extrapolated, step: " + advised(result.err, "extrapolated with physics.step"));
+
+  result = approve_with("step: auto");
+  EXPECT_EQ(result.code, 2);
+  expect_contains(result.err, "; take physics.accuracy: ");
+  expect_helps("accuracy: " + advised(result.err, "take physics.accuracy"));
 }
 
 TEST_F(ApproveCommand, AnyNumberOfThreadsWritesTheSameBytes) {

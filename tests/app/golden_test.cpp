@@ -50,7 +50,8 @@ TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   expect_contains(result.out, " of 19 columns and ");
   expect_contains(result.out,
                   " of 17 numbers outside their bands\nsince approval 1 (first golden):\n"
-                  "  scenario: its resolved text is another\n  column ");
+                  "  scenario: its resolved text is another:\n    line ");
+  expect_contains(result.out, ": \"  Kt: 0.0039895\", was \"  Kt: 0.00395\"\n  column ");
   expect_contains(result.out, "\n  joint.3.torque ");
   expect_contains(result.out, "\n  m1/passive.torque.peak ");
   expect_contains(result.out, "\n  figure: runs/test/good.svg\n");
@@ -58,6 +59,11 @@ TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   const std::string figure = read(folder / "runs/test/good.svg");
   expect_contains(figure, "good: ");
   expect_contains(figure, "outside from ");
+  expect_contains(figure, ">good: the worst 6 of ");
+  const std::string bands = ">3 bands<";  // once in each panel
+  std::size_t panels = 0;
+  for (std::size_t at = figure.find(bands); at != std::string::npos; at = figure.find(bands, at + 1)) ++panels;
+  EXPECT_EQ(panels, 6U);
   const std::string junit = without_times(read(folder / "result.xml"));
   EXPECT_NE(junit, read(folder / "result.xml"));
   expect_contains(junit,

@@ -67,7 +67,7 @@ TEST_F(Rerun, NamesWhatDiffers) {
   EXPECT_EQ(result.code, 4) << result.err;
   EXPECT_TRUE(contains(result.out, "a: differs (A: the recorded run, B: the run again)\n")) << result.out;
   EXPECT_TRUE(contains(result.out, "\n    joint.")) << result.out;
-  EXPECT_TRUE(contains(result.out, "is not the one in trace.h5: line ")) << result.out;
+  EXPECT_TRUE(contains(result.out, "is not the one in trace.h5:\n    line ")) << result.out;
   EXPECT_TRUE(contains(result.out, ": \"  frequency: 0.6\", was \"  frequency: 0.5\"\n")) << result.out;
 }
 

@@ -13,6 +13,7 @@
 
 #include "core/recording/atomic_file.h"
 #include "golden/compare.h"
+#include "golden/report.h"
 #include "tests/folder.h"
 #include "tests/golden/golden_sample.h"
 
@@ -67,6 +68,34 @@ TEST(Golden, IsReadAsItWasWritten) {
   write_golden(golden, folder.path() / "walk.golden");
   EXPECT_EQ(read_file(folder.path() / "walk.golden/golden.json"), json);
   EXPECT_EQ(golden_folder("scenarios/hexapod.yaml"), "scenarios/hexapod.golden");
+}
+
+const std::string kText = "name: \"walk\"\nKp: 100\n\n";
+
+TEST(Golden, KeepsTheResolvedScenario) {
+  const Folder folder;
+  Golden golden = golden_of(walk());
+  golden.origin.resolved = kText;
+  golden.origin.scenario = hash(kText);
+  write_golden(golden, folder.path() / "walk.golden");
+  EXPECT_EQ(read_golden(folder.path() / "walk.golden").origin.resolved, kText);
+  const std::string json = read_file(folder.path() / "walk.golden/golden.json");
+  EXPECT_NE(json.find("\n    \"Kp: 100\",\n"), std::string::npos) << json;  // a line each, for version control
+  write_golden(golden_of(walk()), folder.path() / "walk.golden");           // as goldens were before
+  EXPECT_EQ(read_file(folder.path() / "walk.golden/golden.json").find("resolved"), std::string::npos);
+  EXPECT_EQ(read_golden(folder.path() / "walk.golden").origin.resolved, "");
+}
+
+TEST(Golden, TellsWhichLinesOfTheScenarioChanged) {
+  Golden golden = golden_of(walk());
+  GoldenProvenance now = golden.origin;
+  EXPECT_EQ(golden::origin_changes(golden, now), "");
+  now.resolved = "name: \"walk\"\nKp: 97\n\n";
+  now.scenario = hash(now.resolved);
+  EXPECT_EQ(golden::origin_changes(golden, now), "  scenario: its resolved text is another\n");
+  golden.origin.resolved = kText;
+  EXPECT_EQ(golden::origin_changes(golden, now),
+            "  scenario: its resolved text is another:\n    line 2: \"Kp: 97\", was \"Kp: 100\"\n");
 }
 
 class GoldenFolder : public ::testing::Test {
@@ -145,10 +174,18 @@ TEST_F(GoldenFolder, NoDamageOfTheJsonIsTakenNorACrash) {
 
 TEST_F(GoldenFolder, ChecksumsThatAreRightOnOtherContent) {
   std::string text = content("golden.json");
-  text.replace(text.rfind("\"unit\":\"m\""), 10, "\"unit\":[1]");  // of a number
   const std::size_t end = text.rfind(",\n  \"checksum\"");
-  put("golden.json", text.substr(0, end) + ",\n  \"checksum\": \"" + hash(text.substr(0, end)) + "\"\n}\n");
+  const std::string content = text.substr(0, end);
+  const auto put_checked = [&](const std::string& changed) {
+    put("golden.json", changed + ",\n  \"checksum\": \"" + hash(changed) + "\"\n}\n");
+  };
+  text.replace(text.rfind("\"unit\":\"m\""), 10, "\"unit\":[1]");  // of a number
+  put_checked(text.substr(0, end));
   EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: an entry is missing or of another type");
+  put_checked(content + ",\n  \"resolved\": [1]");
+  EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: an entry is missing or of another type");
+  put_checked(content + ",\n  \"resolved\": [\"Kp: 100\"]");
+  EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: its resolved scenario is not the one that was approved");
 }
 
 TEST_F(GoldenFolder, TheTwoFilesBelongTogether) {
