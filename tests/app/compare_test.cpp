@@ -169,7 +169,7 @@ TEST_F(Formats, TheFilesLineNamesTheTrace) {
             "  files         y: trace.csv, recording.h5, summary.json,\n                scenario.resolved.yaml, figure.svg\n");
   const Result result = gaitlab_here("run good.yaml --format xml --out z");
   EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err, "--format: xml not in {h5,csv}\nRun with --help for more information.\n");
+  EXPECT_EQ(result.err, "gaitlab run: error: --format is 'xml'; expected h5 or csv\n");
 }
 
 TEST_F(Formats, ExportWritesWhatFormatCsvWrites) {
