@@ -10,6 +10,7 @@
 #include "core/plugin/catalog.h"
 #include "core/scenario/scenario.h"
 #include "report/summary.h"
+#include "report/verdict.h"
 
 namespace gaitlab::app {
 
@@ -36,8 +37,9 @@ void warn_of_start(const Scenario& scenario, bool quiet);
 
 /// How much of a summary is printed.
 struct SummaryOptions {
-  bool verbose = false;  ///< the energy ledger and the step's limit, too
-  bool joints = false;   ///< a row per joint
+  bool verbose = false;          ///< the energy ledger and the step's limit, too
+  bool joints = false;           ///< a row per joint
+  bool fail_infeasible = false;  ///< exit code 3 where the verdict is so
 };
 
 struct RunArguments : ScenarioArguments {
@@ -49,9 +51,11 @@ struct RunArguments : ScenarioArguments {
 /// Runs a scenario that is read: writes the run folder, prints the summary; the exit code.
 int run(const Scenario& scenario, const RunArguments& arguments);
 
-/// Prints the summary of a run.
+/// Prints the summary of a run, the verdict first.
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                   const SummaryOptions& shown);
+                   const report::Verdict& verdict, const SummaryOptions& shown);
+/// 3 where that is asked for and the verdict is infeasible; else 0.
+int exit_code(const report::Verdict& verdict, const SummaryOptions& shown);
 
 /// `version, build id, Bullet version and precision`
 std::string version();

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 struct ReportArguments {
   std::string run;                 ///< folder
-  std::optional<std::string> out;  ///< folder for summary.json and figure.svg
+  std::optional<std::string> out;  ///< folder for summary.json, verdict.json and figure.svg
   SummaryOptions shown;
   std::vector<std::string> joints;  ///< names, of the figure
 };
@@ -91,33 +91,48 @@ int report(const ReportArguments& arguments) {
   const fs::path folder = trace_file(arguments.run).parent_path();
   report::Summary summary = report::summarise(scenario, recording, wall_time(folder));
   summary.build = read.origin.build;
+  const report::Verdict verdict = report::verdict(scenario, recording, summary);
   if (arguments.out) {
     RunFolder out(*arguments.out, scenario.name);
     write_file(out.path() / "figure.svg", report::run_figure(scenario, recording, summary));
+    write_file(out.path() / "verdict.json", report::to_json(verdict));
     write_file(out.path() / "summary.json", report::to_json(summary, scenario, recording));
     out.keep();
   }
-  print_summary(scenario, recording, summary, arguments.shown);
-  if (arguments.out) fmt::print("  {:<13} {}: summary.json, figure.svg\n", "files", *arguments.out);
+  print_summary(scenario, recording, summary, verdict, arguments.shown);
+  if (arguments.out) fmt::print("  {:<13} {}: summary.json, verdict.json, figure.svg\n", "files", *arguments.out);
   for (const std::string& missing : read.missing) fmt::print(stderr, "{}: note: {}\n", arguments.run, missing);
   const nlohmann::json told = read.origin.outcome.empty() ? summarised(folder, "outcome") : nlohmann::json(recording.outcome);
   if (told.is_string() && told != "done") {
     fmt::print(stderr, "{}: note: this run ended early: {}\n", arguments.run, told.get<std::string>());
   }
   warn_of_run(scenario, recording, summary);
-  return 0;
+  return exit_code(verdict, arguments.shown);
 }
 
 }  // namespace
 
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                   const SummaryOptions& shown) {
-  fmt::print("{}", report::to_text(summary, scenario, recording, shown.verbose));
+                   const report::Verdict& verdict, const SummaryOptions& shown) {
+  const std::string text = report::to_text(summary, scenario, recording, shown.verbose);
+  const std::size_t head = text.find('\n') + 1;
+  fmt::print("{}", text.substr(0, head));
+  const char* title = "verdict";
+  for (const std::string& line : report::to_lines(verdict)) {
+    fmt::print("  {:<13} {}\n", title, line);
+    title = "";
+  }
+  fmt::print("{}", text.substr(head));
   if (shown.joints) fmt::print("{}", report::joint_table(summary, scenario));
+}
+
+int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {
+  return shown.fail_infeasible && verdict.word == "infeasible" ? 3 : 0;
 }
 
 void add_shown(CLI::App& command, SummaryOptions& shown) {
   command.add_flag("--joints", shown.joints, "print a row per joint, the most loaded first");
+  command.add_flag("--fail-infeasible", shown.fail_infeasible, "exit code 3 where the verdict is infeasible");
   command.add_flag("--verbose", shown.verbose, "print the energy ledger and the limit of the step, too");
 }
 
@@ -153,8 +168,9 @@ void add_report(Commands& commands) {
   add_command<ReportArguments>(commands, "report", "Print the summary of a run folder again, without simulating.", report,
                                [](CLI::App& command, ReportArguments& arguments) {
                                  command.add_option("RUN", arguments.run, "run folder")->required()->check(not_empty);
-                                 command.add_option("--out", arguments.out,
-                                                    "folder for summary.json and figure.svg, made anew; new or empty");
+                                 command.add_option(
+                                     "--out", arguments.out,
+                                     "folder for summary.json, verdict.json and figure.svg, made anew; new or empty");
                                  add_joint(command, arguments.joints);
                                  command.get_option("--joint")->needs("--out");
                                  add_shown(command, arguments.shown);

@@ -163,6 +163,7 @@ class ScenarioReader {
     if (reads("contact")) scenario_.contact = fresh.contact;
     if (reads("trace")) scenario_.trace = fresh.trace;
     if (reads("figure")) scenario_.figure = fresh.figure;
+    if (reads("limits")) scenario_.limits = fresh.limits;
     if (reads("actuator")) scenario_.actuator = fresh.actuator;
     if (reads("controller")) {
       scenario_.controller = fresh.controller;

@@ -58,6 +58,18 @@ struct FigureSettings {
   void fields(Fields& f);
 };
 
+/// What the verdict on a run allows (report/verdict.h).
+struct Limits {
+  double margin = 0.8;               ///< of what a motor has
+  double tracking_error = 0.1;       ///< rad
+  double saturated_share = 0.01;     ///< of the judged window
+  double saturated_periods = 3;      ///< control periods on end
+  double height = 0.5;               ///< of the centre of mass, of that at the start
+  double tilt = 1.0471975511965976;  ///< rad
+  bool operator==(const Limits&) const = default;
+  void fields(Fields& f);
+};
+
 /// A plugin library named by the scenario.
 struct PluginFile {
   std::string path;  ///< canonical
@@ -84,6 +96,7 @@ struct Scenario {
   double duration = 0;            ///< s
   TraceSettings trace;
   FigureSettings figure;
+  Limits limits;
   std::int64_t seed = 1;
   std::vector<std::string> notes;  ///< one line each for stderr: what --set dropped, how the CPG was set up
   /// Where the user gave a key: `physics.step`, `trace.columns` ...; of a rollout of a template first its own.

@@ -179,6 +179,29 @@ void FigureSettings::fields(Fields& f) {
       "its spine.");
 }
 
+void Limits::fields(Fields& f) {
+  f.number("margin", margin, {"", 0, 1, "Share of what a motor has at rest above which its largest torque is a warning."});
+  f.number(
+      "tracking_error", tracking_error,
+      {"rad", kPositive, 1000,
+       "Largest difference of a set point and its angle; up to twice of it is a warning, more a failure. Default: what the "
+       "axis of the paper's figure 14 has room for."});
+  f.number(
+      "saturated_share", saturated_share,
+      {"", 0, 1,
+       "Share of the judged window that a joint may be at a limit of its motor; less is a warning, more a failure. Default: "
+       "chosen."});
+  f.number(
+      "saturated_periods", saturated_periods,
+      {"", 0, 1e6,
+       "How many control periods on end it may be there; a longer stretch is a failure. Default: chosen; one or two are the "
+       "answer to a step of the set point."});
+  f.number("height", height,
+           {"", 0, 1, "Share of its height at the start below which the centre of mass has fallen. Default: chosen."});
+  f.number("tilt", tilt,
+           {"rad", kPositive, 4, "Tilt of the base from its start above which is a warning. Default: 60 degrees, chosen."});
+}
+
 SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type)
     : scenario(s),
       physics{s.physics, catalog, problems},
@@ -211,6 +234,7 @@ void SectionFields::fields(Fields& f) {
   if (has_cpg) group(cpg);
   f.number("duration", scenario.duration, {"s", kPositive, 1e6, "Simulated time; required."});
   f.group("trace", scenario.trace, "The recorded trace.");
+  if (!writing || scenario.limits != Limits()) f.group("limits", scenario.limits, "What the verdict on a run allows.");
   if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "What figure.svg shows.");
   f.integer("seed", scenario.seed, {"", 0, 9e18, "Seed of the random number generator."});
 }

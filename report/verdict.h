@@ -1,0 +1,44 @@
+// Whether the actual robot can do the gait of a run: every limit that is known, checked in the judged window.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "report/summary.h"
+
+namespace gaitlab::report {
+
+enum class CheckStatus { pass, warn, fail, not_judged };
+
+/// One limit and what the run made of it. NaN: there is no such number.
+struct Check {
+  std::string id;     ///< `voltage`
+  std::string group;  ///< run, motor, motion, structure, ground; trust: whether the run is to be believed
+  CheckStatus status = CheckStatus::not_judged;
+  double value, limit;     ///< of the worst joint; what it may be, both in `unit`
+  std::string unit;        ///< "" of shares
+  std::string joint = {};  ///< the worst
+  std::size_t joints = 0;  ///< how many are beyond the limit
+  double from, to;         ///< s: when the worst one was
+  std::string text;        ///< a sentence for people
+};
+
+struct Verdict {
+  /// feasible: no check outside of `trust` fails. infeasible: one does. failed: the run ended early. not judged: nothing is
+  /// known of the motors.
+  std::string word;
+  double from = 0, to = 0;  ///< s, the judged window
+  std::vector<Check> checks;
+  [[nodiscard]] std::size_t count(CheckStatus status) const;
+};
+
+/// Shares, peaks and spans are of all steps (Recording::ticks). A limit that nobody states is not judged, never assumed kept.
+/// Thresholds: the scenario's `limits`.
+Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary);
+
+/// The text of verdict.json.
+std::string to_json(const Verdict& verdict);
+
+/// `infeasible: ` and what fails first, then the names of all that fails, warns and was not judged; at most 64 columns each.
+std::vector<std::string> to_lines(const Verdict& verdict);
+
+}  // namespace gaitlab::report

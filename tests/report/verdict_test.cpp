@@ -1,0 +1,208 @@
+// Every check on runs made for it: what passes, warns, fails, and what nobody knows.
+#include "report/verdict.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/scenario/resolved.h"
+#include "report/motors.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace report;
+
+/// A caterpillar of 4 s, changed by hand.
+struct Case {
+  Scenario scenario = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated"});
+  Recording record = run(scenario);
+
+  [[nodiscard]] Verdict judged() const { return verdict(scenario, record, summarise(scenario, record, 0)); }
+  [[nodiscard]] Check check(const std::string& id) const {
+    const Verdict made = judged();
+    const auto found = std::ranges::find(made.checks, id, &Check::id);
+    return found != made.checks.end() ? *found : Check();
+  }
+  [[nodiscard]] CheckStatus status(const std::string& id) const { return check(id).status; }
+  /// Of a joint's column in ticks, from one row on.
+  double& tick(std::size_t row, std::size_t joint, TickColumn column) {
+    return record.ticks.values.at(row * record.ticks.columns.size() + 1 + joint * kTickColumns + column);
+  }
+  [[nodiscard]] std::size_t last_tick() const { return record.ticks.rows() - 1; }
+};
+
+Case& walk() {
+  static Case made;
+  return made;
+}
+
+/// The joint is at the limit in each of the last `rows` ticks but those of `gaps`, which end stretches.
+Case at_limit(TickColumn column, std::size_t rows, std::size_t every = 0) {
+  Case made = walk();
+  double total = 0;
+  for (std::size_t k = made.last_tick() - rows + 1; k <= made.last_tick(); ++k) {
+    const bool gap = every > 0 && k % every == 0;
+    if (!gap)
+      total += made.record.ticks.values[k * made.record.ticks.columns.size()] -
+               made.record.ticks.values[(k - 1) * made.record.ticks.columns.size()];
+    made.tick(k, 3, column) = total;
+  }
+  return made;
+}
+
+TEST(Verdict, OfAGaitThatTheMotorsCanDo) {
+  const Verdict made = walk().judged();
+  EXPECT_EQ(made.word, "feasible");
+  EXPECT_EQ(made.count(CheckStatus::fail), 0U);
+  for (const char* const id :
+       {"outcome", "fall", "voltage", "current", "tracking", "stops", "collision", "in_ground", "ledger"})
+    EXPECT_EQ(walk().status(id), CheckStatus::pass) << id << ": " << walk().check(id).text;
+  for (const char* const id : {"heat", "gear", "dock", "battery"}) EXPECT_EQ(walk().status(id), CheckStatus::not_judged) << id;
+  EXPECT_EQ(to_lines(made).front(), "feasible with these motors");
+}
+
+/// 15 ms a tick, a window of some 200 of them: two in a row are less than 1 % and than three control periods.
+TEST(Verdict, WarnsOfShortLimitsAndFailsByLongOnes) {
+  for (const auto& [column, id, name] :
+       {std::tuple{kVoltageLimited, "voltage", "voltage"}, {kCurrentLimited, "current", "current"}}) {
+    EXPECT_EQ(at_limit(column, 1).status(id), CheckStatus::warn);
+    EXPECT_EQ(at_limit(column, 4).status(id), CheckStatus::fail) << "four ticks on end";
+    EXPECT_EQ(at_limit(column, 20, 2).status(id), CheckStatus::fail) << "ten single ticks are more than 1 %";
+    const Check check = at_limit(column, 100).check(id);
+    EXPECT_EQ(check.joint, "m1/passive");
+    EXPECT_EQ(check.joints, 1U);
+    EXPECT_NEAR(check.to, 4, 1e-9);
+    EXPECT_NEAR(check.from, walk().record.ticks.values[(walk().last_tick() - 100) * walk().record.ticks.columns.size()], 1e-9);
+    EXPECT_TRUE(contains(check.text, std::string("1 of 16 joints are at the limit of their ") + name)) << check.text;
+    EXPECT_EQ(at_limit(column, 100).judged().word, "infeasible");
+  }
+}
+
+TEST(Verdict, MeasuresTrackingInTheWindow) {
+  const auto with = [&](double error) {
+    Case made = walk();
+    made.tick(made.last_tick(), 5, kErrorPeak) = error;
+    return made.check("tracking");
+  };
+  EXPECT_EQ(with(0.09).status, CheckStatus::pass);
+  EXPECT_EQ(with(0.15).status, CheckStatus::warn);
+  EXPECT_EQ(with(0.21).status, CheckStatus::fail);
+  EXPECT_EQ(with(0.21).joint, "m2/passive");
+  Case start = walk();
+  start.tick(1, 5, kErrorPeak) = 3;
+  EXPECT_EQ(start.status("tracking"), CheckStatus::pass) << "before the window";
+}
+
+TEST(Verdict, WarnsOfATorqueNearWhatAMotorHas) {
+  const double rest = rest_torques(walk().scenario).at(2);
+  const auto with = [&](double share) {
+    Case made = walk();
+    made.tick(made.last_tick(), 2, kTorquePeak) = share * rest;
+    return made.check("rest_torque");
+  };
+  EXPECT_EQ(with(0.75).status, CheckStatus::pass);
+  EXPECT_EQ(with(0.85).status, CheckStatus::warn);
+  EXPECT_EQ(with(1.5).status, CheckStatus::warn) << "limits decide";
+  EXPECT_EQ(with(0.85).joint, "m1/active");
+}
+
+TEST(Verdict, JudgesStopsFallsAndTheEnd) {
+  const auto stops = [&](double worst, double share) {
+    Case made = walk();
+    made.record.joints[4].range_worst = worst;
+    made.record.joints[4].range_share = share;
+    return made.status("stops");
+  };
+  EXPECT_EQ(stops(0.005, 0.005), CheckStatus::warn);
+  EXPECT_EQ(stops(0.02, 0.005), CheckStatus::fail);
+  EXPECT_EQ(stops(0.005, 0.02), CheckStatus::fail);
+  Case fallen = walk();
+  for (Trace* table : {&fallen.record.trace, &fallen.record.rest}) {
+    for (std::size_t c = 0; c < table->columns.size(); ++c) {
+      if (table->columns[c].name == "com.z") table->values[(table->rows() - 1) * table->columns.size() + c] *= 0.1;
+    }
+  }
+  EXPECT_EQ(fallen.status("fall"), CheckStatus::fail);
+  Case early = walk();
+  early.record.outcome = "diverged at step 3";
+  EXPECT_EQ(early.judged().word, "failed");
+}
+
+TEST(Verdict, TrustNeverMakesAGaitInfeasible) {
+  Case made = walk();
+  made.record.ledger.copper += made.record.ledger.electrical;  // the residual
+  for (JointStatistics& joint : made.record.joints) joint.created = made.record.ledger.electrical;
+  EXPECT_EQ(made.status("ledger"), CheckStatus::warn);
+  EXPECT_EQ(made.status("created"), CheckStatus::warn);
+  EXPECT_EQ(made.judged().word, "feasible");
+}
+
+TEST(Verdict, OfBodiesAndTheGround) {
+  Case made = walk();
+  made.scenario.contact.law = ContactLaw::solver;
+  EXPECT_EQ(made.status("collision"), CheckStatus::not_judged);
+  const char* const coil =
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 3, 4, 2, 0]], position: [0, 0, 1]}\n"
+      "initial: {angles: 1.2}\nduration: 0.02\nphysics: {engine: articulated}\nactuator: {type: none}\nground: {type: none}\n";
+  const Scenario s = scenario(coil);
+  const Recording r = run(s);
+  const Verdict v = verdict(s, r, summarise(s, r, 0));
+  EXPECT_EQ(std::ranges::find(v.checks, "collision", &Check::id)->status, CheckStatus::fail);
+  EXPECT_EQ(std::ranges::find(v.checks, "in_ground", &Check::id)->status, CheckStatus::not_judged);
+  EXPECT_EQ(std::ranges::find(v.checks, "voltage", &Check::id)->text, "nothing drives the joints");
+}
+
+TEST(Verdict, DoesNotAssumeWhatItDoesNotKnow) {
+  Case old = walk();
+  old.record.ticks = {};
+  const Verdict made = old.judged();
+  EXPECT_EQ(made.word, "not judged") << "nothing is known of the motors";
+  EXPECT_TRUE(contains(old.check("voltage").text, "older format"));
+}
+
+TEST(Verdict, LimitsAreSettings) {
+  Case made = at_limit(kCurrentLimited, 100);
+  made.scenario.limits.saturated_share = 1;
+  made.scenario.limits.saturated_periods = 1e6;
+  EXPECT_EQ(made.status("current"), CheckStatus::warn);
+  const Scenario read = shipped("caterpillar.yaml", {"limits.tracking_error=0.01"});
+  EXPECT_EQ(read.limits.tracking_error, 0.01);
+  EXPECT_TRUE(contains(resolved(read), "\nlimits:\n"));
+  EXPECT_FALSE(contains(resolved(walk().scenario), "limits:"));
+}
+
+TEST(Verdict, IsTheSameForAnyTracePeriod) {
+  std::string first;
+  for (const char* period : {"5e-4", "0.005", "0.015"}) {
+    const Scenario s = shipped("caterpillar.yaml", {"duration=12", "physics.engine=articulated", "actuator.i_max=0.35",
+                                                    std::string("trace.period=") + period});
+    const Recording r = run(s);
+    const Verdict made = verdict(s, r, summarise(s, r, 1));
+    std::string text = made.word;
+    for (const Check& c : made.checks) {
+      if (c.group == "motor" || c.id == "tracking") text += fmt::format("\n{} {} {} {}", c.id, c.value, c.joint, c.joints);
+    }
+    if (first.empty()) first = text;
+    EXPECT_EQ(text, first) << period;
+    EXPECT_EQ(made.word, "infeasible");
+  }
+}
+
+TEST(Verdict, IsAFileALineAndAnExitCode) {
+  const Folder folder;
+  const std::string file = kScenarios + "caterpillar.yaml --set physics.engine=articulated --set duration=6 ";
+  const Result bad = gaitlab("run " + file + "--set actuator.i_max=0.35 --out bad --fail-infeasible", folder.path());
+  EXPECT_EQ(bad.code, 3);
+  EXPECT_TRUE(contains(bad.out, "\n  verdict       infeasible: ")) << bad.out;
+  const auto json = nlohmann::json::parse(read(folder.path() / "bad/verdict.json"));
+  EXPECT_EQ(json.at("verdict"), "infeasible");
+  EXPECT_EQ(json.at("checks").size(), 16U);
+  EXPECT_EQ(gaitlab("run " + file + "--out good --fail-infeasible", folder.path()).code, 0);
+  EXPECT_EQ(gaitlab("report bad --fail-infeasible", folder.path()).code, 3);
+  EXPECT_EQ(gaitlab("report bad", folder.path()).code, 0);
+  EXPECT_EQ(gaitlab("report bad --out again", folder.path()).code, 0);
+  EXPECT_EQ(read(folder.path() / "again/verdict.json"), read(folder.path() / "bad/verdict.json"));
+}
+
+}  // namespace
+}  // namespace gaitlab::test
