@@ -166,7 +166,8 @@ TEST_F(Formats, TheFilesLineNamesTheTrace) {
   EXPECT_EQ(files("--out x"),
             "  files         x: trace.h5, summary.json, verdict.json,\n                scenario.resolved.yaml, figure.svg\n");
   EXPECT_EQ(files("--out y --format csv"),
-            "  files         y: trace.csv, recording.h5, summary.json, verdict.json,\n                scenario.resolved.yaml, figure.svg\n");
+            "  files         y: trace.csv, recording.h5, summary.json, verdict.json,\n                scenario.resolved.yaml, "
+            "figure.svg\n");
   const Result result = gaitlab_here("run good.yaml --format xml --out z");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err, "gaitlab run: error: --format is 'xml'; expected h5 or csv\n");
