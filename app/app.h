@@ -31,7 +31,8 @@ struct ScenarioArguments {
 /// Reads it with --set and --seed applied; prints its notes on stderr unless quiet.
 Scenario read(const ScenarioArguments& arguments, Catalog& catalog);
 /// Prints on stderr what makes a run doubtful: it fell, its step was too long, its torques or energies are off.
-void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary);
+void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                 const report::Overlaps& overlaps);
 /// Prints on stderr that part of the robot starts below the ground, where it does.
 void warn_of_start(const Scenario& scenario, bool quiet);
 
@@ -39,7 +40,7 @@ void warn_of_start(const Scenario& scenario, bool quiet);
 struct SummaryOptions {
   bool verbose = false;          ///< the energy ledger and the step's limit, too
   bool joints = false;           ///< a row per joint
-  bool fail_infeasible = false;  ///< exit code 3 where the verdict is so
+  bool fail_infeasible = false;  ///< exit code 3 where the verdict is so, 1 of a failed run
 };
 
 struct RunArguments : ScenarioArguments {
@@ -54,7 +55,7 @@ int run(const Scenario& scenario, const RunArguments& arguments);
 /// Prints the summary of a run, the verdict first.
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                    const report::Verdict& verdict, const SummaryOptions& shown);
-/// 3 where that is asked for and the verdict is infeasible; else 0.
+/// Where that is asked for 3 of an infeasible verdict and 1 of a failed run; else 0, also of what was not judged.
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown);
 
 /// `version, build id, Bullet version and precision`

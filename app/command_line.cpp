@@ -99,7 +99,7 @@ void check_command(const CLI::App& app, const Words& words) {
   refuse(app, "unknown command " + in_quotes(words.front()) + offer(words.front(), known, "commands"));
 }
 
-/// Words that begin with a dash, and are no option of their command.
+/// Words that begin with a dash, and are not an option of their command.
 void check_options(const std::vector<const CLI::App*>& chosen) {
   for (const CLI::App* command : chosen) {
     for (const std::string& word : command->remaining()) {
@@ -108,7 +108,8 @@ void check_options(const std::vector<const CLI::App*>& chosen) {
       const bool later = command != chosen.back() && is_option(*chosen.back(), name);
       refuse(*command, "unknown option " + in_quotes(name) +
                            (later ? "; expected after the command: " + full_name(*chosen.back()) + " " + name
-                                  : offer(name, long_options(*command), "options")));
+                            : is_option(*command, name) ? "; expected before --"
+                                                        : offer(name, long_options(*command), "options")));
     }
   }
 }

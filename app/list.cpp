@@ -8,6 +8,7 @@
 #include "core/scenario/manual.h"
 #include "core/scenario/schema.h"
 #include "core/scenario/text_file.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab::app {
 
@@ -88,8 +89,9 @@ int explain(const ManualArguments& arguments) {
   if (const PluginKind* plugin = find_kind(kind)) fmt::print("{}", explain_plugin(*catalog.find(plugin->kind, name)));
   if (kind == "engine") {
     const Engine& engine = *catalog.engine(name);
-    fmt::print("{}\n\nintegrators: {} (default {}); default step {}\n", engine.manual,
-               fmt::join(engine.integrator_names(), ", "), engine.integrators.front().name, default_step(engine));
+    fmt::print("{}\n{}", wrapped(engine.manual),
+               wrapped(fmt::format("integrators: {} (default {}); default step {}", fmt::join(engine.integrator_names(), ", "),
+                                   engine.integrators.front().name, default_step(engine))));
   }
   if (kind == "module" || kind == "robot") fmt::print("{}", read_text(shipped_files(kind).at(name)));
   return 0;

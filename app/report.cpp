@@ -76,8 +76,8 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
 }
 
 int report(const ReportArguments& arguments) {
-  const StoredRecording read = read_recording(arguments.run);
-  const Recording& recording = read.recording;
+  StoredRecording read = read_recording(arguments.run);
+  Recording& recording = read.recording;
   const StoredScenario stored = scenario_of(arguments.run, read);
   Catalog catalog = standard_catalog();
   Scenario scenario = read_stored(stored, catalog, OtherPlugins::taken);
@@ -89,9 +89,13 @@ int report(const ReportArguments& arguments) {
                                  fmt::join(read.missing, "; "), arguments.run));
   }
   const fs::path folder = trace_file(arguments.run).parent_path();
+  // A CSV file alone does not have it.
+  const nlohmann::json told = read.origin.outcome.empty() ? summarised(folder, "outcome") : nlohmann::json(recording.outcome);
+  if (told.is_string()) recording.outcome = told;
   report::Summary summary = report::summarise(scenario, recording, wall_time(folder));
   summary.build = read.origin.build;
-  const report::Verdict verdict = report::verdict(scenario, recording, summary);
+  const report::Overlaps overlaps = report::overlaps(scenario, recording);
+  const report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
   if (arguments.out) {
     RunFolder out(*arguments.out, scenario.name);
     write_file(out.path() / "figure.svg", report::run_figure(scenario, recording, summary));
@@ -102,11 +106,10 @@ int report(const ReportArguments& arguments) {
   print_summary(scenario, recording, summary, verdict, arguments.shown);
   if (arguments.out) fmt::print("  {:<13} {}: summary.json, verdict.json, figure.svg\n", "files", *arguments.out);
   for (const std::string& missing : read.missing) fmt::print(stderr, "{}: note: {}\n", arguments.run, missing);
-  const nlohmann::json told = read.origin.outcome.empty() ? summarised(folder, "outcome") : nlohmann::json(recording.outcome);
-  if (told.is_string() && told != "done") {
-    fmt::print(stderr, "{}: note: this run ended early: {}\n", arguments.run, told.get<std::string>());
+  if (recording.outcome != "done") {
+    fmt::print(stderr, "{}: note: this run ended early: {}\n", arguments.run, recording.outcome);
   }
-  warn_of_run(scenario, recording, summary);
+  warn_of_run(scenario, recording, summary, overlaps);
   return exit_code(verdict, arguments.shown);
 }
 
@@ -127,12 +130,14 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
 }
 
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {
-  return shown.fail_infeasible && verdict.word == "infeasible" ? 3 : 0;
+  if (!shown.fail_infeasible) return 0;
+  return verdict.word == "failed" ? 1 : verdict.word == "infeasible" ? 3 : 0;
 }
 
 void add_shown(CLI::App& command, SummaryOptions& shown) {
   command.add_flag("--joints", shown.joints, "print a row per joint, the most loaded first");
-  command.add_flag("--fail-infeasible", shown.fail_infeasible, "exit code 3 where the verdict is infeasible");
+  command.add_flag("--fail-infeasible", shown.fail_infeasible,
+                   "exit code 3 where the verdict is infeasible, 1 where the run failed");
   command.add_flag("--verbose", shown.verbose, "print the energy ledger and the limit of the step, too");
 }
 
@@ -151,13 +156,14 @@ void draw_joints(Scenario& scenario, const std::vector<std::string>& joints) {
   if (!joints.empty()) scenario.figure.joints = joints;
 }
 
-void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary) {
+void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                 const report::Overlaps& overlaps) {
   if (const std::string fall = report::fall_warning(scenario, recording); !fall.empty())
     fmt::print(stderr, "{}: warning: {}\n", scenario.file, fall);
   const std::string where = to_string(scenario.place("physics.step"));
   const std::string warning = report::stability_warning(summary, scenario, recording);
   if (!warning.empty()) fmt::print(stderr, "{}: warning: {}\n", where, warning);
-  for (const report::Warning& doubt : report::run_warnings(scenario, recording))
+  for (const report::Warning& doubt : report::run_warnings(scenario, recording, overlaps))
     fmt::print(stderr, "{}: warning: {}\n", to_string(doubt.place), doubt.text);
   if (recording.outcome != "done") return;
   for (const std::string& doubt : report::trust_warnings(scenario, recording))

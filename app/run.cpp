@@ -39,10 +39,14 @@ class StopOnSignal {
   }
 };
 
-void write_files(const std::filesystem::path& folder, const std::string& format, const Scenario& scenario,
-                 const Recording& recording, const report::Summary& summary, const report::Verdict& verdict) {
+void write_run(const std::filesystem::path& folder, const std::string& format, const Scenario& scenario,
+               const Recording& recording, const report::Summary& summary) {
   write_recording(recording, {resolved(scenario), scenario.seed, summary.build, recording.outcome}, format, folder);
   write_file(folder / "scenario.resolved.yaml", resolved(scenario));
+}
+
+void write_report(const std::filesystem::path& folder, const Scenario& scenario, const Recording& recording,
+                  const report::Summary& summary, const report::Verdict& verdict) {
   write_file(folder / "figure.svg", report::run_figure(scenario, recording, summary));
   write_file(folder / "verdict.json", report::to_json(verdict));
   // Last: a folder with a summary is a whole run.
@@ -92,15 +96,17 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   Recording recording = simulation.take_recording(0);
   if (!failure.empty()) recording.outcome = failure;
   const report::Summary summary = report::summarise(scenario, recording, wall.count());
-  const report::Verdict verdict = report::verdict(scenario, recording, summary);
-  write_files(folder.path(), arguments.format, scenario, recording, summary, verdict);
+  write_run(folder.path(), arguments.format, scenario, recording, summary);
+  const report::Overlaps overlaps = report::overlaps(scenario, recording);
+  const report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
+  write_report(folder.path(), scenario, recording, summary, verdict);
   folder.keep();
   if (!arguments.quiet) {
     print_summary(scenario, recording, summary, verdict, arguments.shown);
     fmt::print("  {:<13} {}: {}, summary.json, verdict.json,\n  {:<13} scenario.resolved.yaml, figure.svg\n", "files",
                folder.path().string(), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
   }
-  warn_of_run(scenario, recording, summary);
+  warn_of_run(scenario, recording, summary, overlaps);
   if (failure.empty()) return exit_code(verdict, arguments.shown);
   fmt::print(stderr, "{}: error: {}; what was simulated until then is in {}\n", scenario.file, failure, folder.path().string());
   return 1;

@@ -161,7 +161,7 @@ std::string failure(const GoldenCase& c) {
          differences(c.difference, Shown::failing) + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n");
 }
 
-/// What is no failure: numbers of which little is seen; and another text than was approved, which explains a failure.
+/// What is not a failure: numbers of which little is seen; and another text than was approved, which explains a failure.
 void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
     if (c.verdict != Verdict::passed) continue;

@@ -125,7 +125,7 @@ void Keyframes::Frame::fields(Fields& f) {
 
 void Keyframes::Model::fields(Fields& f) {
   static constexpr const char* kInterpolations[] = {"spline", "linear"};
-  f.list("frames", frames, "At least two, by rising time.");
+  f.list("frames", frames, "At least two, by rising time; default: two that hold every joint at its default.");
   if (const std::string wrong = wrong_times(frames); !wrong.empty()) f.problem("frames", wrong);
   f.choice("interpolation", interpolation, kInterpolations, "How one frame goes over into the next.");
   f.flag("repeat", repeat, "Start again after the last frame, which must equal the first; else it is held.");

@@ -41,7 +41,7 @@ Trace thinned(const Trace& trace, double period) {
   return thin;
 }
 
-/// When the peak was reached of which `number` is the size; nullptr: it is none, or nobody notes that.
+/// When the peak was reached of which `number` is the size; nullptr: it is not a peak, or its time is not recorded.
 const report::SummaryNumber* time_of(const report::SummaryNumber& number) {
   const std::string key = std::string(number.key) + "_time";
   for (const report::SummaryNumber& other : report::summary_numbers()) {

@@ -37,99 +37,144 @@ std::vector<Piece> pieces_of(const Robot& robot) {
 
 using Pair = std::pair<std::size_t, std::size_t>;  // Robot::bodies, the lower one first
 
-std::set<Pair> hinged(const Robot& robot) {
-  std::set<Pair> pairs;
-  for (const Module& module : robot.modules) {
-    for (const HingeType& hinge : robot.types[module.type].hinges)
-      pairs.insert(std::minmax(module.first_body + hinge.parent, module.first_body + hinge.child));
-  }
-  return pairs;
-}
-
-/// Pieces whose balls meet, by a sweep along x.
-class Sweep {
+/// Whether two bodies can meet: no hinge joins them, and they are of two links.
+class Meetings {
  public:
-  explicit Sweep(const std::vector<Piece>& pieces) : pieces_(pieces), balls_(pieces.size()) {
+  explicit Meetings(const Robot& robot) : bodies_(robot.bodies.size()), can_(bodies_ * bodies_, 1) {
+    for (std::size_t a = 0; a < bodies_; ++a) {
+      for (std::size_t b = 0; b < bodies_; ++b) {
+        if (robot.bodies[a].link == robot.bodies[b].link) can_[a * bodies_ + b] = 0;
+      }
+    }
+    for (const Module& module : robot.modules) {
+      for (const HingeType& hinge : robot.types[module.type].hinges) {
+        const std::size_t a = module.first_body + hinge.parent;
+        const std::size_t b = module.first_body + hinge.child;
+        can_[a * bodies_ + b] = can_[b * bodies_ + a] = 0;
+      }
+    }
+  }
+  bool operator()(std::size_t a, std::size_t b) const { return can_[a * bodies_ + b] != 0; }
+
+ private:
+  std::size_t bodies_;
+  std::vector<char> can_;
+};
+
+/// All pieces in one row, moved where they are asked for.
+class Row {
+ public:
+  explicit Row(const std::vector<Piece>& pieces) : pieces_(pieces), balls_(pieces.size()), moved_(pieces.size(), false) {
+    for (const Piece& piece : pieces) there_.push_back(piece.local);
     for (std::size_t i = 0; i < pieces.size(); ++i) order_.push_back(i);
   }
 
-  template <class Meet>
-  void operator()(const Kinematics& k, Meet meet) {
+  void set(const Kinematics& k) {
+    k_ = &k;
+    moved_.assign(pieces_.size(), false);
     for (std::size_t i = 0; i < pieces_.size(); ++i) balls_[i] = k.point(pieces_[i].link, pieces_[i].centre);
+  }
+  const Convex& piece(std::size_t i) {
+    const std::size_t link = pieces_[i].link;
+    if (!moved_[i]) move(pieces_[i].local, {k_->R[link], k_->p[link]}, there_[i]);
+    moved_[i] = true;
+    return there_[i];
+  }
+  [[nodiscard]] double lowest(std::size_t i) const { return balls_[i].z() - pieces_[i].reach; }
+
+  /// Pairs of pieces that can meet and whose balls do, by a sweep along x.
+  template <class Meet>
+  void pairs(const Meetings& can, Meet meet) {
     const auto left = [&](std::size_t i) { return balls_[i].x() - pieces_[i].reach; };
     std::ranges::sort(order_, {}, [&](std::size_t i) { return std::pair(left(i), i); });
     for (auto a = order_.begin(); a != order_.end(); ++a) {
       const double right = balls_[*a].x() + pieces_[*a].reach;
       for (auto b = std::next(a); b != order_.end() && left(*b) < right; ++b) {
+        if (!can(pieces_[*a].body, pieces_[*b].body)) continue;
         const double reach = pieces_[*a].reach + pieces_[*b].reach;
-        if ((balls_[*a] - balls_[*b]).squaredNorm() < reach * reach) meet(pieces_[*a], pieces_[*b]);
+        if ((balls_[*a] - balls_[*b]).squaredNorm() < reach * reach) meet(*a, *b);
       }
     }
   }
 
  private:
   const std::vector<Piece>& pieces_;
+  const Kinematics* k_ = nullptr;
   std::vector<Vec3> balls_;
+  std::vector<Convex> there_ = {};
+  std::vector<bool> moved_;
   std::vector<std::size_t> order_ = {};
+};
+
+/// What was found so far.
+class Search {
+ public:
+  Search(const Robot& robot, const std::vector<Piece>& pieces) : pieces_(pieces), can_(robot) {}
+
+  void collide(Row& row, double time) {
+    double deepest = 0;
+    const bool first = met_.empty();
+    row.pairs(can_, [&](std::size_t a, std::size_t b) {
+      const double depth = penetration(row.piece(a), row.piece(b), kCollides);
+      if (!(depth > 0)) return;
+      const Pair pair = std::minmax(pieces_[a].body, pieces_[b].body);
+      met_.insert(pair);
+      if (first && depth > deepest) {
+        std::tie(collision_.first, collision_.second) = pair;
+        collision_.time = time;
+        deepest = depth;
+      }
+      if (depth <= collision_.depth) return;
+      collision_.depth = depth;
+      std::tie(collision_.deepest_first, collision_.deepest_second) = pair;
+    });
+  }
+  void sink(Row& row, double time) {
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (row.lowest(i) > -kSinks) continue;
+      double lowest = 0;
+      for (const Vec3& vertex : row.piece(i).vertices) lowest = std::min(lowest, vertex.z() - pieces_[i].local.radius);
+      if (-lowest <= (sunk_ ? sunk_->depth : kSinks)) continue;
+      if (!sunk_) sunk_ = Sunk{.time = time};
+      sunk_->body = pieces_[i].body;
+      sunk_->depth = -lowest;
+    }
+  }
+  [[nodiscard]] std::optional<Collision> collision() const {
+    if (met_.empty()) return {};
+    Collision found = collision_;
+    found.pairs = met_.size();
+    return found;
+  }
+  [[nodiscard]] const std::optional<Sunk>& sunk() const { return sunk_; }
+
+ private:
+  const std::vector<Piece>& pieces_;
+  Meetings can_;
+  std::set<Pair> met_ = {};
+  Collision collision_ = {};
+  std::optional<Sunk> sunk_ = {};
 };
 
 }  // namespace
 
-std::optional<Collision> collisions(const Scenario& scenario, const Recording& r) {
+Overlaps overlaps(const Scenario& scenario, const Recording& r) {
   const Robot& robot = *scenario.robot;
-  if (!r.has_states(robot)) return {};
+  if (scenario.contact.solver() || !r.has_states(robot)) return {};
   const std::vector<Piece> pieces = pieces_of(robot);
-  const std::set<Pair> neighbours = hinged(robot);
-  std::set<Pair> met;
-  Collision found;
-  std::size_t first_row = 0;
-  double first_depth = 0;
+  std::set<std::size_t> shaped;
+  for (const Piece& piece : pieces) shaped.insert(piece.body);
+  Search search(robot, pieces);
   Kinematics k(robot);
-  Sweep sweep(pieces);
+  Row there(pieces);
   for (std::size_t row = 0; row < r.rows(); ++row) {
+    const double time = std::min(static_cast<double>(row) * scenario.trace.period, r.simulated);
     k.update(robot, r.state(robot, row));
-    const auto pose = [&](const Piece& piece) { return Pose{k.R[piece.link], k.p[piece.link]}; };
-    sweep(k, [&](const Piece& a, const Piece& b) {
-      const Pair pair = std::minmax(a.body, b.body);
-      if (a.link == b.link || neighbours.contains(pair)) return;
-      const double depth = penetration(moved(a.local, pose(a)), moved(b.local, pose(b)), kCollides);
-      if (!(depth > 0)) return;
-      if (met.empty()) first_row = row;
-      met.insert(pair);
-      if (row == first_row && depth > first_depth) {
-        std::tie(found.first, found.second) = pair;
-        first_depth = depth;
-      }
-      if (depth <= found.depth) return;
-      found.depth = depth;
-      std::tie(found.deepest_first, found.deepest_second) = pair;
-    });
+    there.set(k);
+    search.collide(there, time);
+    if (scenario.ground.kind == Ground::Kind::plane) search.sink(there, time);
   }
-  found.time = static_cast<double>(first_row) * scenario.trace.period;
-  found.pairs = met.size();
-  return met.empty() ? std::nullopt : std::optional(found);
-}
-
-std::optional<Sunk> sunk(const Scenario& scenario, const Recording& r) {
-  const Robot& robot = *scenario.robot;
-  if (scenario.ground.kind != Ground::Kind::plane || !r.has_states(robot)) return {};
-  const std::vector<Piece> pieces = pieces_of(robot);
-  std::optional<Sunk> found;
-  Kinematics k(robot);
-  for (std::size_t row = 0; row < r.rows(); ++row) {
-    k.update(robot, r.state(robot, row));
-    for (const Piece& piece : pieces) {
-      if (k.point(piece.link, piece.centre).z() - piece.reach > -kSinks) continue;
-      double lowest = 0;
-      for (const Vec3& vertex : piece.local.vertices)
-        lowest = std::min(lowest, k.point(piece.link, vertex).z() - piece.local.radius);
-      if (-lowest <= (found ? found->depth : kSinks)) continue;
-      if (!found) found = Sunk{.time = static_cast<double>(row) * scenario.trace.period};
-      found->body = piece.body;
-      found->depth = -lowest;
-    }
-  }
-  return found;
+  return {shaped.size(), search.collision(), search.sunk()};
 }
 
 }  // namespace gaitlab::report

@@ -18,11 +18,6 @@ struct Collision {
   std::size_t pairs = 0;                              ///< how many pairs met
 };
 
-inline constexpr double kCollides = 5e-4;  ///< m: less is the roundness of the shapes' prisms and of a hinge's stop
-
-/// The shapes of all bodies in every row of the trace; none: no two are further than kCollides in one another.
-std::optional<Collision> collisions(const Scenario& scenario, const Recording& record);
-
 /// A body in the ground.
 struct Sunk {
   std::size_t body = 0;  ///< Robot::bodies: the deepest one
@@ -30,9 +25,17 @@ struct Sunk {
   double depth = 0;      ///< m, the largest of all rows
 };
 
-inline constexpr double kSinks = 0.005;  ///< m: less is the softness of the ground
+inline constexpr double kCollides = 5e-4;  ///< m: less is the roundness of the shapes' prisms and of a hinge's stop
+inline constexpr double kSinks = 0.005;    ///< m: less is the softness of the ground
 
-/// On a plane; none: no body is deeper than kSinks in it, or the ground is another.
-std::optional<Sunk> sunk(const Scenario& scenario, const Recording& record);
+struct Overlaps {
+  std::size_t shaped = 0;  ///< number of bodies with a shape; 0: nothing is known, also of a run without poses
+  std::optional<Collision> collision = {};
+  std::optional<Sunk> sunk = {};  ///< on a plane
+};
+
+/// Of the shapes of all bodies in every row of the trace. Under contact.law bullet nothing is known: the engine's solver keeps
+/// bodies apart.
+Overlaps overlaps(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

@@ -79,7 +79,8 @@ class Overlap {
 
 bool apart_from_sphere(Overlap& overlap, const Convex& sphere, const Convex& other) {
   for (const Vec3& vertex : other.vertices) {
-    const Vec3 way = vertex - sphere.vertices.front();
+    Vec3 way = vertex - sphere.vertices.front();
+    if (way.norm() < kNoAxis) way = Vec3::UnitX();  // one around the other: any way is as long
     if (!overlap.along(way)) return true;
     for (const Vec3& edge : other.directions) {
       if (!overlap.along(way - edge * edge.dot(way))) return true;
@@ -101,11 +102,15 @@ Convex convex(const Shape& shape) {
   }
 }
 
+void move(const Convex& local, const Pose& pose, Convex& there) {
+  for (std::size_t i = 0; i < local.vertices.size(); ++i) there.vertices[i] = pose * local.vertices[i];
+  for (std::size_t i = 0; i < local.normals.size(); ++i) there.normals[i] = pose.R * local.normals[i];
+  for (std::size_t i = 0; i < local.directions.size(); ++i) there.directions[i] = pose.R * local.directions[i];
+}
+
 Convex moved(const Convex& local, const Pose& pose) {
   Convex there = local;
-  for (Vec3& vertex : there.vertices) vertex = pose * vertex;
-  for (Vec3& normal : there.normals) normal = pose.R * normal;
-  for (Vec3& direction : there.directions) direction = pose.R * direction;
+  move(local, pose, there);
   return there;
 }
 

@@ -18,6 +18,8 @@ struct Convex {
 /// In the frame of the shape's body.
 Convex convex(const Shape& shape);
 Convex moved(const Convex& local, const Pose& pose);
+/// The same into `there`, which has been moved before.
+void move(const Convex& local, const Pose& pose, Convex& there);
 
 /// m: the shortest way that takes one out of the other; 0 where they are apart, and where the way is `ignored` or less.
 /// Separating axis theorem: the smallest overlap over the faces' normals and the products of edges (Gottschalk, Lin, Manocha,

@@ -1,5 +1,7 @@
 #include "report/motors.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "core/laws/dc_motor.h"
@@ -16,6 +18,12 @@ std::vector<double> rest_torques(const Scenario& scenario) {
   for (std::size_t j = 0; motors != nullptr && j < scenario.robot->joints.size(); ++j)
     torques.push_back(motors[j](motors[j].u_max, 0.0).torque);
   return torques;
+}
+
+bool limited(const Scenario& scenario) {
+  if (scenario.actuator.entry == nullptr) return false;
+  const std::unique_ptr<Actuator> actuator = make_actuator(scenario.actuator, info(*scenario.robot));
+  return std::ranges::all_of(actuator->command_limit(), [](double limit) { return std::isfinite(limit); });
 }
 
 }  // namespace gaitlab::report

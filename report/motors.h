@@ -10,4 +10,7 @@ namespace gaitlab::report {
 /// where the actuator is not made of DC motors.
 std::vector<double> rest_torques(const Scenario& scenario);
 
+/// Whether every joint's actuator states a largest command, and so a limit that can be reached.
+bool limited(const Scenario& scenario);
+
 }  // namespace gaitlab::report

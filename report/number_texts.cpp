@@ -21,6 +21,8 @@ constexpr double kLeastTravel = 1e-3;  // m: the work of a robot that stays is d
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
+std::string thousandths(double value) { return value < 1000 ? fmt::format("{:.3f}", value) : fmt::format("{:.3g}", value); }
+
 double created(const Recording& record) {
   double sum = 0;
   for (const JointStatistics& joint : record.joints) sum += joint.created;
@@ -209,7 +211,8 @@ Lines tracking(const RunData& run) {
   const Judged& judged = run.summary.judged;
   const auto text = [&](const std::vector<JudgedJoint>& joints) {
     const std::size_t j = Judged::farthest(joints);
-    return fmt::format("{}: {:.3f} rad at t = {:.2f} s", joint_name(run, j), joints[j].error_peak, joints[j].error_peak_time);
+    return fmt::format("{}: {} rad at t = {:.2f} s", joint_name(run, j), thousandths(joints[j].error_peak),
+                       joints[j].error_peak_time);
   };
   Lines lines{text(judged.joints)};
   if (text(judged.whole) != lines.front()) lines.push_back("before: " + text(judged.whole));

@@ -11,6 +11,9 @@ using Lines = std::vector<std::string>;
 
 std::string percent(double share);
 
+/// Three decimals; of a thousand and more three digits.
+std::string thousandths(double value);
+
 /// J: what the gears gave instead of losing it.
 double created(const Recording& record);
 

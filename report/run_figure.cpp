@@ -239,7 +239,8 @@ std::vector<Drawn> drawn_joints(const Scenario& scenario, const Summary& summary
   const auto told = [&](std::size_t joint) { return joint == worst ? ", most loaded" : ""; };
   for (const std::string& name : scenario.figure.joints) {
     const auto number = static_cast<std::size_t>(std::ranges::find(joints, name, &Joint::name) - joints.begin());
-    drawn.push_back({number, told(number)});
+    const auto same = [&](const Drawn& other) { return other.joint == number; };
+    if (std::ranges::none_of(drawn, same)) drawn.push_back({number, told(number)});
   }
   if (!drawn.empty()) return drawn;
   if (legs.empty()) return {{worst, told(worst)}};

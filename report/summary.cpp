@@ -12,6 +12,7 @@
 #include "core/simulation/start.h"
 #include "core/simulation/step_advice.h"
 #include "report/build_id.h"
+#include "report/fall.h"
 #include "report/number_texts.h"
 
 namespace gaitlab::report {
@@ -185,18 +186,10 @@ std::string start_warning(const Scenario& scenario) {
 }
 
 std::string fall_warning(const Scenario& scenario, const Recording& r) {
-  if (!has_height(scenario.ground) || !r.has_states(*scenario.robot) || scenario.base != Base::floating) return "";
-  const Robot& robot = *scenario.robot;
-  Kinematics k(robot);
-  k.update(robot, r.state(robot, 0));
-  const double start = sums(robot, k, Vec3::Zero()).com.z();
-  const Series height = r.series("com.z");
-  for (std::size_t tick = 0; start > 0 && tick < height.size(); ++tick) {
-    if (height[tick] > 0.5 * start) continue;
-    return fmt::format("it fell: at t = {:.2f} s the centre of mass is at {:.3f} m, from {:.3f} m at the start",
-                       std::min(static_cast<double>(tick) * scenario.trace.period, r.simulated), height[tick], start);
-  }
-  return "";
+  const std::optional<Fall> found = fall(scenario, r);
+  if (!found || !(found->share() < scenario.limits.height)) return "";
+  return fmt::format("it fell: from t = {:.2f} s on, the centre of mass comes down to {:.3f} m, from {:.3f} m at the start",
+                     found->fallen_time, found->lowest, found->start);
 }
 
 std::string stability_warning(const Summary& s, const Scenario& scenario, const Recording& r) {

@@ -13,7 +13,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kGood = 0.01;           // of a torque's peak, of what is drawn
+constexpr double kGood = 0.01;           // of a torque's peak
 constexpr double kLeastPeak = 0.02;      // of the largest of all joints: smaller ones are judged by this
 constexpr double kOftenCoarse = 0.1;     // share of the time
 constexpr double kLeastAccuracy = 1e-6;  // that a scenario may ask for
@@ -86,11 +86,12 @@ double energy_scale(const Scenario& s, const Recording& r) {
   return std::max({std::abs(r.ledger.electrical), std::abs(r.ledger.stored), least_energy(s)});
 }
 
+double torque_error_limit(const Scenario& s) { return s.physics.adapts() ? std::max(kGood, s.physics.accuracy) : kGood; }
+
 std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
   std::vector<std::string> warnings;
   const TorqueError error = torque_error(r);
-  const double allowed = s.physics.adapts() ? std::max(kGood, s.physics.accuracy) : kGood;
-  if (error.share > allowed) {
+  if (error.share > torque_error_limit(s)) {
     warnings.push_back(fmt::format("the torque of joint {} is off by about {} of its peak, estimated from other steps; take {}",
                                    s.robot->joints[error.joint].name, percent(error.share), remedy(s, error.share)));
   }
@@ -103,7 +104,7 @@ std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
   const double residual = std::abs(r.ledger.residual());
   const double drawn = std::abs(r.ledger.electrical);
   const double judged = energy_scale(s, r);
-  if (s.actuator.entry != nullptr && residual > kGood * judged) {
+  if (s.actuator.entry != nullptr && residual > kEnergyResidual * judged) {
     warnings.push_back(fmt::format("the energy does not add up: {:.3g} J are missing of {:.3g} J drawn; take {}", residual,
                                    drawn, s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step"));
   }

@@ -8,10 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/scenario/wording.h"
-#include "report/collisions.h"
+#include "report/fall.h"
 #include "report/motors.h"
 #include "report/number_texts.h"
 #include "report/trust.h"
+#include "report/warnings.h"
 
 namespace gaitlab::report {
 
@@ -20,25 +21,29 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kGoodEnergy = 0.01;      // of what is drawn: residual
 constexpr double kCreated = 0.05;         // of what is drawn
 constexpr double kDeepCollision = 0.002;  // m
-constexpr double kBeyondRange = 0.01;     // rad, and share of the time
+constexpr double kBeyondRange = 0.01;     // rad
 
 /// What every check reads.
 struct Run {
   const Scenario& scenario;
   const Recording& record;
   const Summary& summary;
+  const Overlaps& overlaps;
 
   [[nodiscard]] const std::string& joint(std::size_t j) const { return scenario.robot->joints[j].name; }
   [[nodiscard]] const Limits& limits() const { return scenario.limits; }
-  /// Why its motors cannot be judged; empty: they can.
-  [[nodiscard]] std::string no_motors() const {
-    if (scenario.actuator.entry == nullptr || record.joints.empty()) return "nothing drives the joints";
+  /// Why what all steps did cannot be judged; empty: it can.
+  [[nodiscard]] std::string no_steps() const {
+    if (!driven()) return "nothing drives the joints";
     if (record.ticks.rows() > 1 && record.ticks.columns.size() == 1 + kTickColumns * record.joints.size()) return "";
-    return record.control_ticks > 0 ? "the run folder is of an older format, without what all steps did"
-                                    : "the run has no step";
+    return "what all steps did was not recorded: the folder is of an older format, or the run ended at once";
+  }
+  [[nodiscard]] bool driven() const { return scenario.actuator.entry != nullptr && !record.joints.empty(); }
+  /// s: rows of ticks up to so long after the start of the window are before it, as judge() has it.
+  [[nodiscard]] double start() const {
+    return summary.judged.from + std::max(1e-9, summary.judged.periods > 0 ? 1e-3 * summary.limit_cycle.period : 0.0);
   }
 };
 
@@ -67,34 +72,29 @@ Check outcome(const Run& run) {
   return made;
 }
 
-Check fall(const Run& run) {
+constexpr const char* kNoFall = "judged of a floating base above a plane, with or without boxes";
+
+Check height(const Run& run) {
+  const std::optional<Fall> found = fall(run.scenario, run.record);
+  if (!found) return not_judged("fall", "run", "", kNoFall);
   Check made = check("fall", "run", "");
-  const Ground::Kind ground = run.scenario.ground.kind;
-  const Series height = run.record.series("com.z");
-  if (run.scenario.base != Base::floating || height.empty() || !run.record.has_states(*run.scenario.robot) ||
-      (ground != Ground::Kind::plane && ground != Ground::Kind::boxes)) {
-    made.text = "a fall is judged of a floating base above a plane";
-    return made;
-  }
-  const auto pose = [&](std::size_t row) { return run.record.state(*run.scenario.robot, row).orientation; };
-  const Vec3 up = pose(0).inverse() * Vec3::UnitZ();
-  double lowest = height[0];
-  double tilt = 1;  // cosine
-  std::size_t at = 0;
-  for (std::size_t row = 0; row < height.size(); ++row) {
-    tilt = std::min(tilt, (pose(row) * up).z());
-    if (height[row] < lowest) {
-      lowest = height[row];
-      at = row;
-    }
-  }
-  made.value = height[0] > 0 ? lowest / height[0] : 1;
+  made.value = found->share();
   made.limit = run.limits().height;
-  made.from = made.to = std::min(static_cast<double>(at) * run.scenario.trace.period, run.record.simulated);
-  const double angle = std::acos(std::clamp(tilt, -1.0, 1.0));
-  made.status = made.value < made.limit ? CheckStatus::fail : angle > run.limits().tilt ? CheckStatus::warn : CheckStatus::pass;
-  made.text = fmt::format("the centre of mass keeps {} of its height, the base tilts by up to {:.3g} rad",
-                          texts::percent(made.value), angle);
+  made.from = made.to = found->lowest_time;
+  made.status = made.value >= made.limit ? CheckStatus::pass : CheckStatus::fail;
+  made.text = fmt::format("the centre of mass keeps at least {} of its height at the start", texts::percent(made.value));
+  return made;
+}
+
+Check tilt(const Run& run) {
+  const std::optional<Fall> found = fall(run.scenario, run.record);
+  if (!found) return not_judged("tilt", "run", "rad", kNoFall);
+  Check made = check("tilt", "run", "rad");
+  made.value = found->tilt;
+  made.limit = run.limits().tilt;
+  made.from = made.to = found->tilt_time;
+  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;
+  made.text = fmt::format("the base tilts by up to {:.3g} rad from its start", made.value);
   return made;
 }
 
@@ -105,7 +105,9 @@ struct Span {
   [[nodiscard]] double length() const { return to - from; }
 };
 
-/// The longest stretch of ticks after `start` that a joint was all the while at the limit.
+/// The longest stretch after `start` that a joint may have been at the limit without a break: rows of ticks that were so all
+/// the while, and the parts of the rows before and after them. A row that was partly at the limit, in how many pieces nobody
+/// knows, counts as one piece at its end and one at its start.
 Span longest_span(const Trace& ticks, std::size_t joint, TickColumn limited, double start) {
   constexpr double kAllTheWhile = 0.999;
   const Series t(ticks, 0);
@@ -113,45 +115,64 @@ Span longest_span(const Trace& ticks, std::size_t joint, TickColumn limited, dou
   Span longest;
   Span now;
   for (std::size_t k = 1; k < t.size(); ++k) {
-    if (t[k - 1] < start) continue;
-    const bool on = at[k] - at[k - 1] > kAllTheWhile * (t[k] - t[k - 1]);
-    if (!on) {
-      now = {};
-      continue;
-    }
-    if (now.length() == 0) now.from = t[k - 1];
-    now.to = t[k];
+    if (t[k] <= start) continue;
+    const double part = at[k] - at[k - 1];
+    if (now.to != t[k - 1]) now = {t[k - 1], t[k - 1]};
+    now.to = t[k - 1] + part;
+    if (part > kAllTheWhile * (t[k] - t[k - 1])) now.to = t[k];
+    if (now.length() > longest.length()) longest = now;
+    if (now.to != t[k]) now = {t[k] - part, t[k]};
     if (now.length() > longest.length()) longest = now;
   }
   return longest;
 }
 
+/// Who reports no voltage and no limit cannot be said to keep one.
+std::string unstated(const Run& run, MotorLimit limit, double share) {
+  if (share > 0 || !rest_torques(run.scenario).empty()) return "";
+  if (limit == MotorLimit::voltage) return "the actuator is not made of DC motors, and states no voltage";
+  return limited(run.scenario) ? "" : "the actuator states no limit";
+}
+
 Check saturation(const Run& run, const char* id, MotorLimit limit, TickColumn column, double JudgedJoint::*share) {
   Check made = check(id, "motor", "");
-  made.text = run.no_motors();
+  made.text = run.no_steps();
   if (!made.text.empty()) return made;
   const Judged& judged = run.summary.judged;
-  const double longest = run.limits().saturated_periods * run.scenario.control_period;
-  made.limit = run.limits().saturated_share;
-  made.status = CheckStatus::pass;
+  const double most = run.limits().saturated_periods * run.scenario.control_period;
+  double stretch = 0;
   made.value = 0;
+  CheckStatus status = CheckStatus::pass;
   for (std::size_t j = 0; j < judged.joints.size(); ++j) {
     const double part = judged.joints[j].*share;
     if (!(part > 0)) continue;
     ++made.joints;
-    const Span span = longest_span(run.record.ticks, j, column, judged.from);
-    const CheckStatus status = part > made.limit || span.length() > longest * kLarger ? CheckStatus::fail : CheckStatus::warn;
-    if (std::pair(status, part) <= std::pair(made.status, made.value)) continue;
-    made.status = status;
+    const Span span = longest_span(run.record.ticks, j, column, run.start());
+    const bool fails = part > run.limits().saturated_share || span.length() > most * (1 + 1e-6);
+    const CheckStatus of_joint = fails ? CheckStatus::fail : CheckStatus::warn;
+    if (std::pair(of_joint, part) <= std::pair(status, made.value)) continue;
+    status = of_joint;
     made.value = part;
     made.joint = run.joint(j);
-    made.from = span.length() > 0 ? span.from : kNone;
-    made.to = span.length() > 0 ? span.to : kNone;
+    made.from = span.from;
+    made.to = span.to;
+    stretch = span.length();
   }
-  const char* const name = limit == MotorLimit::voltage ? "voltage" : "current";
-  made.text = made.joints == 0 ? fmt::format("no joint is at the limit of its {}", name)
-                               : fmt::format("{} of {} joints are at the limit of their {}, {} longest: {} of the window",
-                                             made.joints, judged.joints.size(), name, made.joint, texts::percent(made.value));
+  made.text = unstated(run, limit, made.value);
+  if (!made.text.empty()) {
+    made.value = kNone;
+    return made;
+  }
+  made.status = status;
+  made.limit = run.limits().saturated_share;
+  const bool motors = !rest_torques(run.scenario).empty();
+  const char* const name = !motors ? "actuator" : limit == MotorLimit::voltage ? "voltage" : "current";
+  made.text =
+      made.joints == 0
+          ? fmt::format("no joint is at the limit of its {}", name)
+          : fmt::format("{} of {} joints reach{} the limit of {} {}, {} longest: {} of the window, up to {:.3g} s on end",
+                        made.joints, judged.joints.size(), made.joints == 1 ? "es" : "", made.joints == 1 ? "its" : "their",
+                        name, made.joint, texts::percent(made.value), stretch);
   return made;
 }
 
@@ -166,7 +187,7 @@ Check rest_torque(const Run& run) {
   const std::vector<double> rest = rest_torques(run.scenario);
   const std::vector<JudgedJoint>& joints = run.summary.judged.joints;
   Check made = check("rest_torque", "motor", "");
-  made.text = run.no_motors();
+  made.text = run.no_steps();
   if (!made.text.empty()) return made;
   made.text = "the actuator is not made of DC motors";
   if (rest.size() != joints.size() || rest.empty()) return made;
@@ -181,22 +202,22 @@ Check rest_torque(const Run& run) {
     made.joint = run.joint(j);
     made.from = made.to = joints[j].torque_peak_time;
   }
-  made.status = made.value > made.limit ? CheckStatus::warn : CheckStatus::pass;
+  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;
   made.text = fmt::format("the largest torque is {} of what a motor has at rest", texts::percent(made.value));
   return made;
 }
 
 Check heat(const Run&) {
-  return not_judged("heat", "motor", "A", "no module type states a continuous current or a thermal model of its motor");
+  return not_judged("heat", "motor", "A", "the module types state no continuous current and no thermal model of a motor");
 }
 
-Check gear(const Run&) { return not_judged("gear", "motor", "N m", "no module type states what its gear stands"); }
+Check gear(const Run&) { return not_judged("gear", "motor", "N m", "the module types state no ratings of a gear"); }
 
 // ---- motion
 
 Check tracking(const Run& run) {
   Check made = check("tracking", "motion", "rad");
-  made.text = run.no_motors();
+  made.text = run.no_steps();
   if (!made.text.empty()) return made;
   const std::vector<JudgedJoint>& joints = run.summary.judged.joints;
   const std::size_t worst = Judged::farthest(joints);
@@ -207,7 +228,7 @@ Check tracking(const Run& run) {
   made.joints =
       static_cast<std::size_t>(std::ranges::count_if(joints, [&](const JudgedJoint& j) { return j.error_peak > made.limit; }));
   made.from = made.to = joints[worst].error_peak_time;
-  made.text = fmt::format("joint {} is up to {:.3f} rad from its set point", made.joint, made.value);
+  made.text = fmt::format("joint {} is up to {} rad from its set point", made.joint, texts::thousandths(made.value));
   return made;
 }
 
@@ -227,52 +248,55 @@ Check stops(const Run& run) {
     }
     share = std::max(share, f.range_share);
   }
-  if (made.joints > 0) made.status = made.value > kBeyondRange || share > kBeyondRange ? CheckStatus::fail : CheckStatus::warn;
-  made.text = made.joints == 0 ? "no joint leaves its range"
-                               : fmt::format("{} joint{} beyond their range, for up to {} of the run", made.joints,
-                                             made.joints == 1 ? "" : "s", texts::percent(share));
+  if (made.joints > 0) made.status = made.value > kBeyondRange || share > kBeyondOften ? CheckStatus::fail : CheckStatus::warn;
+  made.text = made.joints == 0
+                  ? "no joint leaves its range"
+                  : fmt::format("{} leave{} the range of the hinge, {} farthest, for up to {} of the run",
+                                counted(made.joints, "joint"), made.joints == 1 ? "s" : "", made.joint, texts::percent(share));
   return made;
 }
 
 // ---- structure, ground
 
+/// Why bodies cannot be judged, or which are not; empty: all are.
+std::string no_bodies(const Run& run) {
+  const std::size_t all = run.scenario.robot->bodies.size();
+  if (run.scenario.contact.solver()) return "the solver of contact.law bullet keeps bodies apart and above the ground";
+  if (run.overlaps.shaped == 0) return "no body has a shape, or the run has no poses";
+  return run.overlaps.shaped == all ? "" : fmt::format(" ({} of {} bodies have a shape)", run.overlaps.shaped, all);
+}
+
 Check collision(const Run& run) {
   Check made = check("collision", "structure", "m");
-  if (run.scenario.contact.solver()) {
-    made.text = "contact.law bullet keeps bodies apart";
-    return made;
-  }
-  if (!run.record.has_states(*run.scenario.robot)) {
-    made.text = "the run has no poses";
-    return made;
-  }
-  const std::optional<Collision> found = collisions(run.scenario, run.record);
+  const std::string missing = no_bodies(run);
+  made.text = missing;
+  if (run.overlaps.shaped == 0) return made;
+  const std::optional<Collision>& found = run.overlaps.collision;
   made.limit = kCollides;
   made.value = found ? found->depth : 0;
   made.status = graded(made.value, kCollides, kDeepCollision);
-  made.text = "no two bodies are in one another";
+  made.text = "no two bodies are in one another" + missing;
   if (!found) return made;
   made.from = found->time;
-  made.text = fmt::format("{} of bodies pass through one another, deepest {} and {}", counted(found->pairs, "pair"),
-                          run.scenario.robot->bodies[found->deepest_first].name,
+  made.text = fmt::format("{} of bodies pass{} through one another, deepest {} and {}", counted(found->pairs, "pair"),
+                          found->pairs == 1 ? "es" : "", run.scenario.robot->bodies[found->deepest_first].name,
                           run.scenario.robot->bodies[found->deepest_second].name);
   return made;
 }
 
-Check docks(const Run&) { return not_judged("dock", "structure", "N", "no module type states what its docks hold"); }
-Check battery(const Run&) { return not_judged("battery", "structure", "A", "no module type states its battery"); }
+Check docks(const Run&) { return not_judged("dock", "structure", "N", "the module types do not state what a dock holds"); }
+Check battery(const Run&) { return not_judged("battery", "structure", "A", "the module types state no battery"); }
 
 Check in_ground(const Run& run) {
   Check made = check("in_ground", "ground", "m");
-  if (run.scenario.ground.kind != Ground::Kind::plane || !run.record.has_states(*run.scenario.robot)) {
-    made.text = "judged of runs on a plane";
-    return made;
-  }
-  const std::optional<Sunk> found = sunk(run.scenario, run.record);
+  const std::string missing = no_bodies(run);
+  made.text = run.scenario.ground.kind == Ground::Kind::plane ? missing : "judged of a plane without boxes";
+  if (run.overlaps.shaped == 0 || run.scenario.ground.kind != Ground::Kind::plane) return made;
+  const std::optional<Sunk>& found = run.overlaps.sunk;
   made.limit = kSinks;
   made.value = found ? found->depth : 0;
   made.status = found ? CheckStatus::fail : CheckStatus::pass;
-  made.text = "no body goes through the ground";
+  made.text = "no body goes through the ground" + missing;
   if (!found) return made;
   made.from = found->time;
   made.text =
@@ -285,11 +309,11 @@ Check in_ground(const Run& run) {
 Check torque_error_check(const Run& run) {
   Check made = check("torque_error", "trust", "");
   const TorqueError error = torque_error(run.record);
-  made.text = "this engine and integrator do not estimate the error of the torques";
+  made.text = "the error of the torques was not estimated in this run";
   if (!error.estimated) return made;
   made.value = error.share;
-  made.limit = std::max(kGoodEnergy, run.scenario.physics.adapts() ? run.scenario.physics.accuracy : 0);
-  made.status = made.value > made.limit ? CheckStatus::warn : CheckStatus::pass;
+  made.limit = torque_error_limit(run.scenario);
+  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;
   made.joint = run.joint(error.joint);
   made.text = fmt::format("the torque of joint {} is off by about {} of its peak", made.joint, texts::percent(made.value));
   return made;
@@ -297,19 +321,19 @@ Check torque_error_check(const Run& run) {
 
 Check ledger(const Run& run) {
   Check made = check("ledger", "trust", "");
-  made.text = run.no_motors();
-  if (!made.text.empty()) return made;
+  made.text = "nothing drives the joints";
+  if (!run.driven()) return made;
   made.value = std::abs(run.record.ledger.residual()) / energy_scale(run.scenario, run.record);
-  made.limit = kGoodEnergy;
-  made.status = made.value > made.limit ? CheckStatus::warn : CheckStatus::pass;
+  made.limit = kEnergyResidual;
+  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // not a number: a warning
   made.text = fmt::format("{} of the energy is unaccounted for", texts::percent(made.value));
   return made;
 }
 
 Check created(const Run& run) {
   Check made = check("created", "trust", "");
-  made.text = run.no_motors();
-  if (!made.text.empty()) return made;
+  made.text = "nothing drives the joints";
+  if (!run.driven()) return made;
   made.value = texts::created(run.record) / energy_scale(run.scenario, run.record);
   made.limit = kCreated;
   made.status = made.value > made.limit ? CheckStatus::warn : CheckStatus::pass;
@@ -320,9 +344,9 @@ Check created(const Run& run) {
   return made;
 }
 
-constexpr Check (*kChecks[])(const Run&) = {outcome,  fall,   voltage,   current, rest_torque, heat,      gear,
-                                            tracking, stops,  collision, docks,   battery,     in_ground, torque_error_check,
-                                            ledger,   created};
+constexpr Check (*kChecks[])(const Run&) = {
+    outcome, height,    tilt,  voltage, current,   rest_torque,        heat,   gear,   tracking,
+    stops,   collision, docks, battery, in_ground, torque_error_check, ledger, created};
 
 const char* name_of(CheckStatus status) {
   switch (status) {
@@ -356,8 +380,8 @@ std::size_t Verdict::count(CheckStatus status) const {
   return static_cast<std::size_t>(std::ranges::count(checks, status, &Check::status));
 }
 
-Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary) {
-  const Run run{scenario, record, summary};
+Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps) {
+  const Run run{scenario, record, summary, overlaps};
   Verdict made;
   made.from = summary.judged.from;
   made.to = summary.judged.to;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "report/collisions.h"
 #include "report/summary.h"
 
 namespace gaitlab::report {
@@ -33,7 +34,7 @@ struct Verdict {
 
 /// Shares, peaks and spans are of all steps (Recording::ticks). A limit that nobody states is not judged, never assumed kept.
 /// Thresholds: the scenario's `limits`.
-Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary);
+Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps);
 
 /// The text of verdict.json.
 std::string to_json(const Verdict& verdict);

@@ -8,7 +8,6 @@
 
 #include "core/laws/dc_motor.h"
 #include "core/plugin/robot_info.h"
-#include "report/collisions.h"
 #include "report/number_texts.h"
 #include "report/trust.h"
 
@@ -210,8 +209,7 @@ std::vector<Warning> setup_warnings(const Scenario& s) {
 
 namespace {
 
-constexpr double kJump = 0.05;         // rad: half the tracking error that the paper's figure 14 has room for
-constexpr double kBeyondOften = 0.01;  // share of the time
+constexpr double kJump = 0.05;  // rad: half the tracking error that the paper's figure 14 has room for
 
 void check_joints(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
   if (s.actuator.entry == nullptr || r.joints.empty()) return;
@@ -235,6 +233,20 @@ void check_joints(const Scenario& s, const Recording& r, std::vector<Warning>& o
   }
 }
 
+/// Set points that never change in the rows.
+void check_still(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
+  if (s.cpg.entry == nullptr || s.actuator.entry == nullptr || r.rows() < 3) return;
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    const Series setpoint = r.joint(j, "setpoint");
+    for (std::size_t k = 1; k < setpoint.size(); ++k) {
+      if (setpoint[k] != setpoint[0]) return;
+    }
+  }
+  out.push_back({place_of(s, "cpg"), fmt::format("cpg {} moves no joint: no set point changes in the whole run; are its "
+                                                 "amplitudes, frames or equations given?",
+                                                 s.cpg.entry->name)});
+}
+
 void check_way(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
   const Series x = r.series("com.x");
   const Series y = r.series("com.y");
@@ -250,24 +262,22 @@ void check_way(const Scenario& s, const Recording& r, std::vector<Warning>& out)
   }
 }
 
-void check_bodies(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
-  if (s.contact.solver()) return;  // the engine's own solver keeps bodies apart
-  const std::optional<Sunk> deepest = sunk(s, r);
-  if (deepest && deepest->time > 0) {  // a start in the ground was told before the run
-    out.push_back(
-        {place_of(s, "contact.on"),
-         fmt::format("body {} goes {:.3g} mm into the ground (some body from t = {:.2f} s on), because contact.on: {} "
-                     "lets other parts of the robot through; set contact.on: all",
-                     s.robot->bodies[deepest->body].name, 1000 * deepest->depth, std::min(deepest->time, r.simulated),
-                     s.contact.on == ContactSet::feet   ? "feet"
-                     : s.contact.on == ContactSet::none ? "none"
-                                                        : "all")});
+void check_bodies(const Scenario& s, const Overlaps& overlaps, std::vector<Warning>& out) {
+  if (const auto& deepest = overlaps.sunk; deepest && deepest->time > 0) {  // a start in the ground was told before the run
+    const bool all = s.contact.on == ContactSet::all;
+    out.push_back({place_of(s, "contact.on"),
+                   fmt::format("body {} goes {:.3g} mm into the ground (some body from t = {:.2f} s on), {}",
+                               s.robot->bodies[deepest->body].name, 1000 * deepest->depth, deepest->time,
+                               all ? "though contact.on is all: is contact.stiffness too small for this load?"
+                                   : fmt::format("because contact.on: {} lets other parts of the robot through; set "
+                                                 "contact.on: all",
+                                                 s.contact.on == ContactSet::feet ? "feet" : "none"))});
   }
-  const std::optional<Collision> found = collisions(s, r);
+  const auto& found = overlaps.collision;
   if (!found) return;
   const auto name = [&](std::size_t body) { return s.robot->bodies[body].name; };
   std::string text = fmt::format("bodies {} and {} pass through one another from t = {:.2f} s on", name(found->first),
-                                 name(found->second), std::min(found->time, r.simulated));
+                                 name(found->second), found->time);
   text += found->pairs == 1 ? fmt::format(", by up to {:.3g} mm", 1000 * found->depth)
                             : fmt::format(" ({} pairs of bodies in all, deepest {} and {}, {:.3g} mm)", found->pairs,
                                           name(found->deepest_first), name(found->deepest_second), 1000 * found->depth);
@@ -278,7 +288,7 @@ void check_bodies(const Scenario& s, const Recording& r, std::vector<Warning>& o
 
 }  // namespace
 
-std::vector<Warning> run_warnings(const Scenario& s, const Recording& r) {
+std::vector<Warning> run_warnings(const Scenario& s, const Recording& r, const Overlaps& overlaps) {
   std::vector<Warning> out;
   if (s.actuator.entry != nullptr && r.ledger.electrical < -least_energy(s)) {
     out.push_back(
@@ -288,8 +298,9 @@ std::vector<Warning> run_warnings(const Scenario& s, const Recording& r) {
                      -r.ledger.electrical)});
   }
   check_joints(s, r, out);
+  check_still(s, r, out);
   check_way(s, r, out);
-  check_bodies(s, r, out);
+  check_bodies(s, overlaps, out);
   return out;
 }
 

@@ -5,8 +5,11 @@
 
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
+#include "report/collisions.h"
 
 namespace gaitlab::report {
+
+inline constexpr double kBeyondOften = 0.01;  ///< share of the time that a joint may be beyond its range
 
 struct Warning {
   SourceLocation place;
@@ -25,8 +28,9 @@ struct Warning {
 std::vector<Warning> setup_warnings(const Scenario& scenario);
 
 /// Of a run: a set point that jumps at the start, a joint beyond its range for more than 1 % of the time, a robot that left its
-/// heightfield, motors that gave energy back instead of drawing any, bodies that pass through one another (collisions.h).
-std::vector<Warning> run_warnings(const Scenario& scenario, const Recording& record);
+/// heightfield, motors that gave energy back instead of drawing any, bodies that pass through one another or the ground
+/// (collisions.h), a CPG that moves no joint.
+std::vector<Warning> run_warnings(const Scenario& scenario, const Recording& record, const Overlaps& overlaps);
 
 /// Whether (x, y), m, is beyond the border of the heightfield; false on other grounds.
 bool beside_field(const Ground& ground, double x, double y);

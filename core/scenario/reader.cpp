@@ -27,7 +27,7 @@ std::string dotted(const std::string& key) {
 
 /// What an angle beyond its range may have been meant as: `; 180 degrees are 3.142 rad`.
 std::string in_degrees(double value, const std::string& unit) {
-  if (unit != "rad" || !(std::abs(value) <= 3600)) return "";
+  if (unit != "rad" || !(std::abs(value) <= 3600 && std::abs(value) > 2 * std::numbers::pi)) return "";
   return fmt::format("; {:.6g} degrees are {:.4g} rad", value, value * std::numbers::pi / 180);
 }
 

@@ -181,11 +181,10 @@ void FigureSettings::fields(Fields& f) {
 
 void Limits::fields(Fields& f) {
   f.number("margin", margin, {"", 0, 1, "Share of what a motor has at rest above which its largest torque is a warning."});
-  f.number(
-      "tracking_error", tracking_error,
-      {"rad", kPositive, 1000,
-       "Largest difference of a set point and its angle; up to twice of it is a warning, more a failure. Default: what the "
-       "axis of the paper's figure 14 has room for."});
+  f.number("tracking_error", tracking_error,
+           {"rad", kPositive, 1000,
+            "Largest difference of a set point and its angle; up to twice that is a warning, more a failure. Default: what the "
+            "axis of the paper's figure 14 has room for."});
   f.number(
       "saturated_share", saturated_share,
       {"", 0, 1,
@@ -198,8 +197,9 @@ void Limits::fields(Fields& f) {
        "answer to a step of the set point."});
   f.number("height", height,
            {"", 0, 1, "Share of its height at the start below which the centre of mass has fallen. Default: chosen."});
-  f.number("tilt", tilt,
-           {"rad", kPositive, 4, "Tilt of the base from its start above which is a warning. Default: 60 degrees, chosen."});
+  f.number(
+      "tilt", tilt,
+      {"rad", kPositive, 4, "Tilt of the base from its start above which the verdict warns. Default: 60 degrees, chosen."});
 }
 
 SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type)

@@ -67,14 +67,19 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
       return line;
     };
     std::string line = take();
-    while (!line.starts_with("    ") && indent + line.size() > width) {
+    const bool code = line.starts_with("    ");
+    const std::size_t own = code ? line.find_first_not_of(' ') : 0;  // blanks before its first word
+    while (indent + line.size() > width) {
       std::size_t at = line.rfind(' ', width - indent);
-      if (at == std::string::npos) at = line.find(' ');
+      if (at == std::string::npos || at < line.find_first_not_of(' ')) at = line.find(' ', line.find_first_not_of(' '));
       if (at == std::string::npos) break;
-      out += std::string(indent, ' ') + line.substr(0, at) + "\n";
-      line.erase(0, at + 1);
-      // What is left goes on in the paragraph.
-      if (begin < text.size() && text[begin] != ' ' && text[begin] != '\n') line += " " + take();
+      out += std::string(indent, ' ') + line.substr(0, line.find_last_not_of(' ', at) + 1) + "\n";
+      line.erase(0, line.find_first_not_of(' ', at));
+      if (code) {
+        line.insert(0, own + 8, ' ');
+      } else if (begin < text.size() && text[begin] != ' ' && text[begin] != '\n') {
+        line += " " + take();  // what is left goes on in the paragraph
+      }
     }
     out += (line.empty() ? "" : std::string(indent, ' ')) + line + "\n";
   }

@@ -29,7 +29,7 @@ std::string in_quotes(const std::string& text);
 /// `a, b, c`, shortened where it is long.
 std::string joined(const std::vector<std::string>& names);
 /// The text in lines of at most `width` characters, broken at blanks, each behind `indent` blanks. Lines that begin with four
-/// blanks (equations, YAML) stay as they are.
+/// blanks (equations, YAML) are not joined; what is too long of one goes on eight blanks further in.
 std::string wrapped(const std::string& text, std::size_t indent = 0, std::size_t width = 80);
 /// How a message on an unknown name ends: `; did you mean 'x'?` or `; known KIND: a, b, c`.
 std::string offer(const std::string& found, const std::vector<std::string>& known, const std::string& kind);

@@ -141,8 +141,9 @@ TEST_F(OldFolder, IsReadAsFarAsItGoes) {
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("two-modules: 0.2 s simulated"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("distance      0.0"), std::string::npos) << result.out;
-  for (const char* unknown : {"most loaded", "tracking", "energy", "transport", "stability"})
+  for (const char* unknown : {"most loaded", "\n  tracking", "energy", "transport", "stability"})
     EXPECT_EQ(result.out.find(unknown), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("not judged: voltage, current"), std::string::npos) << result.out;
   EXPECT_NE(result.err.find(
                 "old: note: old/trace.h5 holds rows only: peaks, shares of time, energies and the torque error, which are "
                 "of all steps, are not known\nold: note: the trace has no column load.*\n"),

@@ -34,6 +34,7 @@ TEST(Convex, BoxesEdgeToEdge) {
 }
 
 TEST(Convex, SpheresWithSpheresFacesEdgesAndCorners) {
+  EXPECT_NEAR(penetration(at(ball(1), {1, 2, 3}), at(ball(2), {1, 2, 3}), 0), 3, 1e-15) << "one around the other";
   EXPECT_NEAR(penetration(at(ball(1), {0, 0, 0}), at(ball(2), {1, 2, 2}, Vec3::UnitX(), 1), 0), 0, 1e-15);
   EXPECT_NEAR(penetration(at(ball(1), {0, 0, 0}), at(ball(2), {0.9, 1.8, 1.8}), 0), 0.3, 1e-15);
   EXPECT_NEAR(penetration(at(ball(1), {1.9, 0, 0}), at(box(2, 2, 2), {0, 0, 0}), 0), 0.1, 1e-15);

@@ -17,7 +17,9 @@ struct Case {
   Scenario scenario = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated"});
   Recording record = run(scenario);
 
-  [[nodiscard]] Verdict judged() const { return verdict(scenario, record, summarise(scenario, record, 0)); }
+  [[nodiscard]] Verdict judged() const {
+    return verdict(scenario, record, summarise(scenario, record, 0), overlaps(scenario, record));
+  }
   [[nodiscard]] Check check(const std::string& id) const {
     const Verdict made = judged();
     const auto found = std::ranges::find(made.checks, id, &Check::id);
@@ -73,7 +75,7 @@ TEST(Verdict, WarnsOfShortLimitsAndFailsByLongOnes) {
     EXPECT_EQ(check.joints, 1U);
     EXPECT_NEAR(check.to, 4, 1e-9);
     EXPECT_NEAR(check.from, walk().record.ticks.values[(walk().last_tick() - 100) * walk().record.ticks.columns.size()], 1e-9);
-    EXPECT_TRUE(contains(check.text, std::string("1 of 16 joints are at the limit of their ") + name)) << check.text;
+    EXPECT_TRUE(contains(check.text, std::string("1 of 16 joints reaches the limit of its ") + name)) << check.text;
     EXPECT_EQ(at_limit(column, 100).judged().word, "infeasible");
   }
 }
@@ -123,9 +125,58 @@ TEST(Verdict, JudgesStopsFallsAndTheEnd) {
     }
   }
   EXPECT_EQ(fallen.status("fall"), CheckStatus::fail);
+  Case tilted = walk();
+  tilted.scenario.limits.tilt = 0.01;
+  EXPECT_EQ(tilted.status("tilt"), CheckStatus::warn);
   Case early = walk();
   early.record.outcome = "diverged at step 3";
   EXPECT_EQ(early.judged().word, "failed");
+}
+
+/// A stretch of two ticks and a half at either side: 3.5 periods and 52 ms, however the ticks lie.
+TEST(Verdict, CountsTheEndsOfAStretch) {
+  Case made = walk();
+  const auto t = [&](std::size_t row) { return made.record.ticks.values[row * made.record.ticks.columns.size()]; };
+  const std::size_t end = made.last_tick();
+  const double tick = t(end) - t(end - 1);
+  double total = 0;
+  for (const auto& [row, part] : {std::pair{end - 3, 0.75}, {end - 2, 1.0}, {end - 1, 1.0}, {end, 0.75}}) {
+    total += part * (t(row) - t(row - 1));
+    made.tick(row, 3, kCurrentLimited) = total;
+  }
+  EXPECT_EQ(made.status("current"), CheckStatus::fail);
+  EXPECT_NEAR(made.check("current").to - made.check("current").from, 3.5 * tick, 1e-9);
+}
+
+/// Halved ticks hide no stretch that is longer than one of their rows.
+TEST(Verdict, OfHalvedTicks) {
+  Case made = at_limit(kCurrentLimited, 40);
+  made.scenario.limits.saturated_share = 1;
+  made.scenario.limits.saturated_periods = 30;
+  EXPECT_EQ(made.status("current"), CheckStatus::fail);
+  halve_ticks(made.record.ticks);
+  halve_ticks(made.record.ticks);
+  EXPECT_EQ(made.status("current"), CheckStatus::fail);
+}
+
+TEST(Verdict, OfAnActuatorWithoutALimit) {
+  const auto with = [&](const std::string& actuator) {
+    const Scenario s = scenario(
+        "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.2\nphysics: {engine: articulated}\n"
+        "controller: {unit: N m, Kp: 5, period: 0.002}\ncontact: {on: all}\nactuator: " +
+        actuator + "\n");
+    const Recording r = run(s);
+    return verdict(s, r, summarise(s, r, 0), overlaps(s, r));
+  };
+  const auto status = [](const Verdict& v, const char* id) { return std::ranges::find(v.checks, id, &Check::id)->status; };
+  const Verdict ideal = with("{type: torque}");
+  EXPECT_EQ(status(ideal, "voltage"), CheckStatus::not_judged);
+  EXPECT_EQ(status(ideal, "current"), CheckStatus::not_judged);
+  EXPECT_EQ(ideal.word, "not judged");
+  const Verdict real = with("{type: torque, limit: 100}");
+  EXPECT_EQ(status(real, "voltage"), CheckStatus::not_judged);
+  EXPECT_EQ(status(real, "current"), CheckStatus::pass);
+  EXPECT_EQ(real.word, "feasible");
 }
 
 TEST(Verdict, TrustNeverMakesAGaitInfeasible) {
@@ -146,7 +197,7 @@ TEST(Verdict, OfBodiesAndTheGround) {
       "initial: {angles: 1.2}\nduration: 0.02\nphysics: {engine: articulated}\nactuator: {type: none}\nground: {type: none}\n";
   const Scenario s = scenario(coil);
   const Recording r = run(s);
-  const Verdict v = verdict(s, r, summarise(s, r, 0));
+  const Verdict v = verdict(s, r, summarise(s, r, 0), overlaps(s, r));
   EXPECT_EQ(std::ranges::find(v.checks, "collision", &Check::id)->status, CheckStatus::fail);
   EXPECT_EQ(std::ranges::find(v.checks, "in_ground", &Check::id)->status, CheckStatus::not_judged);
   EXPECT_EQ(std::ranges::find(v.checks, "voltage", &Check::id)->text, "nothing drives the joints");
@@ -177,7 +228,7 @@ TEST(Verdict, IsTheSameForAnyTracePeriod) {
     const Scenario s = shipped("caterpillar.yaml", {"duration=12", "physics.engine=articulated", "actuator.i_max=0.35",
                                                     std::string("trace.period=") + period});
     const Recording r = run(s);
-    const Verdict made = verdict(s, r, summarise(s, r, 1));
+    const Verdict made = verdict(s, r, summarise(s, r, 1), overlaps(s, r));
     std::string text = made.word;
     for (const Check& c : made.checks) {
       if (c.group == "motor" || c.id == "tracking") text += fmt::format("\n{} {} {} {}", c.id, c.value, c.joint, c.joints);
@@ -189,17 +240,24 @@ TEST(Verdict, IsTheSameForAnyTracePeriod) {
 }
 
 TEST(Verdict, IsAFileALineAndAnExitCode) {
-  const Folder folder;
+  Folder folder;
   const std::string file = kScenarios + "caterpillar.yaml --set physics.engine=articulated --set duration=6 ";
   const Result bad = gaitlab("run " + file + "--set actuator.i_max=0.35 --out bad --fail-infeasible", folder.path());
   EXPECT_EQ(bad.code, 3);
   EXPECT_TRUE(contains(bad.out, "\n  verdict       infeasible: ")) << bad.out;
   const auto json = nlohmann::json::parse(read(folder.path() / "bad/verdict.json"));
   EXPECT_EQ(json.at("verdict"), "infeasible");
-  EXPECT_EQ(json.at("checks").size(), 16U);
+  EXPECT_EQ(json.at("checks").size(), 17U);
   EXPECT_EQ(gaitlab("run " + file + "--out good --fail-infeasible", folder.path()).code, 0);
   EXPECT_EQ(gaitlab("report bad --fail-infeasible", folder.path()).code, 3);
   EXPECT_EQ(gaitlab("report bad", folder.path()).code, 0);
+  folder.write("wild.yaml", "gaitlab: 1\nrobot: {modules: " + kScenarios +
+                                "modules/mtran.yaml, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.2\n"
+                                "cpg: {type: equations, model: {states: {phi: exp(700)*exp(700)}, output: phi}}\n");
+  EXPECT_EQ(gaitlab("run wild.yaml --out wild", folder.path()).code, 1);
+  EXPECT_EQ(nlohmann::json::parse(read(folder.path() / "wild/verdict.json")).at("verdict"), "failed");
+  EXPECT_EQ(gaitlab("report wild", folder.path()).code, 0);
+  EXPECT_EQ(gaitlab("report wild --fail-infeasible", folder.path()).code, 1);
   EXPECT_EQ(gaitlab("report bad --out again", folder.path()).code, 0);
   EXPECT_EQ(read(folder.path() / "again/verdict.json"), read(folder.path() / "bad/verdict.json"));
 }

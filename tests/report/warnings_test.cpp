@@ -90,7 +90,7 @@ TEST(SetupWarnings, TellARobotBesideItsField) {
 std::string warnings_of(const Scenario& s) {
   const Recording r = run(s);
   std::string text;
-  for (const Warning& doubt : run_warnings(s, r)) text += doubt.text + "\n";
+  for (const Warning& doubt : run_warnings(s, r, overlaps(s, r))) text += doubt.text + "\n";
   return text;
 }
 
@@ -116,6 +116,13 @@ TEST(RunWarnings, ARampIsOfTheOffset) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=0.1", "physics.engine=articulated", "cpg.type=sine",
                                                   "cpg.offset=0.3", "cpg.model.ramp=1"});
   EXPECT_FALSE(contains(warnings_of(s), "at t = 0"));
+}
+
+TEST(RunWarnings, TellACpgThatMovesNothing) {
+  const std::vector<std::string> sets{"duration=0.1", "physics.engine=articulated"};
+  EXPECT_TRUE(contains(warnings_of(shipped("caterpillar.yaml", {sets[0], sets[1], "cpg.type=keyframes"})),
+                       "cpg keyframes moves no joint"));
+  EXPECT_TRUE(contains(warnings_of(shipped("caterpillar.yaml", {sets[0], sets[1], "cpg.amplitude=0"})), "moves no joint"));
 }
 
 TEST(RunWarnings, TellJointsBeyondTheirRange) {
