@@ -133,19 +133,19 @@ TEST(Verdict, JudgesStopsFallsAndTheEnd) {
   EXPECT_EQ(early.judged().word, "failed");
 }
 
-/// A stretch of two ticks and a half at either side: 3.5 periods and 52 ms, however the ticks lie.
+/// Two whole ticks and three quarters of the ones beside them: more than three, however the ticks lie.
 TEST(Verdict, CountsTheEndsOfAStretch) {
   Case made = walk();
   const auto t = [&](std::size_t row) { return made.record.ticks.values[row * made.record.ticks.columns.size()]; };
-  const std::size_t end = made.last_tick();
-  const double tick = t(end) - t(end - 1);
+  const std::size_t end = made.last_tick() - 1;  // the last tick is cut off by the end of the run
   double total = 0;
-  for (const auto& [row, part] : {std::pair{end - 3, 0.75}, {end - 2, 1.0}, {end - 1, 1.0}, {end, 0.75}}) {
+  for (const auto& [row, part] : {std::pair{end - 3, 0.75}, {end - 2, 1.0}, {end - 1, 1.0}, {end, 0.75}, {end + 1, 0.0}}) {
     total += part * (t(row) - t(row - 1));
     made.tick(row, 3, kCurrentLimited) = total;
   }
+  EXPECT_NEAR(total, 3.5 * made.scenario.control_period, 1e-9);
   EXPECT_EQ(made.status("current"), CheckStatus::fail);
-  EXPECT_NEAR(made.check("current").to - made.check("current").from, 3.5 * tick, 1e-9);
+  EXPECT_NEAR(made.check("current").to - made.check("current").from, total, 1e-9);
 }
 
 /// Halved ticks hide no stretch that is longer than one of their rows.
