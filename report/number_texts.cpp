@@ -96,9 +96,10 @@ std::string joint_name(const RunData& run, std::size_t joint) { return run.scena
 
 /// `21.5 % of the time (current)`.
 std::string share_at_limit(const JudgedJoint& j) {
-  if (j.voltage_limited > 0 && j.current_limited > 0)
+  if (j.voltage_limited > 0 && j.current_limited > 0) {
     return fmt::format("{} of the time ({} voltage, {} current)", percent(j.limited()), percent(j.voltage_limited),
                        percent(j.current_limited));
+  }
   return fmt::format("{} of the time ({})", percent(j.limited()), j.voltage_limited > 0 ? "voltage" : "current");
 }
 
@@ -124,13 +125,14 @@ Lines other_limits(const RunData& run, std::size_t named) {
   };
   const std::vector<JudgedJoint>& joints = run.summary.judged.joints;
   Lines lines;
-  for (const auto& [limit, share] :
+  for (const Kind& kind :
        {Kind{MotorLimit::voltage, &JudgedJoint::voltage_limited}, {MotorLimit::current, &JudgedJoint::current_limited}}) {
+    const auto share = kind.share;
     const auto longest = std::ranges::max_element(joints, {}, share);
     const auto number = static_cast<std::size_t>(longest - joints.begin());
     if (!((*longest).*share > joints[named].*share)) continue;
     const auto some = std::ranges::count_if(joints, [&](const JudgedJoint& j) { return j.*share > 0; });
-    lines.push_back(fmt::format("{} limit: {} joint{}, {} longest, {}", name_of(limit), some, some == 1 ? "" : "s",
+    lines.push_back(fmt::format("{} limit: {} joint{}, {} longest, {}", name_of(kind.limit), some, some == 1 ? "" : "s",
                                 joint_name(run, number), percent((*longest).*share)));
   }
   return lines;

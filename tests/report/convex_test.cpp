@@ -69,7 +69,7 @@ TEST(Convex, AgreesWithSampledDirections) {
     directions.emplace_back(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
   }
   int met = 0;
-  for (int trial = 0; trial < 60; ++trial) {
+  for (std::size_t trial = 0; trial < 60; ++trial) {
     const Convex a = at(shapes[trial % 4], Vec3::Zero(), vec().normalized(), 3 * unit(random));
     const Convex b = at(shapes[trial / 4 % 4], 0.7 * vec(), vec().normalized(), 3 * unit(random));
     double least = 1e9;

@@ -44,9 +44,8 @@ Case at_limit(TickColumn column, std::size_t rows, std::size_t every = 0) {
   double total = 0;
   for (std::size_t k = made.last_tick() - rows + 1; k <= made.last_tick(); ++k) {
     const bool gap = every > 0 && k % every == 0;
-    if (!gap)
-      total += made.record.ticks.values[k * made.record.ticks.columns.size()] -
-               made.record.ticks.values[(k - 1) * made.record.ticks.columns.size()];
+    const auto t = [&](std::size_t row) { return made.record.ticks.values[row * made.record.ticks.columns.size()]; };
+    if (!gap) total += t(k) - t(k - 1);
     made.tick(k, 3, column) = total;
   }
   return made;
