@@ -47,7 +47,8 @@ TEST(Convex, SpheresWithSpheresFacesEdgesAndCorners) {
 /// Two M-TRAN blocks back to back: their half cylinders touch at any angles of the hinges, and never meet.
 TEST(Convex, HalfCylindersOfOneModuleTouch) {
   const Shape half{Shape::Kind::half_cylinder, {}, {0.0325, 0.065, 0}};
-  for (double angle = -1.5; angle <= 1.5; angle += 0.1) {
+  for (int tenths = -15; tenths <= 15; ++tenths) {
+    const double angle = 0.1 * tenths;
     const Convex left = at(half, {0, 0, 0}, Vec3::UnitY(), angle);
     const Convex right = moved(convex(half), {turn(Vec3::UnitZ(), kPi).toRotationMatrix(), {0.065, 0, 0}});
     EXPECT_LT(penetration(left, right, 0), 1e-15) << angle;
