@@ -336,11 +336,10 @@ Check created(const Run& run) {
   if (!run.driven()) return made;
   made.value = texts::created(run.record) / energy_scale(run.scenario, run.record);
   made.limit = kCreated;
-  made.status = made.value > made.limit ? CheckStatus::warn : CheckStatus::pass;
-  made.text = fmt::format(
-      "gears that are driven backwards give {} of the drawn energy too much (eq. 2); "
-      "actuator.efficiency_model: directional does not",
-      texts::percent(made.value));
+  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // not a number: a warning
+  made.text =
+      fmt::format("gears that are driven backwards give {} of the energy too much (eq. 2){}", texts::percent(made.value),
+                  made.status == CheckStatus::warn ? "; actuator.efficiency_model: directional does not" : "");
   return made;
 }
 

@@ -10,7 +10,7 @@ namespace gaitlab::report {
 
 enum class CheckStatus { pass, warn, fail, not_judged };
 
-/// One limit and what the run made of it. NaN: there is no such number.
+/// A limit, and the number of the run that is held against it. NaN: the number is not known.
 struct Check {
   std::string id;     ///< `voltage`
   std::string group;  ///< run, motor, motion, structure, ground; trust: whether the run is to be believed

@@ -1,6 +1,7 @@
 // Every check on runs made for it: what passes, warns, fails, and what nobody knows.
 #include "report/verdict.h"
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/scenario/resolved.h"
@@ -26,7 +27,7 @@ struct Case {
     return found != made.checks.end() ? *found : Check();
   }
   [[nodiscard]] CheckStatus status(const std::string& id) const { return check(id).status; }
-  /// Of a joint's column in ticks, from one row on.
+  /// A joint's cell in one row of ticks.
   double& tick(std::size_t row, std::size_t joint, TickColumn column) {
     return record.ticks.values.at(row * record.ticks.columns.size() + 1 + joint * kTickColumns + column);
   }
@@ -38,7 +39,7 @@ Case& walk() {
   return made;
 }
 
-/// The joint is at the limit in each of the last `rows` ticks but those of `gaps`, which end stretches.
+/// Joint 3 is at the limit in each of the last `rows` ticks but every one whose number `every` divides.
 Case at_limit(TickColumn column, std::size_t rows, std::size_t every = 0) {
   Case made = walk();
   double total = 0;
@@ -62,7 +63,7 @@ TEST(Verdict, OfAGaitThatTheMotorsCanDo) {
   EXPECT_EQ(to_lines(made).front(), "feasible with these motors");
 }
 
-/// 15 ms a tick, a window of some 200 of them: two in a row are less than 1 % and than three control periods.
+/// The window is 213 control ticks of 15 ms long: one tick is less than 1 % of it, and less than three control periods.
 TEST(Verdict, WarnsOfShortLimitsAndFailsByLongOnes) {
   for (const auto& [column, id, name] :
        {std::tuple{kVoltageLimited, "voltage", "voltage"}, {kCurrentLimited, "current", "current"}}) {
@@ -147,15 +148,21 @@ TEST(Verdict, CountsTheEndsOfAStretch) {
   EXPECT_NEAR(made.check("current").to - made.check("current").from, total, 1e-9);
 }
 
-/// Halved ticks hide no stretch that is longer than one of their rows.
+/// Forty ticks at the limit, from the 102nd to the 142nd, are more than 39 periods, also where a row is four ticks: of whole
+/// rows they are 36.
 TEST(Verdict, OfHalvedTicks) {
-  Case made = at_limit(kCurrentLimited, 40);
+  Case made = walk();
   made.scenario.limits.saturated_share = 1;
-  made.scenario.limits.saturated_periods = 30;
+  made.scenario.limits.saturated_periods = 39;
+  const auto t = [&](std::size_t row) { return made.record.ticks.values[row * made.record.ticks.columns.size()]; };
+  for (std::size_t k = 103; k <= made.last_tick(); ++k)
+    made.tick(k, 3, kCurrentLimited) = t(std::min<std::size_t>(k, 142)) - t(102);
   EXPECT_EQ(made.status("current"), CheckStatus::fail);
   halve_ticks(made.record.ticks);
   halve_ticks(made.record.ticks);
   EXPECT_EQ(made.status("current"), CheckStatus::fail);
+  made.scenario.limits.saturated_periods = 41;
+  EXPECT_EQ(made.status("current"), CheckStatus::warn);
 }
 
 TEST(Verdict, OfAnActuatorWithoutALimit) {
@@ -185,6 +192,10 @@ TEST(Verdict, TrustNeverMakesAGaitInfeasible) {
   EXPECT_EQ(made.status("ledger"), CheckStatus::warn);
   EXPECT_EQ(made.status("created"), CheckStatus::warn);
   EXPECT_EQ(made.judged().word, "feasible");
+  made.record.ledger.copper = made.record.joints[0].created = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(made.status("ledger"), CheckStatus::warn) << "not a number is not a pass";
+  EXPECT_EQ(made.status("created"), CheckStatus::warn) << "not a number is not a pass";
+  EXPECT_FALSE(contains(walk().check("torque_error").text, "nan"));
 }
 
 TEST(Verdict, OfBodiesAndTheGround) {
