@@ -12,7 +12,9 @@
 #include "core/recording/recording_file.h"
 #include "core/recording/run_files.h"
 #include "core/recording/run_folder.h"
+#include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
+#include "report/demand.h"
 #include "report/run_figure.h"
 #include "report/summary.h"
 #include "report/trust.h"
@@ -95,7 +97,7 @@ int report(const ReportArguments& arguments) {
   report::Summary summary = report::summarise(scenario, recording, wall_time(folder));
   summary.build = read.origin.build;
   const report::Overlaps overlaps = report::overlaps(scenario, recording);
-  const report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
+  const report::Verdict verdict = judged(scenario, recording, summary, overlaps, arguments.shown);
   if (arguments.out) {
     RunFolder out(*arguments.out, scenario.name);
     write_file(out.path() / "figure.svg", report::run_figure(scenario, recording, summary));
@@ -129,6 +131,21 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
   if (shown.joints) fmt::print("{}", report::joint_table(summary, scenario));
 }
 
+report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                       const report::Overlaps& overlaps, const SummaryOptions& shown) {
+  report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
+  if (!shown.demand || Judged::limited(summary.judged.joints) == 0) return verdict;
+  Catalog catalog = standard_catalog();
+  const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario)};
+  Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
+  if (!report::raise_limits(twin)) {
+    verdict.demand_doubt = "the actuator declares no limits that could be raised";
+    return verdict;
+  }
+  report::add_demand(verdict, scenario, summary, report::demand(twin, recording, summary));
+  return verdict;
+}
+
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {
   if (!shown.fail_infeasible) return 0;
   return verdict.word == "failed" ? 1 : verdict.word == "infeasible" ? 3 : 0;
@@ -138,6 +155,8 @@ void add_shown(CLI::App& command, SummaryOptions& shown) {
   command.add_flag("--joints", shown.joints, "print a row per joint, the most loaded first");
   command.add_flag("--fail-infeasible", shown.fail_infeasible,
                    "exit code 3 where the verdict is infeasible, 1 where the run failed");
+  command.add_flag("--demand", shown.demand,
+                   "simulate once more without the limits of the motors where joints reach them, and tell how much is missing");
   command.add_flag("--verbose", shown.verbose, "print the energy ledger and the limit of the step, too");
 }
 

@@ -98,7 +98,7 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   const report::Summary summary = report::summarise(scenario, recording, wall.count());
   write_run(folder.path(), arguments.format, scenario, recording, summary);
   const report::Overlaps overlaps = report::overlaps(scenario, recording);
-  const report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
+  const report::Verdict verdict = judged(scenario, recording, summary, overlaps, arguments.shown);
   write_report(folder.path(), scenario, recording, summary, verdict);
   folder.keep();
   if (!arguments.quiet) {

@@ -49,7 +49,8 @@ Simulation::Simulation(std::span<const Scenario> lanes) try
   }
   actuator_ = make_actuator(actuators, info(*first.robot));
   plant_ = first.physics.engine->make(plant_settings());
-  for (auto* values : {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_}) {
+  for (auto* values :
+       {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_, &available_, &largest_}) {
     values->assign(layout_.joints * lanes_.size(), 0.0);
   }
   cut_state();

@@ -99,6 +99,19 @@ void Simulation::evaluate_motors(In speeds) {
   if (!plant_->evaluate_motors(command_, speeds, into)) actuator_->electrical(command_, speeds, into);
 }
 
+/// The torque that there is at these speeds in the direction of these torques, N m; infinity: the actuator states no limit.
+void Simulation::evaluate_available(In speeds, In torques) {
+  if (actuator_ == nullptr) return;
+  const In limit = actuator_->command_limit();
+  for (std::size_t i = 0; i < largest_.size(); ++i)
+    largest_[i] = std::isfinite(limit[i]) ? std::copysign(limit[i], torques[i]) : 0;
+  actuator_->effort(largest_, speeds, available_, slope_);
+  for (std::size_t i = 0; i < largest_.size(); ++i) {
+    available_[i] =
+        std::isfinite(limit[i]) ? std::copysign(1.0, torques[i]) * available_[i] : std::numeric_limits<double>::infinity();
+  }
+}
+
 /// Kinetic and potential, rotors included, J.
 double Simulation::energy(const Lane& lane) const {
   const Sample& sample = lane.sample;
@@ -301,7 +314,8 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
   for (std::size_t l = 0; l < lanes; ++l) measured_[l] = measured(*lanes_[l]) ? 1 : 0;
   for (const StepEffort::Part& part : applied.parts) {
     evaluate_motors(part.speed);
-    meter_.add(time(), part, setpoint_, {voltage_, current_, saturation_, power_in_, copper_, gear_}, measured_);
+    evaluate_available(part.speed, part.torque);
+    meter_.add(time(), part, setpoint_, {voltage_, current_, saturation_, power_in_, copper_, gear_}, available_, measured_);
     if (part.instant) continue;
     for (std::size_t l = 0; l < lanes; ++l) {
       const Out sums = lanes_[l]->ledger;

@@ -83,6 +83,7 @@ class Simulation {
   void watch_error();
   void watch_stability();
   void evaluate_motors(In speeds);
+  void evaluate_available(In speeds, In torques);
   void observe();
   [[nodiscard]] double energy(const Lane& lane) const;
   Sample& take_sample(Lane& lane, bool whole);
@@ -105,7 +106,8 @@ class Simulation {
   std::vector<double> state_;
   std::unique_ptr<StepError> step_error_;                                    ///< nullptr: nothing to estimate
   Out plant_state_, plant_history_, step_error_state_, setpoint_, command_;  ///< parts of state_; joint * lanes + lane
-  std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_;  ///< scratch, elementwise
+  std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, available_,
+      largest_;                   ///< scratch, elementwise
   std::vector<double> saved_;     ///< scratch: state_ while a row within a step is made
   std::vector<double> measured_;  ///< scratch: 1 for a lane whose figures a step counts for, else 0
   std::vector<Lane*> ended_;      ///< scratch: of those that end at that row
