@@ -47,7 +47,6 @@ void gear_continuous(const CheckedRun& run, Check& made);
 void tracking(const CheckedRun& run, Check& made);
 void stops(const CheckedRun& run, Check& made);
 void collision(const CheckedRun& run, Check& made);
-void dock(const CheckedRun& run, Check& made);
 void battery(const CheckedRun& run, Check& made);
 void in_ground(const CheckedRun& run, Check& made);
 void torque_error(const CheckedRun& run, Check& made);

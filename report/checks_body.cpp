@@ -118,8 +118,6 @@ void collision(const CheckedRun& run, Check& made) {
                           run.scenario.robot->bodies[found->deepest_second].name);
 }
 
-void dock(const CheckedRun&, Check& made) { made.text = "the module types do not state what a dock holds"; }
-
 void battery(const CheckedRun&, Check& made) { made.text = "the module types state no battery"; }
 
 void in_ground(const CheckedRun& run, Check& made) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "report/checks.h"
+#include "report/load_checks.h"
 
 namespace gaitlab::report {
 
@@ -13,6 +14,13 @@ struct CheckKind {
   const char *id, *group, *unit, *title, *definition;
   void (*judge)(const CheckedRun& run, Check& made);
 };
+
+template <DockQuantity kQuantity>
+void dock(const CheckedRun& run, Check& made) {
+  judge_docks(run.scenario, run.record, run.summary, kQuantity, dock_limits(*run.scenario.robot, kQuantity), made);
+}
+void slip(const CheckedRun& run, Check& made) { judge_slip(run.scenario, run.record, run.summary, made); }
+void stability(const CheckedRun& run, Check& made) { judge_stability(run.scenario, run.record, run.summary, made); }
 
 constexpr CheckKind kChecks[] = {
     {"outcome", "run", "s", "Run finished", "simulated time against the duration", checks::outcome},
@@ -40,11 +48,22 @@ constexpr CheckKind kChecks[] = {
      "farthest beyond the range of the hinge, of the whole run, over all steps", checks::stops},
     {"collision", "structure", "m", "Bodies keep apart", "depth of two bodies in one another, of the whole run, at trace rows",
      checks::collision},
-    {"dock", "structure", "N", "Docks hold", "loads of the docks against their ratings", checks::dock},
+    {"dock_tension", "structure", "N", "Docks are not pulled apart", "largest tension of a dock against its rating",
+     dock<DockQuantity::tension>},
+    {"dock_shear", "structure", "N", "Docks do not shear", "largest shear force of a dock against its rating",
+     dock<DockQuantity::shear>},
+    {"dock_bending", "structure", "N m", "Docks are not bent open", "largest bending moment of a dock against its rating",
+     dock<DockQuantity::bending>},
+    {"dock_torsion", "structure", "N m", "Docks are not twisted", "largest torsion moment of a dock against its rating",
+     dock<DockQuantity::torsion>},
     {"battery", "structure", "A", "Batteries suffice", "current of each module against the rating of its battery",
      checks::battery},
     {"in_ground", "ground", "m", "Bodies stay above the ground", "depth of a body in a plane, of the whole run, at trace rows",
      checks::in_ground},
+    {"slip", "ground", "", "Feet hold", "way that the loaded feet slide over the way of the centre of mass, over all steps",
+     slip},
+    {"stability", "ground", "m", "Stands on its feet",
+     "least distance of the centre of mass to the edge of the support polygon, inside positive", stability},
     {"torque_error", "trust", "", "Torques are accurate", "estimated error of a joint's torque over its peak",
      checks::torque_error},
     {"ledger", "trust", "", "Energy adds up",

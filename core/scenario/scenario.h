@@ -74,6 +74,7 @@ struct Limits {
   double sink = 0.005;               ///< m
   double energy_residual = 0.01;     ///< of what was drawn, or stored, or the least that counts
   double energy_created = 0.05;      ///< of the same
+  double slip = 0.2;                 ///< of the way of the centre of mass
   bool operator==(const Limits&) const = default;
   void fields(Fields& f);
 };

@@ -223,6 +223,10 @@ void Limits::fields(Fields& f) {
       {"", 0, 1, "Share of the energy drawn that may be unaccounted for. Default: the error of the torques that is judged."});
   f.number("energy_created", energy_created,
            {"", 0, 1, "Share of the energy drawn that back-driven gears may create (eq. 2). Default: chosen."});
+  f.number(
+      "slip", slip,
+      {"", 0, 1e6,
+       "Share of its way that a robot may slide on its feet, weighted by their loads; more is a warning. Default: chosen."});
 }
 
 SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type)

@@ -59,7 +59,7 @@ TEST(Verdict, OfAGaitThatTheMotorsCanDo) {
   for (const char* const id : {"outcome", "fall", "voltage", "current", "envelope", "speed", "heat", "tracking", "stops",
                                "collision", "in_ground", "ledger"})
     EXPECT_EQ(walk().status(id), CheckStatus::pass) << id << ": " << walk().check(id).text;
-  for (const char* const id : {"gear_peak", "gear_continuous", "dock", "battery"})
+  for (const char* const id : {"gear_peak", "gear_continuous", "dock_tension", "battery"})
     EXPECT_EQ(walk().status(id), CheckStatus::not_judged) << id;
   EXPECT_EQ(to_lines(made).front(), "feasible with these motors");
 }
@@ -165,8 +165,8 @@ TEST(Verdict, OfCurrentsThatMakeTheTorques) {
 
 /// |T| / (eta Kt n min(i_max, (u_max - s Ks n w) / R)), s the sign of T (eq. 1 and 2), recomputed from every step's row.
 TEST(Verdict, EnvelopeIsTheLawsAtEveryStep) {
-  const Scenario scenario = shipped("caterpillar.yaml", {"duration=2", "physics.engine=articulated", "physics.step=0.0005",
-                                                         "trace.period=0.0005"});
+  const Scenario scenario =
+      shipped("caterpillar.yaml", {"duration=2", "physics.engine=articulated", "physics.step=0.0005", "trace.period=0.0005"});
   const Recording record = run(scenario);
   const Judged judged = judge(record, {});
   for (std::size_t j = 0; j < judged.whole.size(); ++j) {
