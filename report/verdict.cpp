@@ -371,7 +371,7 @@ std::string word(const std::vector<Check>& checks) {
   return "not judged";
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 }  // namespace
 
@@ -402,13 +402,13 @@ std::string to_json(const Verdict& verdict) {
     json["checks"].push_back({{"id", c.id},
                               {"group", c.group},
                               {"status", name_of(c.status)},
-                              {"value", number(c.value)},
-                              {"limit", number(c.limit)},
+                              {"value", json_number(c.value)},
+                              {"limit", json_number(c.limit)},
                               {"unit", c.unit},
                               {"joint", c.joint.empty() ? Json() : Json(c.joint)},
                               {"joints", c.joints},
-                              {"from", number(c.from)},
-                              {"to", number(c.to)},
+                              {"from", json_number(c.from)},
+                              {"to", json_number(c.to)},
                               {"text", c.text}});
   }
   return json.dump(2) + "\n";
