@@ -47,6 +47,7 @@ struct SummaryOptions {
 struct RunArguments : ScenarioArguments {
   std::optional<std::string> out;
   std::string format = "h5";
+  bool no_page = false;  ///< without report.html
   SummaryOptions shown;
   std::vector<std::string> joints;  ///< names, of the figure; none: those of the scenario
 };

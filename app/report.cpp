@@ -15,6 +15,7 @@
 #include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
 #include "report/demand.h"
+#include "report/page.h"
 #include "report/run_figure.h"
 #include "report/summary.h"
 #include "report/trust.h"
@@ -27,8 +28,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ReportArguments {
-  std::string run;                 ///< folder
-  std::optional<std::string> out;  ///< folder for summary.json, verdict.json and figure.svg
+  std::string run;                  ///< folder
+  std::optional<std::string> out;   ///< folder for summary.json, verdict.json, figure.svg and report.html
+  std::optional<std::string> page;  ///< file for a page alone
   SummaryOptions shown;
   std::vector<std::string> joints;  ///< names, of the figure
 };
@@ -57,6 +59,14 @@ StoredScenario scenario_of(const std::string& run, const StoredRecording& read) 
   return {"", holds.string() + " (its scenario)", read.origin.scenario};
 }
 
+/// What a folder does not hold, told without naming it.
+std::vector<std::string> told_missing(std::vector<std::string> missing, const fs::path& trace) {
+  for (std::string& sentence : missing) {
+    if (sentence.starts_with(trace.string())) sentence.replace(0, trace.string().size(), trace.filename().string());
+  }
+  return missing;
+}
+
 /// InputError where the recording cannot be one of the scenario: only of files that somebody made up.
 void check_fit(const std::string& run, const Scenario& scenario, const Recording& recording) {
   const auto refuse = [&](const std::string& what) {
@@ -78,6 +88,9 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
 }
 
 int report(const ReportArguments& arguments) {
+  const fs::path trace = trace_file(arguments.run);
+  const fs::path folder = trace.parent_path();
+  if (arguments.page) check_page(*arguments.page, folder / kPageFile);
   StoredRecording read = read_recording(arguments.run);
   Recording& recording = read.recording;
   const StoredScenario stored = scenario_of(arguments.run, read);
@@ -86,11 +99,12 @@ int report(const ReportArguments& arguments) {
   draw_joints(scenario, arguments.joints);
   if (read.missing.empty()) check_fit(arguments.run, scenario, recording);
   if (arguments.out && !read.missing.empty()) {
-    throw InputError(SourceLocation{arguments.run},
-                     fmt::format("summary and figure cannot be made anew: {}; simulate it again: gaitlab rerun {}",
-                                 fmt::join(read.missing, "; "), arguments.run));
+    throw InputError(
+        SourceLocation{arguments.run},
+        fmt::format(
+            "summary and figure cannot be made anew: {}; a page can: --page FILE; or simulate it again: gaitlab rerun {}",
+            fmt::join(read.missing, "; "), arguments.run));
   }
-  const fs::path folder = trace_file(arguments.run).parent_path();
   // A CSV file alone does not have it.
   const nlohmann::json told = read.origin.outcome.empty() ? summarised(folder, "outcome") : nlohmann::json(recording.outcome);
   if (told.is_string()) recording.outcome = told;
@@ -98,15 +112,25 @@ int report(const ReportArguments& arguments) {
   summary.build = read.origin.build;
   const report::Overlaps overlaps = report::overlaps(scenario, recording);
   const report::Verdict verdict = judged(scenario, recording, summary, overlaps, arguments.shown);
+  std::string page;
+  if (arguments.out || arguments.page) {
+    page = report::page(report::page_data(scenario, recording, summary, verdict, told_missing(read.missing, trace)));
+  }
+  if (arguments.page) write_file(*arguments.page, page);
   if (arguments.out) {
     RunFolder out(*arguments.out, scenario.name);
     write_file(out.path() / "figure.svg", report::run_figure(scenario, recording, summary));
     write_file(out.path() / "verdict.json", report::to_json(verdict));
+    write_file(out.path() / kPageFile, page);
     write_file(out.path() / "summary.json", report::to_json(summary, scenario, recording));
     out.keep();
   }
   print_summary(scenario, recording, summary, verdict, arguments.shown);
-  if (arguments.out) fmt::print("  {:<13} {}: summary.json, verdict.json, figure.svg\n", "files", *arguments.out);
+  if (arguments.out) {
+    fmt::print("  {:<13} {}: summary.json, verdict.json, figure.svg\n", "files", *arguments.out);
+    print_page(fs::path(*arguments.out) / kPageFile);
+  }
+  if (arguments.page) print_page(*arguments.page);
   for (const std::string& missing : read.missing) fmt::print(stderr, "{}: note: {}\n", arguments.run, missing);
   if (recording.outcome != "done") {
     fmt::print(stderr, "{}: note: this run ended early: {}\n", arguments.run, recording.outcome);
@@ -190,16 +214,18 @@ void warn_of_run(const Scenario& scenario, const Recording& recording, const rep
 }
 
 void add_report(Commands& commands) {
-  add_command<ReportArguments>(commands, "report", "Print the summary of a run folder again, without simulating.", report,
-                               [](CLI::App& command, ReportArguments& arguments) {
-                                 command.add_option("RUN", arguments.run, "run folder")->required()->check(not_empty);
-                                 command.add_option(
-                                     "--out", arguments.out,
-                                     "folder for summary.json, verdict.json and figure.svg, made anew; new or empty");
-                                 add_joint(command, arguments.joints);
-                                 command.get_option("--joint")->needs("--out");
-                                 add_shown(command, arguments.shown);
-                               });
+  add_command<ReportArguments>(
+      commands, "report", "Print the summary of a run folder again, without simulating.", report,
+      [](CLI::App& command, ReportArguments& arguments) {
+        command.add_option("RUN", arguments.run, "run folder")->required()->check(not_empty);
+        command.add_option("--out", arguments.out,
+                           "folder for summary.json, verdict.json, figure.svg and report.html, made anew; new or empty");
+        command.add_option("--page", arguments.page, "file for the page alone; new, or the run's report.html")
+            ->check(not_empty);
+        add_joint(command, arguments.joints);
+        command.get_option("--joint")->needs("--out");
+        add_shown(command, arguments.shown);
+      });
 }
 
 }  // namespace gaitlab::app

@@ -9,7 +9,7 @@
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
 #include "core/scenario/value.h"
-#include "report/setting_numbers.h"
+#include "report/settings_numbers.h"
 
 namespace gaitlab::report {
 
@@ -73,7 +73,7 @@ std::vector<double> rest_torques(const Scenario& scenario) {
 }
 
 std::string motor_source(const Scenario& scenario) {
-  const SettingNumbers settings(scenario.actuator);
+  const SettingsNumbers settings(scenario.actuator);
   for (const Node& document : *scenario.module_documents) {
     const Node* actuator = document.find("actuator");
     const Node* source = actuator == nullptr ? nullptr : actuator->find("source");

@@ -9,7 +9,7 @@
 #include "core/laws/dc_motor.h"
 #include "core/plugin/robot_info.h"
 #include "report/number_texts.h"
-#include "report/setting_numbers.h"
+#include "report/settings_numbers.h"
 #include "report/trust.h"
 
 namespace gaitlab::report {
@@ -67,10 +67,10 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warni
 
 /// Whether the derivative answers a step of the error with more than a quarter of what Kp does (Kd N / (Kd + N Ts), eq. 5): it
 /// then moves the bound on Kp.
-bool damps(const SettingNumbers& settings, std::size_t joint, double period) {
-  const SettingNumbers::Found* Kp = settings.find("Kp");
-  const SettingNumbers::Found* Kd = settings.find("Kd");
-  const SettingNumbers::Found* N = settings.find("N");
+bool damps(const SettingsNumbers& settings, std::size_t joint, double period) {
+  const SettingsNumbers::Found* Kp = settings.find("Kp");
+  const SettingsNumbers::Found* Kd = settings.find("Kd");
+  const SettingsNumbers::Found* N = settings.find("N");
   if (Kd == nullptr || !(Kd->value[joint] > 0)) return false;
   const double d = Kd->value[joint];
   const double step = N == nullptr ? d / period : d * N->value[joint] / (d + N->value[joint] * period);
@@ -78,7 +78,7 @@ bool damps(const SettingNumbers& settings, std::size_t joint, double period) {
 }
 
 void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& out) {
-  const SettingNumbers settings(s.controller);
+  const SettingsNumbers settings(s.controller);
   const auto* gain = settings.find("Kp");
   if (gain == nullptr || make_controller(s.controller, info(*s.robot))->command_unit() != "V") return;
   double largest = 0;
@@ -121,8 +121,8 @@ void check_degrees(const Scenario& s, std::vector<Warning>& out) {
   const auto beyond = [](double value) { return std::abs(value) > 2 * kTurn; };
   for (const PluginSelection* plugin : {&s.cpg, &s.controller, &s.actuator}) {
     if (plugin->entry == nullptr) continue;
-    const SettingNumbers numbers(*plugin);
-    for (const SettingNumbers::Found& one : numbers.all()) {
+    const SettingsNumbers numbers(*plugin);
+    for (const SettingsNumbers::Found& one : numbers.all()) {
       for (std::size_t j = 0; one.unit == "rad" && j < std::max<std::size_t>(1, one.value.each.size()); ++j) {
         if (!beyond(one.value[j])) continue;
         const std::string key = std::string(word(plugin->entry->kind)) + "." + one.key;
@@ -179,7 +179,7 @@ void check_joints(const Scenario& s, const Recording& r, std::vector<Warning>& o
   if (s.actuator.entry == nullptr || r.joints.empty()) return;
   const std::size_t jumps = texts::worst(r, &JointStatistics::start_jump);
   if (const double jump = r.joints[jumps].start_jump; jump > s.limits.start_jump) {
-    const bool ramps = s.cpg.entry != nullptr && SettingNumbers(s.cpg).find("model.ramp") != nullptr;
+    const bool ramps = s.cpg.entry != nullptr && SettingsNumbers(s.cpg).find("model.ramp") != nullptr;
     out.push_back(
         {place_of(s, "cpg"),
          fmt::format("the set point of joint {} is {:.3g} rad from its angle at t = 0, and its motor answers at once: "
