@@ -1,0 +1,125 @@
+// What a builder looks for, in 3D: numbers of the free and docked faces, and the axes of the hinges with the sense of a positive turn.
+import { CanvasTexture, ConeGeometry, CylinderGeometry, DoubleSide, InstancedMesh, Matrix4, MeshBasicMaterial, PlaneGeometry, Quaternion, SRGBColorSpace,
+  Scene, TorusGeometry, Vector3, type BufferGeometry } from "three";
+import type { Theme } from "./colour";
+import type { Face, Meta } from "./format";
+import { extents } from "./outline";
+import type { Robot } from "./robot";
+import type { Kinematics } from "./kinematics";
+import { position, rotation } from "./kinematics";
+
+/** Decals of one kind of face, and where they are. */
+interface Decals {
+  mesh: InstancedMesh;
+  places: { body: number; local: Matrix4 }[];
+}
+
+const lift = 0.006; // of a body's size, above the face
+
+export class Marks {
+  faces = false;
+  axes = false;
+  private readonly decals: Decals[] = [];
+  private readonly parts: InstancedMesh[] = [];
+  private readonly material = new MeshBasicMaterial({ transparent: true, opacity: 0.95 });
+
+  constructor(private readonly meta: Meta, private readonly kinematics: Kinematics, private readonly robot: Robot, scene: Scene) {
+    const kinds = new Map<string, { face: Face; places: Decals["places"] }>();
+    meta.bodies.forEach((b, body) => {
+      for (const face of meta.faces[b.type] ?? []) {
+        const key = `${face.id}/${face.gender}`, kind = kinds.get(key) ?? { face, places: [] };
+        kind.places.push({ body, local: this.decal(b.type, face) });
+        kinds.set(key, kind);
+      }
+    });
+    for (const { face, places } of kinds.values()) {
+      const mesh = new InstancedMesh(new PlaneGeometry(1, 1), new MeshBasicMaterial({ map: plate(face), transparent: true, depthWrite: false, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 }), places.length);
+      mesh.frustumCulled = false;
+      mesh.renderOrder = 2;
+      scene.add(mesh);
+      this.decals.push({ mesh, places });
+    }
+    // An axis: a rod, a cone at its positive end, a ring around it.
+    const rod = new CylinderGeometry(0.028, 0.028, 2, 10), cone = new ConeGeometry(0.11, 0.34, 18).translate(0, 1.17, 0);
+    const ring = new TorusGeometry(0.2, 0.022, 8, 28).rotateX(Math.PI / 2).translate(0, 0.86, 0);
+    for (const part of [rod, cone, ring] as BufferGeometry[]) {
+      const mesh = new InstancedMesh(part, this.material, Math.max(meta.joints.length, 1));
+      mesh.count = meta.joints.length;
+      mesh.frustumCulled = false;
+      scene.add(mesh);
+      this.parts.push(mesh);
+    }
+  }
+
+  get anyFaces(): boolean { return this.decals.length > 0; }
+
+  set(): void {
+    const matrix = new Matrix4(), { kinematics, robot } = this;
+    for (const { mesh, places } of this.decals) {
+      mesh.visible = this.faces;
+      if (!this.faces) continue;
+      places.forEach(({ body, local }, n) => mesh.setMatrixAt(n, matrix.multiplyMatrices(robot.matrix(body), local)));
+      mesh.instanceMatrix.needsUpdate = true;
+    }
+    for (const mesh of this.parts) {
+      mesh.visible = this.axes;
+      if (!this.axes) continue;
+      robot.hinges.forEach((hinge, j) => {
+        const length = hinge.size.y + 0.3 * robot.unit;
+        mesh.setMatrixAt(j, matrix.compose(kinematics.pivots[j], kinematics.pivotTurns[j].clone().multiply(hinge.turn), new Vector3(length, length, length)));
+      });
+      mesh.instanceMatrix.needsUpdate = true;
+    }
+  }
+
+  /** Where the name of a joint stands: past the cone. */
+  tip(joint: number): Vector3 {
+    const { kinematics, robot } = this;
+    return robot.axes[joint].clone().applyQuaternion(kinematics.pivotTurns[joint]).multiplyScalar(1.5 * (robot.hinges[joint].size.y + 0.3 * robot.unit)).add(kinematics.pivots[joint]);
+  }
+
+  paint(theme: Theme): void { this.material.color.set(theme === "dark" ? 0xe39cc1 : 0x9a3f70); }
+
+  // On the face, its reference direction up, as large as the body is across it.
+  private decal(type: string, face: Face): Matrix4 {
+    const normal = new Vector3(...face.normal).normalize(), up = new Vector3(...face.reference).normalize(), right = up.clone().cross(normal);
+    let across = Infinity;
+    for (const shape of this.meta.geometry[type] ?? []) {
+      const half = extents(shape).half, turn = rotation(shape.pose).invert();
+      for (const v of [up, right]) {
+        const d = v.clone().applyQuaternion(turn);
+        across = Math.min(across, Math.abs(d.x) * half.x + Math.abs(d.y) * half.y + Math.abs(d.z) * half.z);
+      }
+    }
+    const size = Number.isFinite(across) ? Math.max(1.1 * across, 0.4 * this.robot.unit) : 0.5 * this.robot.unit;
+    const turn = new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(right, up, normal));
+    return new Matrix4().compose(position([...face.origin, 1, 0, 0, 0]).addScaledVector(normal, lift * this.robot.unit), turn, new Vector3(size, size, size));
+  }
+}
+
+/** A face's number: an active one is a filled disc, a passive one a ring; the wedge points along the reference direction. */
+function plate({ id, gender }: Face): CanvasTexture {
+  const canvas = document.createElement("canvas"), g = canvas.getContext("2d")!, c = 64;
+  canvas.width = canvas.height = 2 * c;
+  const fill = gender === "active" ? "#0a3f66" : "#fff8e8", stroke = gender === "active" ? "#ffffff" : "#6b4300";
+  g.fillStyle = fill;
+  g.strokeStyle = stroke;
+  g.lineWidth = 6;
+  g.beginPath();
+  g.arc(c, c + 6, 42, 0, 2 * Math.PI);
+  g.fill();
+  g.stroke();
+  g.fillStyle = stroke;
+  g.beginPath();
+  g.moveTo(c, 2);
+  g.lineTo(c + 12, 20);
+  g.lineTo(c - 12, 20);
+  g.fill();
+  g.font = "700 50px system-ui, sans-serif";
+  g.textAlign = "center";
+  g.textBaseline = "middle";
+  g.fillText(String(id), c, c + 9);
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = SRGBColorSpace;
+  return texture;
+}
