@@ -21,7 +21,7 @@ export function checks(desk: Desk): void {
       head.scope = "colgroup";
       body.append(make("tr.group", head));
     }
-    body.append(row(desk, check));
+    body.append(...rows(desk, check));
   }
   const chosen = verdict.checks.some((c) => c.limit !== null && c.source.includes("chosen"));
   element("checks-note").textContent = chosen ? "* The limit is chosen; no maker states it." : "";
@@ -29,34 +29,43 @@ export function checks(desk: Desk): void {
   element("counts").textContent = [[pass, "passed"], [warn, warn === 1 ? "warning" : "warnings"], [fail, "failed"], [open, "not judged"]].filter(([n]) => n).map(([n, word]) => `${n} ${word}`).join(", ");
 }
 
-function row(desk: Desk, check: Check): HTMLTableRowElement {
+function rows(desk: Desk, check: Check): HTMLTableRowElement[] {
   const open = make("button.link", check.title || check.id), more = make("div.more"), from = check.from ?? null;
   open.type = "button";
   open.setAttribute("aria-expanded", "false");
   const where = [check.joint ?? "", from !== null ? span(from, check.to ?? from) : ""].filter(Boolean).join(", ");
   if (where) more.append(make("p", make("b", where)));
-  if (check.status === "pass") more.append(make("p", sentence(check.text)));
+  const aloud = check.status === "warn" || check.status === "fail";
+  if (!aloud) more.append(make("p", sentence(check.text)));
   if (check.definition) more.append(make("p", sentence(check.definition)));
   if (check.source) more.append(make("p", `Limit: ${check.source}.`));
   more.hidden = true;
-  const what = make("td.what", open);
-  if (check.status !== "pass") what.append(make("span.why", sentence(check.text)));
-  if (check.missing) what.append(make("span.short", `${check.missing} missing`));
-  what.append(more);
   const limit = check.limit === null ? "no limit" : quantity(check.limit, check.unit) + (check.source.includes("chosen") ? "*" : "");
-  const made = make("tr", make("td.mark", icon(marks[check.status]), make("span.sr", words[check.status])), what, make("td.value", quantity(check.value, check.unit)), make("td.limit", limit));
-  made.className = `is-${check.status.replace(" ", "-")}`;
-  made.dataset.check = check.id;
-  made.addEventListener("click", () => {
-    const shown = !more.hidden, joint = desk.recording.meta.joints.findIndex((j) => j.name === check.joint);
-    for (const other of element("checks").querySelectorAll<HTMLElement>(".more")) other.hidden = true;
-    for (const other of element("checks").querySelectorAll("[aria-expanded]")) other.setAttribute("aria-expanded", "false");
-    more.hidden = shown;
-    open.setAttribute("aria-expanded", String(!shown));
-    if (joint >= 0) desk.choose(joint);
-    if (from !== null) desk.goTo(from);
+  const head = make("tr", make("td.mark", icon(marks[check.status]), make("span.sr", words[check.status])), make("td.what", open),
+    make("td.value", check.status === "not judged" ? "not judged" : quantity(check.value, check.unit)), make("td.limit", limit));
+  const text = make("td", ...(aloud ? [make("p.why", sentence(check.text))] : []), ...(check.missing ? [make("p.short", `Missing: ${check.missing}`)] : []), more), detail = make("tr", make("td"), text);
+  text.colSpan = 3;
+  detail.hidden = !aloud && !check.missing;
+  for (const one of [head, detail]) {
+    one.className = `is-${check.status.replace(" ", "-")}`;
+    one.classList.toggle("detail", one === detail);
+    one.addEventListener("click", () => {
+      const shown = !more.hidden, joint = desk.recording.meta.joints.findIndex((j) => j.name === check.joint);
+      element("checks").dispatchEvent(new Event("close"));
+      more.hidden = shown;
+      detail.hidden = shown && !aloud && !check.missing;
+      open.setAttribute("aria-expanded", String(!shown));
+      if (joint >= 0) desk.choose(joint);
+      if (from !== null) desk.goTo(from);
+    });
+  }
+  element("checks").addEventListener("close", () => {
+    more.hidden = true;
+    detail.hidden = !aloud && !check.missing;
+    open.setAttribute("aria-expanded", "false");
   });
-  return made;
+  head.dataset.check = check.id;
+  return [head, detail];
 }
 
 const sentence = (text: string): string => (text ? text.charAt(0).toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? "" : ".") : "");

@@ -27,12 +27,14 @@ export function icon(paths: string, box = 16): SVGSVGElement {
   return svg;
 }
 
-/** The panel around an element says why it shows nothing. */
-export function empty(host: HTMLElement, why: string): void {
-  const panel = host.closest<HTMLElement>(".panel") ?? host;
-  panel.classList.add("is-empty");
-  panel.querySelectorAll(".keyline, .note, .head select, .head label, .head button, .head .seg, .now").forEach((e) => e.remove());
-  host.replaceChildren(make("p.empty", why));
+/** Leaves the panel around an element out, and says why at the end of the page. */
+export function leaveOut(host: HTMLElement, why: string): void {
+  const panel = host.closest<HTMLElement>(".panel");
+  if (!panel) return;
+  panel.hidden = true;
+  const list = element("left-out");
+  list.hidden = false;
+  list.append(make("li", make("b", panel.querySelector("h3")?.textContent ?? ""), `: ${why}`));
 }
 
 export const panelOf = (id: string): HTMLElement => element(id).closest<HTMLElement>(".panel") ?? element(id);

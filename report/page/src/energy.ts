@@ -1,6 +1,6 @@
 // Where the energy went, and the electrical power over time.
 import type { Values } from "./channels";
-import { element, make } from "./dom";
+import { element, leaveOut, make } from "./dom";
 import { number, percent } from "./numbers";
 import type { Desk, Panel } from "./panel";
 import { TimePlot } from "./timeplot";
@@ -25,7 +25,7 @@ export class Energy implements Panel {
     element("power").hidden = !this.power;
     const drawn = energy?.electrical ?? null, host = element("energy");
     if (!energy || !drawn) {
-      host.append(make("p.empty", energy ? "The motors draw nothing." : "The summary has no energies."));
+      leaveOut(host, !recording.meta.motors.length ? "the joints have no motors." : energy ? "the motors draw nothing." : "the summary has no energies.");
       return;
     }
     const rows = sinks.filter(([key]) => Math.abs(energy[key] ?? 0) > 1e-4 * Math.abs(drawn));

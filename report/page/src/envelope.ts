@@ -1,7 +1,7 @@
 // Torque over speed in what the chosen joint's motor can give: all joints with such a motor as a cloud, the chosen one's last period
 // as a line, a ring where it is now.
 import { Board, font, frame, line, type Box, type Pen, type Scale } from "./board";
-import { element, empty } from "./dom";
+import { element, leaveOut } from "./dom";
 import { keys } from "./joint_plots";
 import { largest } from "./loads";
 import { least, limited, most } from "./motor";
@@ -15,7 +15,7 @@ export class Envelope implements Panel {
 
   constructor(private readonly desk: Desk) {
     const host = element("envelope"), { recording } = desk;
-    if (!recording.has("joint.0.torque") || !recording.has("joint.0.speed")) empty(host, "The recording has no torques and speeds of the joints (trace.columns).");
+    if (!recording.has("joint.0.torque") || !recording.has("joint.0.speed")) leaveOut(host, recording.meta.motors.length ? "the recording has no torques and speeds of the joints (trace.columns)." : "the joints have no motors.");
     else this.board = new Board(host, "Torque over speed, in what the motor can give", (pen, width, height) => this.draw(pen, width, height));
   }
 

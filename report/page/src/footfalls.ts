@@ -1,7 +1,7 @@
 // When each foot carries load, darker: more; beside it the duty factor of the judged window.
 import { Board, fitted, font, timeAxis, type Pen } from "./board";
 import type { Values } from "./channels";
-import { element, empty } from "./dom";
+import { element, leaveOut } from "./dom";
 import type { Desk, Panel } from "./panel";
 
 const left = 96, right = 46, foot = 22, threshold = 0.02; // of the weight
@@ -33,7 +33,7 @@ export class Footfalls implements Panel {
     this.most = Math.max(1e-9, ...this.feet.map((f) => f.load.reduce((a, b) => Math.max(a, b), 0)));
     this.head = this.host.querySelector<HTMLElement>(".playhead");
     if (!this.feet.length) {
-      empty(this.host, recording.meta.ground.kind === "none" ? "There is no ground." : recording.meta.contacts.length ? "No foot carries load, or the recording has no contacts (trace.columns)." : "Nothing of the robot touches the ground.");
+      leaveOut(this.host, recording.meta.ground.kind === "none" ? "there is no ground." : recording.meta.contacts.length ? "no foot carries load, or the recording has no contacts (trace.columns)." : "nothing of the robot touches the ground.");
       return;
     }
     this.host.style.height = `${foot + Math.max(Math.min(220, 60 * this.feet.length), Math.min(330, this.feet.length * 26))}px`;

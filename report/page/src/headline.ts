@@ -17,50 +17,55 @@ export function headline(desk: Desk): void {
   element("verdict").dataset.mood = mood;
   element("badge").append(icon(badges[mood], 24));
   element("said").textContent = said;
-  element("why").replaceChildren(...why.flatMap((s, i) => (i ? [" ", s] : [s])));
+  element("why").textContent = why.join(" ");
+  element("aside").textContent = aside(meta).join(" ");
   element("facts").append(...facts.map(([name, value, small]) => make("div", make("dt", name), make("dd", value, ...(small ? [make("small", ` ${small}`)] : [])))));
   const notes = element("missing");
   notes.hidden = !meta.missing.length;
   notes.append(...meta.missing.map((m) => make("li", ended(m))));
 }
 
-function judgement(desk: Desk, meta: Meta): { mood: Mood; said: string; why: (Node | string)[]; facts: Fact[] } {
+function judgement(desk: Desk, meta: Meta): { mood: Mood; said: string; why: string[]; facts: Fact[] } {
   const { checks, verdict } = meta.verdict;
   const gait = checks.filter((c) => c.group !== "trust"), failed = gait.filter((c) => c.status === "fail");
   if (meta.outcome === "not run") {
-    return { mood: "open", said: "Built, not run", why: ["The robot as the scenario describes it, before a run: its modules, hinge axes and faces. There is no verdict without a run."], facts: built(meta) };
+    return { mood: "open", said: "Built, not run", why: ["The robot as the scenario describes it: its modules, the axes of its hinges, its faces. A verdict needs a run."], facts: built(meta) };
   }
   if (verdict === "failed") {
-    return { mood: "bad", said: `The run ended early, at ${fixed(meta.duration, 2)} s`, why: [ended(capital(meta.outcome)), ...others(failed.filter((c) => c.id !== "outcome")), ...doubts(checks)], facts: walked(desk, meta) };
+    return { mood: "bad", said: `The run ended early, at ${fixed(meta.duration, 2)} s`, why: [ended(capital(meta.outcome)), ...others(failed.filter((c) => c.id !== "outcome"))], facts: walked(desk, meta) };
   }
   if (verdict === "infeasible") {
     const [first, ...rest] = failed;
     return {
       mood: "bad", said: "Not feasible with these motors",
-      why: first ? [ended(capital(first.text)), ...(first.source.includes("chosen") ? ["(The limit is chosen.)"] : []), ...others(rest), ...doubts(checks)] : [],
+      why: first ? [ended(capital(first.text)), ...(first.source.includes("chosen") ? ["(The limit is chosen.)"] : []), ...others(rest)] : [],
       facts: first ? shortfall(desk, first, failed) : walked(desk, meta),
     };
   }
   if (verdict === "not judged") {
-    return { mood: "open", said: "Not judged", why: ["Nothing is known of what the motors can do, so nobody can say whether they can do this.", ...others(failed), ...doubts(checks)], facts: walked(desk, meta) };
+    const cause = meta.motors.length ? "Nothing is known of what the motors can do, so nobody can say whether they can do this." : "There are no motors whose limits this run could exceed.";
+    return { mood: "open", said: "Not judged", why: [cause, ...others(failed)], facts: walked(desk, meta) };
   }
-  const near = nearest(gait), why = near ? [`Every limit that is known is kept. Nearest to its limit: ${inSentence(near.title)}, ${quantity(near.value, near.unit)} of ${quantity(near.limit, near.unit)}${near.joint ? ` (${near.joint})` : ""}.`] : [];
-  return { mood: "good", said: meta.motors.length ? "Feasible with these motors" : "Feasible", why: [...why, ...doubts(checks)], facts: walked(desk, meta) };
+  const near = nearest(gait), why = near ? [`Every limit that is known is kept. Nearest to its limit: ${quantity(near.value, near.unit)} of ${quantity(near.limit, near.unit)} (${inSentence(near.title)}${near.joint ? `: ${near.joint}` : ""}).`] : [];
+  return { mood: "good", said: meta.motors.length ? "Feasible with these motors" : "Feasible", why, facts: walked(desk, meta) };
 }
 
 function others(failed: Check[]): string[] {
-  return failed.length ? [`Over the limit, too: ${failed.map((c) => `${inSentence(c.title)} (${quantity(c.value, c.unit)})`).join(", ")}.`] : [];
+  return failed.length ? [`Also: ${briefly(failed)}.`] : [];
 }
 
+/** What the checks found, without advice. */
+const briefly = (found: Check[]): string => found.map((c) => c.text.split("; ")[0].replace(/[.]$/, "")).join("; ");
+
 // What limits the answer: warnings, what makes the numbers doubtful, what nobody judged.
-function doubts(checks: Check[]): string[] {
-  const of = (status: Check["status"], trust: boolean) => checks.filter((c) => c.status === status && (c.group === "trust") === trust);
-  const list = (found: Check[]) => found.map((c) => `${inSentence(c.title)} (${quantity(c.value, c.unit)})`).join(", ");
-  const warned = of("warn", false), doubtful = [...of("fail", true), ...of("warn", true)], open = of("not judged", false);
+function aside(meta: Meta): string[] {
+  if (meta.outcome === "not run") return [];
+  const of = (trust: boolean, ...status: Check["status"][]) => meta.verdict.checks.filter((c) => status.includes(c.status) && (c.group === "trust") === trust);
+  const warned = of(false, "warn"), doubtful = of(true, "warn", "fail"), open = of(false, "not judged"), bad = meta.verdict.verdict !== "feasible";
   return [
-    ...(warned.length ? [`Close to a limit: ${list(warned)}.`] : []),
-    ...(doubtful.length ? [`Reason to doubt the numbers: ${list(doubtful)}.`] : []),
-    ...(open.length ? [`Not judged, for want of a limit: ${open.map((c) => inSentence(c.title)).join(", ")}.`] : []),
+    ...(warned.length ? [bad ? `${capital(plural(warned.length, "warning"))}.` : `Warned of: ${briefly(warned)}.`] : []),
+    ...(doubtful.length ? [`Doubtful: ${briefly(doubtful)}.`] : []),
+    ...(open.length > 6 ? [`Not judged, for want of a limit or of what it takes: ${open.length} checks.`] : open.length ? [`Not judged, for want of a limit: ${open.map((c) => inSentence(c.title)).join(", ")}.`] : []),
   ];
 }
 
@@ -72,13 +77,16 @@ function nearest(checks: Check[]): Check | null {
 }
 
 function shortfall(desk: Desk, first: Check, failed: Check[]): Fact[] {
-  const { meta } = desk.recording, early = first.group === "motor" ? firstAtLimit(desk) : null, missing = failed.find((c) => c.missing);
-  const facts: Fact[] = [];
+  const { meta } = desk.recording, motor = first.id === "voltage" || first.id === "current", early = motor ? firstAtLimit(desk) : null;
+  const facts: Fact[] = [], missing = failed.find((c) => c.missing)?.missing;
   if (early) facts.push(["First at its limit", place(desk, meta.joints[early.joint].name, early.t), `at ${fixed(early.t, 2)} s`]);
-  if (first.joint) facts.push([early ? "Worst joint" : "Joint", place(desk, first.joint, first.from), first.joints > 1 ? `of ${plural(first.joints, "joint")}` : ""]);
-  if (first.from !== null) facts.push(["When", span(first.from, first.to ?? first.from)]);
-  facts.push(missing ? ["Missing", missing.missing] : first.limit !== null && first.id !== "voltage" && first.id !== "current" ? ["Found, limit", quantity(first.value, first.unit), `of ${quantity(first.limit, first.unit)}`]
-    : ["At its limit", quantity(first.value, first.unit), "of the time"]);
+  if (first.joint) facts.push([motor ? "Longest at its limit" : "Joint", place(desk, first.joint, first.from), motor ? `${quantity(first.value, first.unit)} of the time` : ""]);
+  if (first.from !== null) facts.push([motor ? "Its longest stretch" : "When", span(first.from, first.to ?? first.from)]);
+  const strays = failed.find((c) => c.id === "tracking");
+  if (missing) facts.push(["Missing", missing]);
+  else if (motor && strays) facts.push(["Off its set point", quantity(strays.value, strays.unit), `limit ${quantity(strays.limit, strays.unit)}`]);
+  else if (motor) facts.push(["Missing", "not measured"]);
+  else if (first.value !== null && first.limit !== null) facts.push(["Found", quantity(first.value, first.unit), `limit ${quantity(first.limit, first.unit)}`]);
   return facts;
 }
 
@@ -104,14 +112,15 @@ function place(desk: Desk, name: string, t: number | null): HTMLButtonElement {
 }
 
 function walked(desk: Desk, meta: Meta): Fact[] {
-  const { summary, cycle } = meta, facts: Fact[] = [], { peaks } = desk.loads;
+  const { summary, cycle } = meta, facts: Fact[] = [];
   if (desk.loads.limited) {
-    const from = desk.recording.judged, most = meta.joints.map((_, j) => desk.loads.share(j).reduce((a, x, i) => (i >= from && x > a ? x : a), 0)), j = most.indexOf(Math.max(...most));
-    facts.push(["Hardest worked", place(desk, meta.joints[j].name, null), percent(most[j], 2)]);
-  } else if (peaks.length) facts.push(["Largest torque", number(Math.max(...peaks)), "N m"]);
-  if (summary.speed) facts.push(["Speed", number(100 * summary.speed), "cm/s"]);
+    const { joint, share, t } = desk.loads.hardest;
+    facts.push(["Hardest worked", place(desk, meta.joints[joint].name, t), `${percent(share, 2)} of its motor`]);
+  } else if (desk.loads.peak > 1e-6) facts.push(["Largest torque", number(desk.loads.peak), "N m"]);
+  const walks = meta.ground.kind !== "none";
+  if (walks && summary.speed) facts.push(["Speed", number(100 * summary.speed), "cm/s"]);
   const cost = summary.cost_of_transport?.electrical ?? null;
-  if (cost !== null) facts.push(["Cost of transport", number(cost)]);
+  if (walks && cost) facts.push(["Cost of transport", number(cost)]);
   if (cycle) facts.push(["Period", number(cycle.period, 4), "s"]);
   return facts;
 }

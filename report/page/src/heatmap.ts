@@ -1,7 +1,7 @@
 // Every joint over time, darker: more. Of the rows that share a pixel the largest is shown, so no peak is lost.
 import { Board, fitted, font, timeAxis, type Pen } from "./board";
 import { load } from "./colour";
-import { element } from "./dom";
+import { element, leaveOut } from "./dom";
 import type { Quantity } from "./loads";
 import { number } from "./numbers";
 import type { Desk, Panel } from "./panel";
@@ -13,7 +13,7 @@ export class HeatMap implements Panel {
   private readonly board: Board;
   private readonly host = element("heat");
   private readonly head: HTMLElement;
-  private quantity: Quantity = "use";
+  private quantity: Quantity;
   private order: Order = "number";
 
   constructor(private readonly desk: Desk) {
@@ -26,6 +26,7 @@ export class HeatMap implements Panel {
     if (!desk.loads.limited) what.querySelector("[value=use]")?.remove();
     if (desk.recording.meta.joints.length <= 12) order.querySelector("[value=top]")?.remove();
     this.quantity = what.value as Quantity;
+    if (!what.options.length) leaveOut(this.host, "the recording has no torques of the joints (trace.columns), or they have no motors.");
     what.addEventListener("change", () => { this.quantity = what.value as Quantity; this.paint(); });
     order.addEventListener("change", () => { this.order = order.value as Order; this.paint(); });
     this.host.addEventListener("click", (e) => this.click(e));
@@ -37,7 +38,7 @@ export class HeatMap implements Panel {
     this.board.paint();
     this.seek(this.desk.state.t);
     const scale = loads.scale(this.quantity);
-    element("heat-note").textContent = { use: "of what the motor can give at that speed", torque: `to ${number(scale)} N m`, current: `to ${number(scale)} A`, error: `to ${number(scale)} rad` }[this.quantity];
+    element("heat-note").textContent = { use: "100 % of what the motor can give at that speed", torque: `${number(scale)} N m`, current: `${number(scale)} A`, error: `${number(scale)} rad` }[this.quantity];
     element("heat-ramp").style.background = `linear-gradient(90deg,${[0, 0.25, 0.5, 0.8, 1].map((x) => `rgb(${load(ink.theme, x).join(",")}) ${100 * x}%`).join(",")})`;
   }
 

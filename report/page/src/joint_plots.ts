@@ -1,5 +1,5 @@
 // The chosen joint over time: angle, set point and torque; what its motor is asked for and draws.
-import { make, element, empty } from "./dom";
+import { element, leaveOut, make } from "./dom";
 import { fixed, number, percent } from "./numbers";
 import type { Desk, Panel, Span } from "./panel";
 import { TimePlot, type Level } from "./timeplot";
@@ -40,7 +40,7 @@ export class JointPlots implements Panel {
       }));
       keys("motion-key", [["dash", "--ink", setpoint ? "set point" : ""], ["", "--blue", "angle (left)"], ["", "--vermillion", torque ? "torque (right)" : ""],
         ["band", "--band", bands.length ? "motor at its limit" : ""], ["dots", "--fail", reached ? "end of its range" : ""]]);
-    } else empty(element("motion"), "The recording has no angles of the joints (trace.columns).");
+    } else leaveOut(element("motion"), "the recording has no angles of the joints (trace.columns).");
     this.drive(bands);
     this.seek(desk.state.t);
   }
@@ -61,7 +61,7 @@ export class JointPlots implements Panel {
   }
 
   /** So that a small motor's torque has three digits. */
-  get decimals(): number { return Math.max(2, Math.ceil(-Math.log10(this.desk.loads.peak)) + 2); }
+  get decimals(): number { return Math.max(2, Math.ceil(-Math.log10(this.desk.loads.peak)) + 1); }
 
   private has(name: string): boolean { return this.desk.recording.has(`joint.0.${name}`); }
 

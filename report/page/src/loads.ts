@@ -35,6 +35,16 @@ export class Loads {
 
   shareAt(joint: number, t: number): number { return this.recording.at(this.share(joint), t); }
 
+  /** The joint that takes the largest share in the judged window, and when. */
+  get hardest(): { joint: number; share: number; t: number } {
+    const { recording } = this, found = { joint: 0, share: -1, t: 0 };
+    recording.meta.joints.forEach((_, joint) => {
+      const shares = this.share(joint);
+      for (let i = recording.judged; i < shares.length; i++) if (shares[i] > found.share) Object.assign(found, { joint, share: shares[i], t: recording.times[i] });
+    });
+    return found;
+  }
+
   /** What 1 stands for in `of`. */
   scale(quantity: Quantity): number {
     const { recording } = this;

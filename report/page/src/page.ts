@@ -47,7 +47,7 @@ export class Page implements Desk {
     this.width = this.stretches.four;
     const failing = verdict.checks.find((c) => c.status === "fail" && c.joint), first = failing?.group === "motor" ? firstAtLimit(this) : null;
     const index = (name: string | null | undefined) => meta.joints.findIndex((j) => j.name === name);
-    const start = [index(this.link.get("joint")), index(failing?.joint), this.loads.peaks.indexOf(Math.max(...this.loads.peaks)), 0].find((j) => j >= 0) ?? 0;
+    const start = [index(this.link.get("joint")), index(failing?.joint)].find((j) => j >= 0) ?? this.loads.hardest.joint;
     this.state = { t: 0, joint: meta.joints.length ? start : -1, playing: false, rate: 1, span: [0, all] };
     const t = this.link.has("t") ? Number(this.link.get("t")) : failing?.from ?? first?.t ?? (recording.ran ? Math.max(verdict.window.from, 0) : 0);
     this.state.t = this.within(Number.isFinite(t) ? t : 0);
@@ -159,7 +159,8 @@ export class Page implements Desk {
       meta.channels.length ? "Values on this page are rounded; the trace beside it has them in full." : "", meta.command ? `Again: ${meta.command}` : ""].filter(Boolean).join(" ");
     element("scenario").textContent = meta.scenario;
     const { window, checks: all } = meta.verdict;
-    element("definitions").append(make("p", `Judged from ${number(window.from, 4)} to ${number(window.to, 4)} s; the start is shown, and not judged.`),
+    element("definitions").parentElement!.hidden = !ran;
+    if (ran) element("definitions").append(make("p", `Judged from ${number(window.from, 4)} to ${number(window.to, 4)} s; the start is shown, and not judged.`),
       make("ul", ...all.filter((c) => c.definition).map((c) => make("li", make("b", c.title), `: ${c.definition}${c.source ? ` (limit: ${c.source})` : ""}`))));
   }
 
@@ -181,10 +182,11 @@ export class Page implements Desk {
     if (keep("envelope", recording.ran && jointed)) this.panels.push(new Envelope(this));
     if (keep("heat", recording.ran && jointed)) this.panels.push(new HeatMap(this));
     if (keep("foot", recording.ran && meta.ground.kind !== "none")) this.panels.push(new Footfalls(this));
-    if (keep("path", recording.ran)) this.panels.push(new Path(this));
+    if (keep("path", recording.ran && meta.ground.kind !== "none")) this.panels.push(new Path(this));
     if (keep("docks", recording.ran && meta.docks.length > 0)) docks(recording);
     if (keep("phase", recording.ran && jointed)) this.panels.push(new Phases(this));
     if (keep("energy", recording.ran && jointed)) this.panels.push(new Energy(this));
+    // Those that have nothing to show are left out by now.
     for (const row of document.querySelectorAll<HTMLElement>(".row")) {
       const shown = [...row.children].filter((c) => !(c as HTMLElement).hidden).length;
       row.hidden = !shown;
@@ -216,6 +218,7 @@ export class Page implements Desk {
         this.width = this.stretches[b.dataset.stretch as Stretch];
         this.show(this.spanAround());
       });
+      b.hidden = b.dataset.stretch !== "all" && this.stretches[b.dataset.stretch as Stretch] >= this.stretches.all;
     }
     this.show(this.state.span);
     addEventListener("keydown", (e) => this.key(e));

@@ -1,7 +1,7 @@
 // The way of the centre of mass from above, one scale both ways, with the prints of the feet.
 import { Board, frame, type Box, type Pen, type Scale } from "./board";
 import type { Values } from "./channels";
-import { element, empty } from "./dom";
+import { element, leaveOut } from "./dom";
 import { keys } from "./joint_plots";
 import type { Desk, Panel } from "./panel";
 
@@ -18,7 +18,7 @@ export class Path implements Panel {
     [this.x, this.y] = ["x", "y"].map((c) => recording.channel(`com.${c}`));
     const feet = recording.meta.feet.map((_, n) => ["fz", "x", "y"].map((c) => recording.find(`foot.${n}.${c}`)));
     this.prints = feet.length <= 12 ? feet.filter((f): f is [Values, Values, Values] => f.every((v) => v)) : [];
-    if (!recording.has("com.x")) empty(element("path"), "The recording has no centre of mass (trace.columns: com.*).");
+    if (!recording.has("com.x")) leaveOut(element("path"), "the recording has no centre of mass (trace.columns: com.*).");
     else this.board = new Board(element("path"), "Way of the centre of mass from above", (pen, width, height) => this.draw(pen, width, height));
   }
 

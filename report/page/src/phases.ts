@@ -1,6 +1,6 @@
 // First harmonic of every joint in the limit cycle: how far it lags behind the first that swings, and how wide it swings.
 import { Board, axisName, font, line, type Box, type Pen } from "./board";
-import { element, empty } from "./dom";
+import { element, leaveOut } from "./dom";
 import { keys } from "./joint_plots";
 import type { Desk, Panel } from "./panel";
 
@@ -16,8 +16,8 @@ export class Phases implements Panel {
     const { phases, joints, cycle } = desk.recording.meta;
     this.widest = Math.max(...phases.map((p) => p.setpoint[0]), 1e-9);
     this.reference = Math.max(phases.findIndex((p) => p.setpoint[0] > 0.2 * this.widest), 0);
-    if (!phases.length) {
-      empty(element("phase"), cycle ? "The joints' phases are not known." : "No limit cycle was found, so there are no phases.");
+    if (!phases.length || !phases.some((p) => p.setpoint[0] > 1e-6)) {
+      leaveOut(element("phase"), cycle ? "no joint is given a set point that swings." : "no limit cycle was found.");
       return;
     }
     element("phase-note").textContent = `behind ${joints[this.reference].name}`;

@@ -3,7 +3,7 @@
 import { BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide, DynamicDrawUsage, EdgesGeometry, InstancedMesh, LineBasicMaterial,
   LineSegments, Matrix4, MeshBasicMaterial, MeshLambertMaterial, Quaternion, SRGBColorSpace, Scene, Vector3, type Intersection, type Raycaster } from "three";
 import { load, type Theme } from "./colour";
-import type { Body, Meta } from "./format";
+import type { Body, Meta, Shape } from "./format";
 import type { Kinematics } from "./kinematics";
 import { position, rotation } from "./kinematics";
 import { extents, outline, type Piece } from "./outline";
@@ -41,6 +41,7 @@ export class Robot {
   private readonly shade = new MeshBasicMaterial({ side: DoubleSide });
   private readonly matrices: Matrix4[];
   private readonly press: Matrix4 | null;
+  private readonly corners = new Map<string, Vector3[]>(); // of a body type's pieces
   private theme: Theme = "light";
 
   constructor(private readonly meta: Meta, private readonly kinematics: Kinematics, scene: Scene, light: Vector3) {
@@ -54,6 +55,7 @@ export class Robot {
     bodies.forEach((b, i) => types.set(b.type, [...(types.get(b.type) ?? []), i]));
     let points = 0;
     for (const [type, members] of types) {
+      this.corners.set(type, (meta.geometry[type] ?? []).flatMap(corners));
       const role = bodies[members[0]].role, material = this.materials[role === "active" || role === "passive" ? role : "other"];
       for (const piece of outline(meta.geometry[type] ?? [])) {
         const mesh = new InstancedMesh(piece.body, material, members.length), shadow = this.press ? new InstancedMesh(piece.shadow, this.shade, members.length) : null;
@@ -136,10 +138,13 @@ export class Robot {
     return near[0] ?? -1;
   }
 
-  /** Corners of everything, for framing: the positions of all bodies, or of those of a joint. */
+  /** Corners for framing: of all bodies, or around a joint. */
   points(joint = -1): Vector3[] {
-    const { positions, pivots } = this.kinematics;
-    if (joint < 0) return positions;
+    const { positions, turns, pivots } = this.kinematics;
+    if (joint < 0) {
+      const corners = this.meta.bodies.flatMap((b, i) => (this.corners.get(b.type) ?? []).map((c) => c.clone().applyQuaternion(turns[i]).add(positions[i])));
+      return corners.length ? corners : positions;
+    }
     const p = pivots[joint], r = 1.6 * this.unit;
     return [[r, 0, 0], [-r, 0, 0], [0, r, 0], [0, -r, 0], [0, 0, r], [0, 0, -r]].map(([x, y, z]) => new Vector3(p.x + x, p.y + y, p.z + z));
   }
@@ -161,7 +166,7 @@ export class Robot {
     if (child < 0) return fallback;
     const inverse = new Matrix4().compose(position(bodies[child].post), rotation(bodies[child].post), new Vector3(1, 1, 1)).invert();
     const toParent = new Matrix4().compose(position(bodies[child].pre), rotation(bodies[child].pre), new Vector3(1, 1, 1));
-    let radius = Infinity, half = 0;
+    let radius = 0.04 * this.unit, half = 0;
     const look = (body: Body, fromPivot: Matrix4) => {
       for (const shape of geometry[body.type] ?? []) {
         const own = new Matrix4().compose(position(shape.pose), rotation(shape.pose), new Vector3(1, 1, 1)).invert().multiply(fromPivot);
@@ -171,13 +176,12 @@ export class Robot {
         const along = Math.abs(a.x) * h.x + Math.abs(a.y) * h.y + Math.abs(a.z) * h.z;
         const across = [h.x, h.y, h.z].filter((_, k) => Math.abs([a.x, a.y, a.z][k]) < 0.5);
         half = Math.max(half, along);
-        radius = Math.min(radius, shape.kind === "half_cylinder" ? shape.size[0] : Math.max(...across, 0.1 * this.unit));
+        radius = Math.max(radius, 0.55 * (shape.kind === "half_cylinder" ? shape.size[0] : Math.min(...across)));
       }
     };
     look(bodies[child], inverse);
     if (bodies[child].parent >= 0) look(bodies[bodies[child].parent], toParent);
     if (half === 0) return fallback;
-    radius = Math.min(0.55 * radius, 0.45 * this.unit);
     return new Vector3(radius, half + 0.023 * this.unit, radius);
   }
 }
@@ -200,6 +204,11 @@ export function place(points: Float32Array, m: Matrix4, out: Float32Array, at: n
     out[at + i + 2] = e[2] * x + e[6] * y + e[10] * z + e[14];
   }
   return points.length;
+}
+
+function corners(shape: Shape): Vector3[] {
+  const { centre, half } = extents(shape), at = position(shape.pose), turn = rotation(shape.pose);
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((k) => half.clone().multiply(new Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)).add(centre).applyQuaternion(turn).add(at));
 }
 
 /** Onto the plane z = height, along the light. */

@@ -82,7 +82,7 @@ export class Stage implements Panel {
     const at = j >= 0 ? view.place(j) : null;
     this.tag.hidden = !at;
     if (at) {
-      const torque = recording.find(`joint.${j}.torque`), width = this.host.clientWidth, decimals = Math.max(2, Math.ceil(-Math.log10(loads.peak)) + 2);
+      const torque = recording.find(`joint.${j}.torque`), width = this.host.clientWidth, decimals = Math.max(2, Math.ceil(-Math.log10(loads.peak)) + 1);
       const numbers = recording.ran && torque ? ` ${fixed(recording.at(torque, state.t), decimals)} N m${loads.limited ? `, ${percent(Math.round(100 * loads.shareAt(j, state.t)) / 100)}` : ""}` : "";
       this.tag.replaceChildren(make("b", joints[j].name), numbers);
       const half = this.tag.offsetWidth / 2, x = Math.min(Math.max(at[0], half + 8), width - half - 8), under = at[1] < 84;

@@ -1,5 +1,5 @@
 // The robot in 3D, its ground, arrows and marks; camera, picking, framing.
-import { BufferAttribute, BufferGeometry, Color, DirectionalLight, Fog, HemisphereLight, Line, LineBasicMaterial, PerspectiveCamera, Raycaster, Scene,
+import { Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, Fog, HemisphereLight, Line, LineBasicMaterial, PerspectiveCamera, Raycaster, Scene,
   Vector2, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Theme } from "./colour";
@@ -85,7 +85,7 @@ export class View {
       let most = 0;
       for (const p of points) {
         v.copy(p).project(this.camera);
-        most = Math.max(most, (Math.abs(v.x) + 0.06) / 0.8, (Math.abs(v.y) + 0.1) / 0.74);
+        most = Math.max(most, Math.abs(v.x) / 0.86, Math.abs(v.y) / 0.74);
       }
       distance *= Math.min(Math.max(most, 0.25), 4);
     }
@@ -181,10 +181,7 @@ export class View {
   }
 
   private extent(): number {
-    const { positions } = this.kinematics;
-    let widest = 0;
-    for (const a of positions) for (const b of positions) widest = Math.max(widest, a.distanceToSquared(b));
-    return Math.sqrt(widest) + 2 * this.robot.unit;
+    return Math.max(new Box3().setFromPoints(this.robot.points()).getSize(new Vector3()).length(), this.robot.unit);
   }
 
   private area(): Area {
@@ -195,6 +192,10 @@ export class View {
         out[k] = Math.min(out[k], v);
         out[k + 1] = Math.max(out[k + 1], v);
       }
+      // A run that diverged goes anywhere.
+      const start = values[0], far = 60 * this.size;
+      out[k] = Math.max(out[k], start - far);
+      out[k + 1] = Math.min(out[k + 1], start + far);
     }
     return out;
   }
