@@ -4,10 +4,12 @@ import type { Check, Meta } from "./format";
 import { fixed, number, percent, plural, quantity, span } from "./numbers";
 import type { Desk } from "./panel";
 
-type Mood = "good" | "bad" | "open";
+type Mood = "good" | "bad" | "open" | "plan";
 type Fact = [name: string, value: Node | string, small?: string];
 
-const badges: Record<Mood, string> = { good: "M5 12.5l4.6 4.6L19 7.5", bad: "M6 6l12 12M18 6L6 18", open: "M8.6 9.2a3.5 3.5 0 1 1 5.2 3.1c-1.2.7-1.8 1.3-1.8 2.6M12 18.4v.1" };
+const badges: Record<Mood, string> = {
+  plan: "M12 6.6v.1M12 11v6.6",
+  good: "M5 12.5l4.6 4.6L19 7.5", bad: "M6 6l12 12M18 6L6 18", open: "M8.6 9.2a3.5 3.5 0 1 1 5.2 3.1c-1.2.7-1.8 1.3-1.8 2.6M12 18.4v.1" };
 const inSentence = (title: string): string => (/^[A-Z][a-z]/.test(title) ? title[0].toLowerCase() + title.slice(1) : title);
 const ended = (text: string): string => (/[.!?]$/.test(text) ? text : `${text}.`);
 const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
@@ -19,6 +21,7 @@ export function headline(desk: Desk): void {
   element("said").textContent = said;
   element("why").textContent = why.join(" ");
   element("aside").textContent = aside(meta).join(" ");
+  element("facts").dataset.count = String(facts.length);
   element("facts").append(...facts.map(([name, value, small]) => make("div", make("dt", name), make("dd", value, ...(small ? [make("small", ` ${small}`)] : [])))));
   const notes = element("missing");
   notes.hidden = !meta.missing.length;
@@ -29,7 +32,7 @@ function judgement(desk: Desk, meta: Meta): { mood: Mood; said: string; why: str
   const { checks, verdict } = meta.verdict;
   const gait = checks.filter((c) => c.group !== "trust"), failed = gait.filter((c) => c.status === "fail");
   if (meta.outcome === "not run") {
-    return { mood: "open", said: "Built, not run", why: ["The robot as the scenario describes it: its modules, the axes of its hinges, its faces. A verdict needs a run."], facts: built(meta) };
+    return { mood: "plan", said: "Built, not run", why: ["The robot as the scenario describes it: its modules, the axes of its hinges, its faces. A verdict needs a run."], facts: built(meta) };
   }
   if (verdict === "failed") {
     return { mood: "bad", said: `The run ended early, at ${fixed(meta.duration, 2)} s`, why: [ended(capital(meta.outcome)), ...others(failed.filter((c) => c.id !== "outcome"))], facts: walked(desk, meta) };

@@ -1,6 +1,6 @@
 // What a builder looks for, in 3D: numbers of the free and docked faces, and the axes of the hinges with the sense of a positive turn.
-import { CanvasTexture, ConeGeometry, CylinderGeometry, DoubleSide, InstancedMesh, Matrix4, MeshBasicMaterial, PlaneGeometry, Quaternion, SRGBColorSpace,
-  Scene, TorusGeometry, Vector3, type BufferGeometry } from "three";
+import { CanvasTexture, ConeGeometry, CylinderGeometry, InstancedMesh, Matrix4, MeshBasicMaterial, PlaneGeometry, Quaternion, SRGBColorSpace,
+  Scene, Vector3, type BufferGeometry } from "three";
 import type { Theme } from "./colour";
 import type { Face, Meta } from "./format";
 import { extents } from "./outline";
@@ -14,7 +14,8 @@ interface Decals {
   places: { body: number; local: Matrix4 }[];
 }
 
-const lift = 0.006; // of a body's size, above the face
+const screenUp = new Vector3(-0.25, 0.34, 0.9); // of the view the page begins with
+const lift = 0.032; // of a body's size, above the face: a hinge's disc may be there
 
 export class Marks {
   faces = false;
@@ -24,25 +25,24 @@ export class Marks {
   private readonly material = new MeshBasicMaterial({ transparent: true, opacity: 0.95 });
 
   constructor(private readonly meta: Meta, private readonly kinematics: Kinematics, private readonly robot: Robot, scene: Scene) {
-    const kinds = new Map<string, { face: Face; places: Decals["places"] }>();
+    const kinds = new Map<string, { face: Face; quarters: number; places: Decals["places"] }>();
     meta.bodies.forEach((b, body) => {
       for (const face of meta.faces[b.type] ?? []) {
-        const key = `${face.id}/${face.gender}`, kind = kinds.get(key) ?? { face, places: [] };
-        kind.places.push({ body, local: this.decal(b.type, face) });
+        const quarters = this.quarters(body, face), key = `${face.id}/${face.gender}/${quarters}`, kind = kinds.get(key) ?? { face, quarters, places: [] };
+        kind.places.push({ body, local: this.decal(b.type, face, quarters) });
         kinds.set(key, kind);
       }
     });
-    for (const { face, places } of kinds.values()) {
-      const mesh = new InstancedMesh(new PlaneGeometry(1, 1), new MeshBasicMaterial({ map: plate(face), transparent: true, depthWrite: false, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 }), places.length);
+    for (const { face, quarters, places } of kinds.values()) {
+      const mesh = new InstancedMesh(new PlaneGeometry(1, 1), new MeshBasicMaterial({ map: plate(face, quarters), transparent: true, depthWrite: false }), places.length);
       mesh.frustumCulled = false;
       mesh.renderOrder = 2;
       scene.add(mesh);
       this.decals.push({ mesh, places });
     }
-    // An axis: a rod, a cone at its positive end, a ring around it.
-    const rod = new CylinderGeometry(0.028, 0.028, 2, 10), cone = new ConeGeometry(0.11, 0.34, 18).translate(0, 1.17, 0);
-    const ring = new TorusGeometry(0.2, 0.022, 8, 28).rotateX(Math.PI / 2).translate(0, 0.86, 0);
-    for (const part of [rod, cone, ring] as BufferGeometry[]) {
+    // An axis: a rod, and a cone at its positive end.
+    const rod = new CylinderGeometry(0.022, 0.022, 2, 10), cone = new ConeGeometry(0.085, 0.3, 18).translate(0, 1.15, 0);
+    for (const part of [rod, cone] as BufferGeometry[]) {
       const mesh = new InstancedMesh(part, this.material, Math.max(meta.joints.length, 1));
       mesh.count = meta.joints.length;
       mesh.frustumCulled = false;
@@ -80,9 +80,16 @@ export class Marks {
 
   paint(theme: Theme): void { this.material.color.set(theme === "dark" ? 0xe39cc1 : 0x9a3f70); }
 
-  // On the face, its reference direction up, as large as the body is across it.
-  private decal(type: string, face: Face): Matrix4 {
-    const normal = new Vector3(...face.normal).normalize(), up = new Vector3(...face.reference).normalize(), right = up.clone().cross(normal);
+  // Quarter turns from the reference direction, after which the number stands upright as the robot starts.
+  private quarters(body: number, face: Face): number {
+    const normal = new Vector3(...face.normal), reference = new Vector3(...face.reference);
+    const heights = [0, 1, 2, 3].map((k) => reference.clone().applyAxisAngle(normal, k * Math.PI / 2).applyQuaternion(this.kinematics.turns[body]).dot(screenUp));
+    return heights.indexOf(Math.max(...heights));
+  }
+
+  // On the face, as large as the body is across it.
+  private decal(type: string, face: Face, quarters: number): Matrix4 {
+    const normal = new Vector3(...face.normal).normalize(), up = new Vector3(...face.reference).normalize().applyAxisAngle(normal, quarters * Math.PI / 2), right = up.clone().cross(normal);
     let across = Infinity;
     for (const shape of this.meta.geometry[type] ?? []) {
       const half = extents(shape).half, turn = rotation(shape.pose).invert();
@@ -91,14 +98,14 @@ export class Marks {
         across = Math.min(across, Math.abs(d.x) * half.x + Math.abs(d.y) * half.y + Math.abs(d.z) * half.z);
       }
     }
-    const size = Number.isFinite(across) ? Math.max(1.1 * across, 0.4 * this.robot.unit) : 0.5 * this.robot.unit;
+    const size = Number.isFinite(across) ? Math.max(1.5 * across, 0.4 * this.robot.unit) : 0.5 * this.robot.unit;
     const turn = new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(right, up, normal));
     return new Matrix4().compose(position([...face.origin, 1, 0, 0, 0]).addScaledVector(normal, lift * this.robot.unit), turn, new Vector3(size, size, size));
   }
 }
 
-/** A face's number: an active one is a filled disc, a passive one a ring; the wedge points along the reference direction. */
-function plate({ id, gender }: Face): CanvasTexture {
+/** A face's number: on a filled disc of an active one, in a ring of a passive one; the wedge points along the reference direction. */
+function plate({ id, gender }: Face, quarters: number): CanvasTexture {
   const canvas = document.createElement("canvas"), g = canvas.getContext("2d")!, c = 64;
   canvas.width = canvas.height = 2 * c;
   const fill = gender === "active" ? "#0a3f66" : "#fff8e8", stroke = gender === "active" ? "#ffffff" : "#6b4300";
@@ -106,19 +113,23 @@ function plate({ id, gender }: Face): CanvasTexture {
   g.strokeStyle = stroke;
   g.lineWidth = 6;
   g.beginPath();
-  g.arc(c, c + 6, 42, 0, 2 * Math.PI);
+  g.arc(c, c, 46, 0, 2 * Math.PI);
   g.fill();
   g.stroke();
   g.fillStyle = stroke;
   g.beginPath();
-  g.moveTo(c, 2);
-  g.lineTo(c + 12, 20);
-  g.lineTo(c - 12, 20);
+  g.save();
+  g.translate(c, c);
+  g.rotate(quarters * Math.PI / 2);
+  g.moveTo(0, -64);
+  g.lineTo(15, -42);
+  g.lineTo(-15, -42);
   g.fill();
-  g.font = "700 50px system-ui, sans-serif";
+  g.restore();
+  g.font = "700 58px system-ui, sans-serif";
   g.textAlign = "center";
   g.textBaseline = "middle";
-  g.fillText(String(id), c, c + 9);
+  g.fillText(String(id), c, c + 4);
   const texture = new CanvasTexture(canvas);
   texture.colorSpace = SRGBColorSpace;
   return texture;

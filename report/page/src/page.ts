@@ -10,7 +10,7 @@ import { firstAtLimit, headline } from "./headline";
 import { HeatMap } from "./heatmap";
 import { JointPlots } from "./joint_plots";
 import { Loads } from "./loads";
-import { number, plural } from "./numbers";
+import { number, plural, quantity } from "./numbers";
 import { Overview } from "./overview";
 import type { Desk, Panel, Span, State } from "./panel";
 import { parts } from "./parts";
@@ -148,15 +148,15 @@ export class Page implements Desk {
   private text(): void {
     const { meta } = this.recording, ran = meta.outcome !== "not run";
     element("name").textContent = meta.name;
-    const step = meta.step !== null ? `step ${number(1000 * meta.step)} ms` : meta.accuracy !== null ? `accuracy ${number(meta.accuracy)}` : "";
+    const step = meta.step !== null ? `step ${quantity(1000 * meta.step, "ms")}` : meta.accuracy !== null ? `accuracy ${number(meta.accuracy)}` : "";
     element("about").textContent = [
-      `${plural(meta.modules.length, "module")}, ${plural(meta.joints.length, "joint")}, ${number(meta.mass)} kg`,
-      ...(ran ? [`${meta.cpg}${meta.frequency ? ` at ${number(meta.frequency)} Hz` : ""}`, `${number(meta.duration, 4)} s`] : []),
+      `${plural(meta.modules.length, "module")}, ${plural(meta.joints.length, "joint")}, ${quantity(meta.mass, "kg")}`,
+      ...(ran ? [`${meta.cpg}${meta.frequency ? ` at ${quantity(meta.frequency, "Hz")}` : ""}`, quantity(meta.duration, "s")] : []),
       `engine ${meta.engine}${step ? `, ${step}` : ""}`,
     ].filter(Boolean).join(" · ");
     headline(this);
-    element("foot-text").textContent = [`gaitlab ${meta.build}.`, meta.summary.trace_hash ? `Trace hash ${meta.summary.trace_hash}.` : "",
-      meta.channels.length ? "Values on this page are rounded; the trace beside it has them in full." : "", meta.command ? `Again: ${meta.command}` : ""].filter(Boolean).join(" ");
+    element("foot-text").textContent = [`gaitlab ${meta.build}.`, ...(ran ? [`Trace hash ${meta.summary.trace_hash ?? "unknown"}.`, "Values on this page are rounded; the trace beside it has them in full.",
+      `The same run again: ${meta.command}`] : [])].join(" ");
     element("scenario").textContent = meta.scenario;
     const { window, checks: all } = meta.verdict;
     element("definitions").parentElement!.hidden = !ran;

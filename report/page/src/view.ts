@@ -75,20 +75,19 @@ export class View {
 
   /** As near as shows every body, or one joint's, with room around and for what is written above. */
   look(from: Look, joint = -1): void {
-    const centre = joint < 0 ? this.centre(this.time) : this.kinematics.pivots[joint].clone(), points = this.robot.points(joint), v = new Vector3();
-    this.controls.target.copy(centre);
+    const points = this.robot.points(joint), centre = new Box3().setFromPoints(points).getCenter(new Vector3()), v = new Vector3();
     let distance = joint < 0 ? this.size : 6 * this.robot.unit;
     for (let i = 0; i < 6; i++) {
       this.camera.position.copy(directions[from]).normalize().multiplyScalar(distance).add(centre);
       this.camera.lookAt(centre);
       this.camera.updateMatrixWorld();
-      let most = 0;
-      for (const p of points) {
-        v.copy(p).project(this.camera);
-        most = Math.max(most, Math.abs(v.x) / 0.86, Math.abs(v.y) / 0.74);
-      }
-      distance *= Math.min(Math.max(most, 0.25), 4);
+      const seen = new Box3().setFromPoints(points.map((p) => v.copy(p).project(this.camera).clone())), middle = seen.getCenter(new Vector3()), half = seen.getSize(new Vector3()).divideScalar(2);
+      const up = distance * Math.tan(this.camera.fov * Math.PI / 360);
+      centre.add(v.set(middle.x * up * this.camera.aspect, (middle.y + 0.04) * up, 0).applyQuaternion(this.camera.quaternion));
+      distance *= Math.min(Math.max(half.x / 0.86, half.y / 0.74, 0.25), 4);
     }
+    this.camera.position.copy(directions[from]).normalize().multiplyScalar(distance).add(centre);
+    this.controls.target.copy(centre);
     this.controls.update();
     this.dirty = true;
   }
