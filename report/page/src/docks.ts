@@ -12,6 +12,7 @@ export function docks(recording: Recording): void {
   if (!shown.length) {
     element("docks-note").textContent = "The recording has no loads of docks (trace.columns: reaction.*).";
     table.append(...joins(recording));
+    shorten(table);
     return;
   }
   element("docks-note").textContent = "largest in the judged window";
@@ -22,24 +23,27 @@ export function docks(recording: Recording): void {
   }));
   const largest = shown.map((_, k) => Math.max(...peaks.map((p) => p[k]), 1e-9)), by = shown.findIndex(([k]) => k === "bending");
   const order = meta.docks.map((_, n) => n).sort((a, b) => peaks[b][Math.max(by, 0)] - peaks[a][Math.max(by, 0)]);
-  const body = make("tbody", ...order.map((n, rank) => {
-    const made = make("tr", head(recording, n), ...shown.map((_, k) => {
+  const body = make("tbody", ...order.map((n) => make("tr", head(recording, n), ...shown.map((_, k) => {
       const fill = make("i"), value = peaks[n][k];
       fill.style.width = `${(100 * value / largest[k]).toFixed(1)}%`;
       return make("td", make("span.bar", fill, make("span", number(value))));
-    }));
-    made.hidden = rank >= few;
-    return made;
-  }));
+    }))));
   table.append(make("thead", make("tr", make("th", "dock"), ...shown.map(([kind, unit]) => make("th", kind, make("small", ` ${unit}`))))), body);
-  if (order.length <= few) return;
-  const all = make("button", `All ${order.length} docks`);
+  shorten(table);
+}
+
+/** A dozen rows, and a button for all. */
+function shorten(table: HTMLTableElement): void {
+  const rows = [...table.tBodies[0].rows];
+  if (rows.length <= few) return;
+  const all = make("button", `All ${rows.length} docks`), show = (shown: boolean) => rows.slice(few).forEach((r) => { r.hidden = !shown; });
   all.type = "button";
   all.addEventListener("click", () => {
-    body.querySelectorAll("tr").forEach((r) => { r.hidden = false; });
+    show(true);
     table.parentElement!.classList.add("scroll");
     all.remove();
   });
+  show(false);
   table.after(all);
 }
 

@@ -34,7 +34,7 @@ export class HeatMap implements Panel {
 
   paint(): void {
     const rows = this.rows.length, { loads, ink } = this.desk;
-    this.host.style.height = `${foot + Math.max(Math.min(44 * rows, 132), Math.min(620, rows * (rows > 60 ? 3 : rows > 30 ? 11 : 16)))}px`;
+    this.host.style.minHeight = `${foot + Math.max(Math.min(44 * rows, 132), Math.min(620, rows * (rows > 60 ? 3 : rows > 30 ? 11 : 16)))}px`;
     this.board.paint();
     this.seek(this.desk.state.t);
     const scale = loads.scale(this.quantity);

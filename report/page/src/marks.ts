@@ -3,10 +3,10 @@ import { CanvasTexture, ConeGeometry, CylinderGeometry, InstancedMesh, Matrix4, 
   Scene, Vector3, type BufferGeometry } from "three";
 import type { Theme } from "./colour";
 import type { Face, Meta } from "./format";
-import { extents } from "./outline";
+import { corners } from "./outline";
 import type { Robot } from "./robot";
 import type { Kinematics } from "./kinematics";
-import { position, rotation } from "./kinematics";
+import { position } from "./kinematics";
 
 /** Decals of one kind of face, and where they are. */
 interface Decals {
@@ -90,15 +90,8 @@ export class Marks {
   // On the face, as large as the body is across it.
   private decal(type: string, face: Face, quarters: number): Matrix4 {
     const normal = new Vector3(...face.normal).normalize(), up = new Vector3(...face.reference).normalize().applyAxisAngle(normal, quarters * Math.PI / 2), right = up.clone().cross(normal);
-    let across = Infinity;
-    for (const shape of this.meta.geometry[type] ?? []) {
-      const half = extents(shape).half, turn = rotation(shape.pose).invert();
-      for (const v of [up, right]) {
-        const d = v.clone().applyQuaternion(turn);
-        across = Math.min(across, Math.abs(d.x) * half.x + Math.abs(d.y) * half.y + Math.abs(d.z) * half.z);
-      }
-    }
-    const size = Number.isFinite(across) ? Math.max(1.5 * across, 0.4 * this.robot.unit) : 0.5 * this.robot.unit;
+    const points = (this.meta.geometry[type] ?? []).flatMap(corners), wide = (v: Vector3) => Math.max(...points.map((p) => p.dot(v))) - Math.min(...points.map((p) => p.dot(v)));
+    const size = points.length ? 0.75 * Math.min(wide(up), wide(right)) : 0.5 * this.robot.unit;
     const turn = new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(right, up, normal));
     return new Matrix4().compose(position([...face.origin, 1, 0, 0, 0]).addScaledVector(normal, lift * this.robot.unit), turn, new Vector3(size, size, size));
   }

@@ -105,3 +105,9 @@ export function extents({ kind, size: [a, b, c] }: Shape): { centre: Vector3; ha
   if (kind === "cylinder") return { centre: new Vector3(), half: new Vector3(a, b / 2, a) };
   return { centre: new Vector3(a / 2, 0, 0), half: new Vector3(a / 2, b / 2, a) };
 }
+
+/** Of the box around a piece, in the body's frame. */
+export function corners(shape: Shape): Vector3[] {
+  const { centre, half } = extents(shape), at = position(shape.pose), turn = rotation(shape.pose);
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((k) => half.clone().multiply(new Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)).add(centre).applyQuaternion(turn).add(at));
+}

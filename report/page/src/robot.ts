@@ -3,10 +3,10 @@
 import { BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide, DynamicDrawUsage, EdgesGeometry, InstancedMesh, LineBasicMaterial,
   LineSegments, Matrix4, MeshBasicMaterial, MeshLambertMaterial, Quaternion, SRGBColorSpace, Scene, Vector3, type Intersection, type Raycaster } from "three";
 import { load, type Theme } from "./colour";
-import type { Body, Meta, Shape } from "./format";
+import type { Body, Meta } from "./format";
 import type { Kinematics } from "./kinematics";
 import { position, rotation } from "./kinematics";
-import { extents, outline, type Piece } from "./outline";
+import { corners, extents, outline, type Piece } from "./outline";
 
 /** A piece of a body type, at every body of that type. */
 interface Kind {
@@ -204,11 +204,6 @@ export function place(points: Float32Array, m: Matrix4, out: Float32Array, at: n
     out[at + i + 2] = e[2] * x + e[6] * y + e[10] * z + e[14];
   }
   return points.length;
-}
-
-function corners(shape: Shape): Vector3[] {
-  const { centre, half } = extents(shape), at = position(shape.pose), turn = rotation(shape.pose);
-  return [0, 1, 2, 3, 4, 5, 6, 7].map((k) => half.clone().multiply(new Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)).add(centre).applyQuaternion(turn).add(at));
 }
 
 /** Onto the plane z = height, along the light. */

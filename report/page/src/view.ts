@@ -83,7 +83,7 @@ export class View {
       this.camera.updateMatrixWorld();
       const seen = new Box3().setFromPoints(points.map((p) => v.copy(p).project(this.camera).clone())), middle = seen.getCenter(new Vector3()), half = seen.getSize(new Vector3()).divideScalar(2);
       const up = distance * Math.tan(this.camera.fov * Math.PI / 360);
-      centre.add(v.set(middle.x * up * this.camera.aspect, (middle.y + 0.04) * up, 0).applyQuaternion(this.camera.quaternion));
+      centre.add(v.set(middle.x * up * this.camera.aspect, (middle.y + 0.02) * up, 0).applyQuaternion(this.camera.quaternion));
       distance *= Math.min(Math.max(half.x / 0.86, half.y / 0.74, 0.25), 4);
     }
     this.camera.position.copy(directions[from]).normalize().multiplyScalar(distance).add(centre);
