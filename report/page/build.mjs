@@ -1,0 +1,35 @@
+// Bundles src/ into dist/page.html: one file that asks for nothing. The same lockfile, the same bytes.
+import { build } from "esbuild";
+import { mkdir, readFile, writeFile } from "node:fs/promises";
+
+const here = (path) => new URL(path, import.meta.url);
+const bundle = async (entry) => {
+  const { outputFiles } = await build({
+    absWorkingDir: here(".").pathname, entryPoints: [entry], bundle: true, minify: true, write: false, format: "iife", charset: "utf8",
+    legalComments: "none", target: ["chrome115", "firefox115", "safari16.4"],
+  });
+  return outputFiles[0].text.trim();
+};
+
+const licences = [];
+for (const name of ["three", "uplot"]) {
+  const { version } = JSON.parse(await readFile(here(`node_modules/${name}/package.json`), "utf8"));
+  licences.push(`${name} ${version}\n\n${(await readFile(here(`node_modules/${name}/LICENSE`), "utf8")).trim()}\n`);
+}
+const licenceText = licences.join("\n\n");
+
+// The program replaces the marks TITLE, META and DATA; each must be there once, and none in what is put in here.
+const parts = {
+  CSS: (await bundle("src/style.css")).replaceAll("</style", "<\\/style"),
+  JS: (await bundle("src/main.ts")).replaceAll("</script", "<\\/script"),
+  LICENCES: licenceText.replaceAll("&", "&amp;").replaceAll("<", "&lt;"),
+};
+let page = await readFile(here("src/page.html"), "utf8");
+for (const [mark, text] of Object.entries(parts)) page = page.replace(`/*${mark}*/`, () => text);
+for (const mark of ["TITLE", "META", "DATA"]) {
+  if (page.split(`/*${mark}*/`).length !== 2) throw new Error(`the mark /*${mark}*/ must be in the page once`);
+}
+await mkdir(here("dist"), { recursive: true });
+await writeFile(here("dist/page.html"), page);
+await writeFile(here("LICENSES.txt"), licenceText);
+console.log(`dist/page.html: ${Buffer.byteLength(page)} bytes (script ${parts.JS.length}, style ${parts.CSS.length})`);

@@ -1,0 +1,40 @@
+// Colours that carry meaning; the rest is style.css. Okabe and Ito, as in the figures of report/svg.h, darkened for contrast.
+
+export type Theme = "light" | "dark";
+type Rgb = [number, number, number];
+
+/** What drawings take from style.css. */
+export interface Ink {
+  theme: Theme;
+  ink: string; ink2: string; muted: string; line: string; grid: string; track: string; panel: string; accent: string;
+  hatch: string; cloud: string; veil: string; band: string;
+  blue: string; vermillion: string; green: string; orange: string; sky: string; purple: string; fail: string;
+}
+
+const names = ["ink", "ink2", "muted", "line", "grid", "track", "panel", "accent", "hatch", "cloud", "veil", "band", "blue",
+  "vermillion", "green", "orange", "sky", "purple", "fail"] as const;
+
+export function inkOf(page: HTMLElement): Ink {
+  const style = getComputedStyle(page);
+  const colours = Object.fromEntries(names.map((n) => [n, style.getPropertyValue(`--${n}`).trim()])) as Record<typeof names[number], string>;
+  return { theme: page.dataset.theme === "dark" ? "dark" : "light", ...colours };
+}
+
+const ramps: Record<Theme, [number, Rgb][]> = {
+  light: [[0, [236, 239, 242]], [0.25, [254, 226, 178]], [0.5, [252, 178, 92]], [0.8, [222, 84, 28]], [1, [140, 0, 34]]],
+  dark: [[0, [33, 39, 46]], [0.25, [92, 62, 30]], [0.5, [176, 98, 24]], [0.8, [232, 104, 38]], [1, [255, 158, 122]]],
+};
+
+/** Share of a limit, 0 to 1. Lightness runs one way, so it also reads in grey. */
+export function load(theme: Theme, share: number): Rgb {
+  const ramp = ramps[theme], x = Math.min(Math.max(share, 0), 1);
+  let k = 1;
+  while (k < ramp.length - 1 && ramp[k][0] < x) k++;
+  const [x0, a] = ramp[k - 1], [x1, b] = ramp[k], f = (x - x0) / (x1 - x0);
+  return a.map((v, c) => Math.round(v + (b[c] - v) * f)) as Rgb;
+}
+
+export const css = (rgb: Rgb): string => `rgb(${rgb.join(",")})`;
+
+/** The ramp as a gradient of CSS, for the legend. */
+export const gradient = (theme: Theme): string => `linear-gradient(90deg,${ramps[theme].map(([x, c]) => `${css(c)} ${100 * x}%`).join(",")})`;

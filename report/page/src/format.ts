@@ -1,0 +1,171 @@
+// What the program writes into the page: report/page_data.cpp. SI units; what is not known is null, what does not apply is [].
+
+export type Vec3 = [number, number, number];
+/** x, y, z, then the quaternion w, x, y, z. */
+export type Pose = [number, number, number, number, number, number, number];
+
+export interface Joint {
+  name: string;
+  module: number;
+  body: number; // that it moves; index in bodies
+  lo: number;
+  hi: number;
+  motor: number | null; // index in motors
+}
+
+/** World pose: the parent's * pre * turn(axis, angle of the joint) * post. */
+export interface Body {
+  name: string;
+  module: number;
+  type: string; // key of geometry and faces
+  role: string;
+  parent: number; // index in bodies, -1: the base
+  joint: number; // -1: fixed to its parent
+  pre: Pose;
+  axis: Vec3;
+  post: Pose;
+}
+
+/** box: x y z; cylinders, along y: radius, length, 0 (the half one bulges towards +x); sphere: radius, 0, 0. */
+export interface Shape {
+  kind: "box" | "cylinder" | "half_cylinder" | "sphere";
+  pose: Pose;
+  size: Vec3;
+}
+
+export interface Face {
+  id: number;
+  gender: "active" | "passive";
+  origin: Vec3;
+  normal: Vec3;
+  reference: Vec3;
+}
+
+export interface Dock {
+  name: string;
+  module: number;
+  parent: number;
+  face: number;
+  parent_face: number;
+}
+
+export interface GroundBox {
+  pose: Pose;
+  size: Vec3;
+  moves: number; // -1: never; else the N of the channels box.N.*
+}
+
+/** Heights row by row: x runs fastest. */
+export interface Heightfield {
+  origin: [number, number];
+  spacing: [number, number];
+  nx: number;
+  ny: number;
+  heights: number[];
+}
+
+export interface Ground {
+  kind: "none" | "plane" | "boxes" | "heightfield";
+  height: number;
+  friction: number | null;
+  boxes: GroundBox[];
+  heightfield: Heightfield | null;
+}
+
+export interface Foot {
+  name: string;
+  module: number;
+  body: number;
+}
+
+/** The torque that is available between `least` and `most` at each of the speeds; no samples: no limit is known. */
+export interface Motor {
+  unit: "V" | "N m"; // of its command
+  command: number | null;
+  current: number | null;
+  continuous: number | null; // A
+  rest: number | null; // N m
+  no_load: number | null; // rad/s
+  speed: number[];
+  most: number[];
+  least: number[];
+}
+
+export type Status = "pass" | "warn" | "fail" | "not judged";
+
+export interface Check {
+  id: string;
+  group: string;
+  title: string;
+  status: Status;
+  value: number | null;
+  limit: number | null;
+  unit: string; // "": a share
+  joint: string | null;
+  joints: number;
+  from: number | null;
+  to: number | null;
+  missing: string;
+  definition: string;
+  source: string;
+  text: string;
+}
+
+export interface Verdict {
+  format: 1;
+  verdict: "feasible" | "infeasible" | "failed" | "not judged";
+  window: { from: number; to: number };
+  counts: Record<Status, number>;
+  checks: Check[];
+}
+
+/** Of summary.json, what the page reads. */
+export interface Summary {
+  speed?: number | null;
+  distance?: number | null;
+  cost_of_transport?: { electrical: number | null; mechanical: number | null } | null;
+  energy?: Record<string, number | null> | null;
+  trace_hash?: string;
+}
+
+/** Name, unit, size of a step, number of values. */
+export type Channel = [name: string, unit: string, quantum: number, count: number];
+
+/** Amplitude and phase of a first harmonic, rad. */
+export type Harmonic = [amplitude: number, phase: number];
+
+export interface Meta {
+  format: 1;
+  name: string;
+  build: string;
+  engine: string;
+  integrator: string;
+  step: number | null;
+  accuracy: number | null;
+  period: number;
+  rows: number;
+  duration: number;
+  outcome: string; // "done"; "not run": a robot that was only checked; else why the run ended early
+  mass: number;
+  weight: number;
+  modules: { name: string; type: string }[];
+  joints: Joint[];
+  bodies: Body[];
+  geometry: Record<string, Shape[]>;
+  faces: Record<string, Face[]>;
+  docks: Dock[];
+  contacts: string[];
+  ground: Ground;
+  feet: Foot[];
+  motors: Motor[];
+  verdict: Verdict;
+  summary: Summary;
+  cycle: { from: number; period: number } | null;
+  phases: { setpoint: Harmonic; angle: Harmonic }[];
+  cpg: string;
+  frequency: number | null;
+  command: string;
+  missing: string[];
+  scenario: string;
+  channels: Channel[];
+}

@@ -1,0 +1,131 @@
+// The answer, before anything else: can the robot do it; if not, which joint first, when, how much is missing.
+import { element, icon, make } from "./dom";
+import type { Check, Meta } from "./format";
+import { fixed, number, percent, plural, quantity, span } from "./numbers";
+import type { Desk } from "./panel";
+
+type Mood = "good" | "bad" | "open" | "plan";
+type Fact = [name: string, value: Node | string, small?: string];
+
+const badges: Record<Mood, string> = {
+  plan: "M12 6.6v.1M12 11v6.6",
+  good: "M5 12.5l4.6 4.6L19 7.5", bad: "M6 6l12 12M18 6L6 18", open: "M8.6 9.2a3.5 3.5 0 1 1 5.2 3.1c-1.2.7-1.8 1.3-1.8 2.6M12 18.4v.1" };
+const inSentence = (title: string): string => (/^[A-Z][a-z]/.test(title) ? title[0].toLowerCase() + title.slice(1) : title);
+const ended = (text: string): string => (/[.!?]$/.test(text) ? text : `${text}.`);
+const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
+export function headline(desk: Desk): void {
+  const { meta } = desk.recording, { mood, said, why, facts } = judgement(desk, meta);
+  element("verdict").dataset.mood = mood;
+  element("badge").append(icon(badges[mood], 24));
+  element("said").textContent = said;
+  element("why").textContent = why.join(" ");
+  element("aside").textContent = aside(meta).join(" ");
+  element("facts").dataset.count = String(facts.length);
+  element("facts").append(...facts.map(([name, value, small]) => make("div", make("dt", name), make("dd", value, ...(small ? [make("small", ` ${small}`)] : [])))));
+  const notes = element("missing");
+  notes.hidden = !meta.missing.length;
+  notes.append(...meta.missing.map((m) => make("li", ended(m))));
+}
+
+function judgement(desk: Desk, meta: Meta): { mood: Mood; said: string; why: string[]; facts: Fact[] } {
+  const { checks, verdict } = meta.verdict;
+  const gait = checks.filter((c) => c.group !== "trust"), failed = gait.filter((c) => c.status === "fail");
+  if (meta.outcome === "not run") {
+    return { mood: "plan", said: "Built, not run", why: ["The robot as the scenario describes it: its modules, the axes of its hinges, its faces. A verdict needs a run."], facts: built(meta) };
+  }
+  if (verdict === "failed") {
+    return { mood: "bad", said: `The run ended early, at ${fixed(meta.duration, 2)} s`, why: [ended(capital(meta.outcome)), ...others(failed.filter((c) => c.id !== "outcome"))], facts: walked(desk, meta) };
+  }
+  if (verdict === "infeasible") {
+    const [first, ...rest] = failed;
+    return {
+      mood: "bad", said: "Not feasible with these motors",
+      why: first ? [ended(capital(first.text)), ...(first.source.includes("chosen") ? ["(The limit is chosen.)"] : []), ...others(rest)] : [],
+      facts: first ? shortfall(desk, first, failed) : walked(desk, meta),
+    };
+  }
+  if (verdict === "not judged") {
+    const cause = meta.motors.length ? "Nothing is known of what the motors can do, so nobody can say whether they can do this." : "There are no motors whose limits this run could exceed.";
+    return { mood: "open", said: "Not judged", why: [cause, ...others(failed)], facts: walked(desk, meta) };
+  }
+  const near = nearest(gait), why = near ? [`Every limit that is known is kept. Nearest to its limit: ${quantity(near.value, near.unit)} of ${quantity(near.limit, near.unit)} (${inSentence(near.title)}${near.joint ? `: ${near.joint}` : ""}).`] : [];
+  return { mood: "good", said: meta.motors.length ? "Feasible with these motors" : "Feasible", why, facts: walked(desk, meta) };
+}
+
+function others(failed: Check[]): string[] {
+  return failed.length ? [`Also: ${briefly(failed)}.`] : [];
+}
+
+/** What the checks found, without advice. */
+const briefly = (found: Check[]): string => found.map((c) => c.text.split("; ")[0].replace(/[.]$/, "")).join("; ");
+
+// What limits the answer: warnings, what makes the numbers doubtful, what nobody judged.
+function aside(meta: Meta): string[] {
+  if (meta.outcome === "not run") return [];
+  const of = (trust: boolean, ...status: Check["status"][]) => meta.verdict.checks.filter((c) => status.includes(c.status) && (c.group === "trust") === trust);
+  const warned = of(false, "warn"), doubtful = of(true, "warn", "fail"), open = of(false, "not judged"), bad = meta.verdict.verdict !== "feasible";
+  return [
+    ...(warned.length ? [bad ? `${capital(plural(warned.length, "warning"))}.` : `Warned of: ${briefly(warned)}.`] : []),
+    ...(doubtful.length ? [`Doubtful: ${briefly(doubtful)}.`] : []),
+    ...(open.length > 6 ? [`Not judged, for want of a limit or of what it takes: ${open.length} checks.`] : open.length ? [`Not judged, for want of a limit: ${open.map((c) => inSentence(c.title)).join(", ")}.`] : []),
+  ];
+}
+
+/** The check that is nearest to its limit, of those where more is worse. */
+function nearest(checks: Check[]): Check | null {
+  const share = (c: Check) => c.value! / c.limit!;
+  const known = checks.filter((c) => !["outcome", "fall", "stability"].includes(c.id) && c.status !== "not judged" && c.value !== null && c.limit !== null && c.limit > 0);
+  return known.sort((a, b) => share(b) - share(a))[0] ?? null;
+}
+
+function shortfall(desk: Desk, first: Check, failed: Check[]): Fact[] {
+  const { meta } = desk.recording, motor = first.id === "voltage" || first.id === "current", early = motor ? firstAtLimit(desk) : null;
+  const facts: Fact[] = [], missing = failed.find((c) => c.missing)?.missing;
+  if (early) facts.push(["First at its limit", place(desk, meta.joints[early.joint].name, early.t), `at ${fixed(early.t, 2)} s`]);
+  if (first.joint) facts.push([motor ? "Longest at its limit" : "Joint", place(desk, first.joint, first.from), motor ? `${quantity(first.value, first.unit)} of the time` : ""]);
+  if (first.from !== null) facts.push([motor ? "Its longest stretch" : "When", span(first.from, first.to ?? first.from)]);
+  const strays = failed.find((c) => c.id === "tracking");
+  if (missing) facts.push(["Missing", missing]);
+  else if (motor && strays) facts.push(["Off its set point", quantity(strays.value, strays.unit), `limit ${quantity(strays.limit, strays.unit)}`]);
+  else if (motor) facts.push(["Missing", "not measured"]);
+  else if (first.value !== null && first.limit !== null) facts.push(["Found", quantity(first.value, first.unit), `limit ${quantity(first.limit, first.unit)}`]);
+  return facts;
+}
+
+/** The joint that is the first in the judged window whose motor gives all it can. */
+export function firstAtLimit(desk: Desk): { joint: number; t: number } | null {
+  const { recording } = desk, from = recording.judged;
+  let row = Infinity, joint = -1;
+  recording.meta.joints.forEach((_, j) => {
+    const flags = recording.find(`joint.${j}.saturation`);
+    for (let i = from; flags && i < Math.min(flags.length, row); i++) if (flags[i] > 0) { row = i; joint = j; }
+  });
+  return joint < 0 ? null : { joint, t: recording.times[row] };
+}
+
+function place(desk: Desk, name: string, t: number | null): HTMLButtonElement {
+  const go = make("button.link", name);
+  go.type = "button";
+  go.addEventListener("click", () => {
+    desk.choose(desk.recording.meta.joints.findIndex((j) => j.name === name));
+    if (t !== null) desk.goTo(t);
+  });
+  return go;
+}
+
+function walked(desk: Desk, meta: Meta): Fact[] {
+  const { summary, cycle } = meta, facts: Fact[] = [];
+  if (desk.loads.limited) {
+    const { joint, share, t } = desk.loads.hardest;
+    facts.push(["Hardest worked", place(desk, meta.joints[joint].name, t), `${percent(share, 2)} of its motor`]);
+  } else if (desk.loads.peak > 1e-6) facts.push(["Largest torque", number(desk.loads.peak), "N m"]);
+  const walks = meta.ground.kind !== "none";
+  if (walks && summary.speed) facts.push(["Speed", number(100 * summary.speed), "cm/s"]);
+  const cost = summary.cost_of_transport?.electrical ?? null;
+  if (walks && cost) facts.push(["Cost of transport", number(cost)]);
+  if (cycle) facts.push(["Period", number(cycle.period, 4), "s"]);
+  return facts;
+}
+
+const built = (meta: Meta): Fact[] => [["Modules", String(meta.modules.length)], ["Joints", String(meta.joints.length)], ["Mass", number(meta.mass), "kg"]];

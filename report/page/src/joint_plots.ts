@@ -1,0 +1,123 @@
+// The chosen joint over time: angle, set point and torque; what its motor is asked for and draws.
+import { element, leaveOut, make } from "./dom";
+import { fixed, number, percent } from "./numbers";
+import type { Desk, Panel, Span } from "./panel";
+import { TimePlot, type Level } from "./timeplot";
+import { limited } from "./motor";
+
+type Cell = "angle" | "error" | "speed" | "torque" | "use";
+
+export class JointPlots implements Panel {
+  private plots: TimePlot[] = [];
+  private readonly cells = new Map<Cell, HTMLElement>();
+
+  constructor(private readonly desk: Desk) {
+    const names: [Cell, string][] = [["angle", "angle"], ["error", "error"], ["speed", "speed"], ["torque", "torque"], ["use", "of its motor"]];
+    for (const [key, name] of names) {
+      if (!this.has({ angle: "angle", error: "setpoint", speed: "speed", torque: "torque", use: "torque" }[key])) continue;
+      const cell = make("dd");
+      this.cells.set(key, cell);
+      element("now").append(make("div", make("dt", name), cell));
+    }
+  }
+
+  paint(): void {
+    const { desk } = this, { ink, state: { joint } } = desk, values = (name: string) => desk.recording.channel(`joint.${joint}.${name}`);
+    this.plots.forEach((p) => p.destroy());
+    this.plots = [];
+    const zero: Level = { value: 0, axis: "left", colour: ink.line }, bands = this.saturated(), name = desk.recording.meta.joints[joint].name;
+    if (this.has("angle")) {
+      const torque = this.has("torque"), setpoint = this.has("setpoint"), range = desk.recording.meta.joints[joint], reached = this.nearStops();
+      const stops: Level[] = reached ? [range.lo, range.hi].map((value) => ({ value, axis: "left", colour: ink.fail, dash: [2, 3] })) : [];
+      this.plots.push(new TimePlot(element("motion"), desk, {
+        label: `Angle, set point and torque of joint ${name} over time`, bands, levels: [zero, ...stops],
+        left: { name: "angle (rad)", colour: ink.blue }, ...(torque ? { right: { name: "torque (N m)", colour: ink.vermillion } } : {}),
+        curves: [
+          { values: values("angle"), label: "angle", colour: ink.blue, width: 2, axis: "left" },
+          ...(setpoint ? [{ values: values("setpoint"), label: "set point", colour: ink.ink, dash: [2, 3], width: 1.3, axis: "left" as const }] : []),
+          ...(torque ? [{ values: values("torque"), label: "torque", colour: ink.vermillion, width: 1.5, axis: "right" as const }] : []),
+        ],
+      }));
+      keys("motion-key", [["dash", "--ink", setpoint ? "set point" : ""], ["", "--blue", "angle (left)"], ["", "--vermillion", torque ? "torque (right)" : ""],
+        ["band", "--band", bands.length ? "motor at its limit" : ""], ["dots", "--fail", reached ? "end of its range" : ""]]);
+    } else leaveOut(element("motion"), "the recording has no angles of the joints (trace.columns).");
+    this.drive(bands);
+    this.seek(desk.state.t);
+  }
+
+  choose(): void { this.paint(); }
+  zoom(): void { this.plots.forEach((p) => p.zoom()); }
+  resize(): void { this.plots.forEach((p) => p.resize()); }
+
+  seek(t: number): void {
+    this.plots.forEach((p) => p.seek(t));
+    const { recording, loads, state: { joint } } = this.desk, now = (name: string) => recording.at(recording.channel(`joint.${joint}.${name}`), t);
+    const motor = loads.motor(joint);
+    const texts: Record<Cell, string> = {
+      angle: `${fixed(now("angle"), 3)} rad`, error: `${fixed(now("setpoint") - now("angle"), 3)} rad`, speed: `${fixed(now("speed"), 2)} rad/s`,
+      torque: `${fixed(now("torque"), this.decimals)} N m`, use: limited(motor) ? percent(Math.round(100 * loads.shareAt(joint, t)) / 100) : "no limit",
+    };
+    for (const [key, cell] of this.cells) cell.textContent = texts[key];
+  }
+
+  /** So that a small motor's torque has three digits. */
+  get decimals(): number { return Math.max(2, Math.ceil(-Math.log10(this.desk.loads.peak)) + 1); }
+
+  private has(name: string): boolean { return this.desk.recording.has(`joint.0.${name}`); }
+
+  // What the motor is told (volts, or N m of those that take a torque) and the current it draws.
+  private drive(bands: Span[]): void {
+    const { desk } = this, { ink, recording, state: { joint } } = desk, motor = desk.loads.motor(joint), unit = motor?.unit ?? "V";
+    const command = this.has("voltage") ? "voltage" : this.has("voltage_command") ? "voltage_command" : null;
+    const current = this.has("current") && recording.meta.joints.some((_, j) => recording.channel(`joint.${j}.current`).some((v) => v !== 0));
+    const host = element("drive");
+    host.hidden = element("drive-key").hidden = !command;
+    if (!command) return;
+    const word = unit === "V" ? "voltage" : "torque asked for", levels: Level[] = [{ value: 0, axis: "left", colour: ink.line }];
+    const limits = (value: number | null | undefined, axis: Level["axis"], colour: string, dash: number[]) => {
+      if (value && Number.isFinite(value)) levels.push({ value, axis, colour, dash }, { value: -value, axis, colour, dash });
+    };
+    limits(motor?.command, "left", ink.purple, [6, 4]);
+    if (current) limits(motor?.current, "right", ink.green, [2, 4]);
+    this.plots.push(new TimePlot(host, desk, {
+      label: `${unit === "V" ? "Voltage and current" : "Command"} of joint ${recording.meta.joints[joint].name} over time`, bands, levels,
+      left: { name: unit === "V" ? "voltage (V)" : "command (N m)", colour: ink.purple }, ...(current ? { right: { name: "current (A)", colour: ink.green } } : {}),
+      curves: [
+        { values: recording.channel(`joint.${joint}.${command}`), label: word, colour: ink.purple, axis: "left" },
+        ...(current ? [{ values: recording.channel(`joint.${joint}.current`), label: "current", colour: ink.green, axis: "right" as const }] : []),
+      ],
+    }));
+    const of = (limit: number | null | undefined, u: string) => (limit ? `, limit ±${number(limit)} ${u}` : "");
+    keys("drive-key", [["", "--purple", `${word} (left)${of(motor?.command, unit)}`], ["", "--green", current ? `current (right)${of(motor?.current, "A")}` : ""]]);
+  }
+
+  private saturated(): Span[] {
+    const { recording, state: { joint } } = this.desk, flags = recording.find(`joint.${joint}.saturation`), out: Span[] = [];
+    if (!flags) return out;
+    let from = -1;
+    for (let i = 0; i <= flags.length; i++) {
+      const on = i < flags.length && flags[i] > 0;
+      if (on && from < 0) from = i;
+      if (!on && from >= 0) {
+        out.push([recording.times[from], recording.times[Math.min(i, flags.length - 1)]]);
+        from = -1;
+      }
+    }
+    return out;
+  }
+
+  private nearStops(): boolean {
+    const { recording, state: { joint } } = this.desk, { lo, hi } = recording.meta.joints[joint], room = 0.05 * (hi - lo);
+    return recording.channel(`joint.${joint}.angle`).some((a) => a < lo + room || a > hi - room);
+  }
+}
+
+/** The line under a plot: mark, colour, words; without words it is left out. */
+export function keys(id: string, entries: [kind: string, colour: string, words: string][]): void {
+  element(id).replaceChildren(...entries.filter(([, , words]) => words).map(([kind, colour, words]) => {
+    const key = make("span.k", words);
+    if (kind) key.classList.add(kind);
+    key.style.setProperty("--c", `var(${colour})`);
+    return key;
+  }));
+}

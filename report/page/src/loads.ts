@@ -1,0 +1,87 @@
+// How hard every joint works, row by row: what the heat map, the scrubber and the hinges are coloured by.
+import type { Values } from "./channels";
+import type { Motor } from "./format";
+import { limited, use } from "./motor";
+import type { Recording } from "./recording";
+
+export type Quantity = "use" | "torque" | "current" | "error";
+
+export class Loads {
+  /** Of each joint: its largest torque in the judged window, N m. */
+  readonly peaks: number[];
+  readonly peak: number;
+  /** Of each row: the largest share of what a motor can give; of its torque against the largest where no motor has a limit. */
+  readonly worst: Values;
+  /** Whether shares are of the motors' limits (else of the largest torque of the run). */
+  readonly limited: boolean;
+  private readonly cache = new Map<string, Values>();
+
+  constructor(private readonly recording: Recording) {
+    const { joints } = recording.meta, from = recording.judged;
+    this.limited = joints.some((_, j) => limited(this.motor(j)));
+    this.peaks = joints.map((_, j) => largest(recording.channel(`joint.${j}.torque`), from));
+    this.peak = Math.max(...this.peaks, 1e-9);
+    this.worst = new Float32Array(recording.rows);
+    joints.forEach((_, j) => this.share(j).forEach((x, i) => { if (x > this.worst[i]) this.worst[i] = x; }));
+  }
+
+  motor(joint: number): Motor | null {
+    const { joints, motors } = this.recording.meta, m = joints[joint]?.motor;
+    return m === null || m === undefined ? null : motors[m] ?? null;
+  }
+
+  /** Share of what the motor can give at that speed, 0 to 1. */
+  share(joint: number): Values { return this.of("use", joint); }
+
+  shareAt(joint: number, t: number): number { return this.recording.at(this.share(joint), t); }
+
+  /** The joint that takes the largest share in the judged window, and when. */
+  get hardest(): { joint: number; share: number; t: number } {
+    const { recording } = this, found = { joint: 0, share: -1, t: 0 };
+    recording.meta.joints.forEach((_, joint) => {
+      const shares = this.share(joint);
+      for (let i = recording.judged; i < shares.length; i++) if (shares[i] > found.share) Object.assign(found, { joint, share: shares[i], t: recording.times[i] });
+    });
+    return found;
+  }
+
+  /** What 1 stands for in `of`. */
+  scale(quantity: Quantity): number {
+    const { recording } = this;
+    if (quantity === "torque") return this.peak;
+    if (quantity === "error") return Math.max(0.2, ...recording.meta.verdict.checks.filter((c) => c.id === "tracking").map((c) => 2 * (c.limit ?? 0)));
+    if (quantity === "current") return Math.max(...recording.meta.motors.map((m) => m.current ?? 0)) || this.largestCurrent();
+    return 1;
+  }
+
+  of(quantity: Quantity, joint: number): Values {
+    const key = `${quantity}/${joint}`, known = this.cache.get(key);
+    if (known) return known;
+    const made = this.compute(quantity, joint);
+    this.cache.set(key, made);
+    return made;
+  }
+
+  private compute(quantity: Quantity, joint: number): Values {
+    const { recording } = this, one = (name: string) => recording.channel(`joint.${joint}.${name}`);
+    const out = new Float32Array(recording.rows), torque = one("torque");
+    if (quantity === "use") {
+      const motor = this.motor(joint), speed = one("speed");
+      if (limited(motor)) return out.map((_, i) => use(motor, speed[i], torque[i]));
+      return this.limited ? out : out.map((_, i) => Math.abs(torque[i]) / this.peak);
+    }
+    const scale = this.scale(quantity), setpoint = one("setpoint"), angle = one("angle"), values = one(quantity);
+    if (quantity === "error") return out.map((_, i) => Math.abs(setpoint[i] - angle[i]) / scale);
+    return out.map((_, i) => Math.abs(values[i]) / scale);
+  }
+
+  private largestCurrent(): number {
+    return Math.max(1e-9, ...this.recording.meta.joints.map((_, j) => largest(this.recording.channel(`joint.${j}.current`))));
+  }
+}
+
+export function largest(values: Values, from = 0): number {
+  let most = 0;
+  for (let i = from; i < values.length; i++) most = Math.max(most, Math.abs(values[i]));
+  return most;
+}

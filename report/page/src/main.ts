@@ -1,0 +1,26 @@
+import { unpack } from "./channels";
+import { make } from "./dom";
+import { Page } from "./page";
+import { Recording } from "./recording";
+
+/** What tests (and the curious, in the console) see. */
+declare global {
+  interface Window { gaitlab: { page: Page; unpack: typeof unpack } }
+}
+
+Recording.of(document).then((recording) => {
+  const page = new Page(recording), frame = (now: number) => {
+    page.tick(now);
+    requestAnimationFrame(frame);
+  };
+  window.gaitlab = { page, unpack };
+  requestAnimationFrame((now) => {
+    frame(now);
+    document.documentElement.dataset.ready = "";
+  });
+}).catch((e: unknown) => {
+  const note = make("p.noscript", `This page could not be drawn: ${e instanceof Error ? e.message : String(e)}. verdict.json and figure.svg are beside it.`);
+  note.setAttribute("role", "alert");
+  document.body.prepend(note);
+  throw e;
+});

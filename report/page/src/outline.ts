@@ -1,0 +1,113 @@
+// The geometry of a body: its pieces, and where they form one convex prism (a block of M-TRAN: box and half cylinder), that prism.
+import { BufferGeometry, ExtrudeGeometry, Matrix4, Shape as Outline, SphereGeometry, Vector2, Vector3 } from "three";
+import type { Pose, Shape } from "./format";
+import { position, rotation } from "./kinematics";
+
+type Point = [number, number];
+
+/** What is drawn, and a plainer one for its shadow. */
+export interface Piece {
+  body: BufferGeometry;
+  shadow: BufferGeometry;
+}
+
+/** In the frame of the body: an outline in x and z, along y from y0 to y1. */
+interface Prism {
+  y0: number;
+  y1: number;
+  points: Point[];
+}
+
+function hull(points: readonly Point[]): Point[] {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const half = (list: Point[]) => {
+    const out: Point[] = [];
+    for (const p of list) {
+      for (let n = out.length; n > 1; n = out.length) {
+        const a = out[n - 2], b = out[n - 1];
+        if ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 1e-12) break;
+        out.pop();
+      }
+      out.push(p);
+    }
+    return out.slice(0, -1);
+  };
+  return [...half(sorted), ...half(sorted.reverse())];
+}
+
+const area = (p: readonly Point[]): number =>
+  Math.abs(p.reduce((sum, [x, y], i) => sum + x * p[(i + 1) % p.length][1] - p[(i + 1) % p.length][0] * y, 0)) / 2;
+
+/** null: the piece is no prism along the body's y. */
+function prism({ kind, pose, size }: Shape): Prism | null {
+  const turn = rotation(pose), along = new Vector3(0, 1, 0).applyQuaternion(turn);
+  if (kind === "sphere" || Math.abs(Math.abs(along.y) - 1) > 1e-9) return null;
+  const flat: Point[] = [];
+  if (kind === "box") flat.push([-size[0] / 2, -size[2] / 2], [size[0] / 2, -size[2] / 2], [size[0] / 2, size[2] / 2], [-size[0] / 2, size[2] / 2]);
+  else {
+    const whole = kind === "cylinder", n = whole ? 36 : 18;
+    for (let i = 0; i <= n; i++) {
+      const a = -Math.PI / 2 + (whole ? 2 : 1) * Math.PI * i / n;
+      flat.push([size[0] * Math.cos(a), size[0] * Math.sin(a)]);
+    }
+  }
+  const origin = position(pose), length = size[1];
+  const points = flat.map(([x, z]): Point => {
+    const p = new Vector3(x, 0, z).applyQuaternion(turn).add(origin);
+    return [p.x, p.z];
+  });
+  return { y0: origin.y - length / 2, y1: origin.y + length / 2, points };
+}
+
+function extrude(points: readonly Point[], y0: number, y1: number, chamfered: boolean): BufferGeometry {
+  const n = points.length, c = points.reduce<Point>((a, p) => [a[0] + p[0] / n, a[1] + p[1] / n], [0, 0]);
+  const radius = Math.max(...points.map((p) => Math.hypot(p[0] - c[0], p[1] - c[1])));
+  const bevel = chamfered ? Math.min(0.03 * (y1 - y0), 0.06 * radius) : 0;
+  const inner = points.map((p) => new Vector2(c[0] + (p[0] - c[0]) * (1 - bevel / radius), c[1] + (p[1] - c[1]) * (1 - bevel / radius)));
+  const made = new ExtrudeGeometry(new Outline(inner), {
+    depth: y1 - y0 - 2 * bevel, bevelEnabled: chamfered, bevelThickness: bevel, bevelSize: bevel, bevelSegments: 1, curveSegments: 1,
+  });
+  made.rotateX(Math.PI / 2); // drawn in x and y, deep along z: becomes x and z, deep along -y
+  made.translate(0, y1 - bevel, 0);
+  return made;
+}
+
+const piece = (points: readonly Point[], y0: number, y1: number): Piece => {
+  const outline = hull(points);
+  return { body: extrude(outline, y0, y1, true), shadow: extrude(outline, y0, y1, false) };
+};
+
+const upright: Pose = [0, 0, 0, 1, 0, 0, 0];
+
+function single(shape: Shape): Piece {
+  const along = prism(shape);
+  if (along) return piece(along.points, along.y0, along.y1);
+  const own = prism({ ...shape, pose: upright }), sphere = new SphereGeometry(shape.size[0], 32, 20);
+  const { body, shadow } = own ? piece(own.points, own.y0, own.y1) : { body: sphere, shadow: sphere.clone() };
+  const placed = new Matrix4().compose(position(shape.pose), rotation(shape.pose), new Vector3(1, 1, 1));
+  return { body: body.applyMatrix4(placed), shadow: shadow.applyMatrix4(placed) };
+}
+
+export function outline(shapes: readonly Shape[]): Piece[] {
+  const prisms = shapes.map(prism), first = prisms[0];
+  const level = first && prisms.every((p) => p && Math.abs(p.y0 - first.y0) < 1e-9 && Math.abs(p.y1 - first.y1) < 1e-9);
+  if (level && prisms.length > 1) {
+    const points = prisms.flatMap((p) => p!.points), sum = prisms.reduce((a, p) => a + area(hull(p!.points)), 0);
+    if (Math.abs(area(hull(points)) - sum) < 0.01 * sum) return [piece(points, first.y0, first.y1)];
+  }
+  return shapes.map(single);
+}
+
+/** Half lengths of the box around a piece in its own frame, and the box's centre there. */
+export function extents({ kind, size: [a, b, c] }: Shape): { centre: Vector3; half: Vector3 } {
+  if (kind === "box") return { centre: new Vector3(), half: new Vector3(a / 2, b / 2, c / 2) };
+  if (kind === "sphere") return { centre: new Vector3(), half: new Vector3(a, a, a) };
+  if (kind === "cylinder") return { centre: new Vector3(), half: new Vector3(a, b / 2, a) };
+  return { centre: new Vector3(a / 2, 0, 0), half: new Vector3(a / 2, b / 2, a) };
+}
+
+/** Of the box around a piece, in the body's frame. */
+export function corners(shape: Shape): Vector3[] {
+  const { centre, half } = extents(shape), at = position(shape.pose), turn = rotation(shape.pose);
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((k) => half.clone().multiply(new Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)).add(centre).applyQuaternion(turn).add(at));
+}

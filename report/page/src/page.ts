@@ -1,0 +1,279 @@
+// The page: its state, its panels, what keys and links do.
+import { inkOf, type Ink, type Theme } from "./colour";
+import { checks } from "./checks";
+import { docks } from "./docks";
+import { element, make, panelOf } from "./dom";
+import { Energy } from "./energy";
+import { Envelope } from "./envelope";
+import { Footfalls } from "./footfalls";
+import { firstAtLimit, headline } from "./headline";
+import { HeatMap } from "./heatmap";
+import { JointPlots } from "./joint_plots";
+import { Loads } from "./loads";
+import { number, plural, quantity } from "./numbers";
+import { Overview } from "./overview";
+import type { Desk, Panel, Span, State } from "./panel";
+import { parts } from "./parts";
+import { Path } from "./path";
+import { Phases } from "./phases";
+import type { Recording } from "./recording";
+import { Stage } from "./stage";
+import { Transport } from "./transport";
+import type { Look } from "./view";
+
+type Stretch = "all" | "four" | "one";
+
+export class Page implements Desk {
+  readonly loads: Loads;
+  readonly state: State;
+  readonly stage: Stage;
+  ink: Ink;
+  private readonly panels: Panel[] = [];
+  private readonly stretches: Record<Stretch, number>;
+  private readonly link: URLSearchParams;
+  private width: number; // s, of the stretch that turns like a page; 0: one that the reader chose
+  private last: number | null = null; // ms, of the frame before, while playing
+  private late = 0; // frames
+
+  constructor(readonly recording: Recording) {
+    const { meta } = recording, { cycle, verdict } = meta;
+    this.link = new URLSearchParams(location.hash.slice(1));
+    const dark = this.link.get("theme") ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+    document.documentElement.dataset.theme = dark === "dark" ? "dark" : "light";
+    this.ink = inkOf(document.documentElement);
+    this.loads = new Loads(recording);
+    const all = recording.end || 1, period = cycle?.period ?? 2;
+    this.stretches = { all, four: Math.min(all, 4 * period), one: Math.min(all, period) };
+    this.width = this.stretches.four;
+    const failing = verdict.checks.find((c) => c.status === "fail" && c.joint), first = failing?.group === "motor" ? firstAtLimit(this) : null;
+    const index = (name: string | null | undefined) => meta.joints.findIndex((j) => j.name === name);
+    const start = [index(this.link.get("joint")), index(failing?.joint)].find((j) => j >= 0) ?? this.loads.hardest.joint;
+    this.state = { t: 0, joint: meta.joints.length ? start : -1, playing: false, rate: 1, span: [0, all] };
+    const t = this.link.has("t") ? Number(this.link.get("t")) : failing?.from ?? first?.t ?? (recording.ran ? Math.max(verdict.window.from, 0) : 0);
+    this.state.t = this.within(Number.isFinite(t) ? t : 0);
+    this.state.span = this.spanAround();
+    this.text();
+    this.stage = new Stage(this);
+    this.panels.push(this.stage);
+    this.arrange();
+    this.wire();
+    this.panels.forEach((p) => p.paint());
+    this.choose(this.state.joint);
+    this.stage.view?.look((this.link.get("look") as Look | null) ?? "iso");
+    if (!recording.ran || this.link.has("faces")) this.press("faces");
+    if (!recording.ran || this.link.has("axes")) this.press("axes");
+    const calm = matchMedia("(prefers-reduced-motion: reduce)").matches || this.link.has("paused") || this.link.has("t");
+    if (recording.ran && !calm) this.play(true);
+  }
+
+  // --- what panels ask for
+
+  goTo(t: number): void {
+    this.play(false);
+    this.seek(t);
+  }
+
+  choose(joint: number): void {
+    const n = this.recording.meta.joints.length;
+    if (!n) return;
+    this.state.joint = (joint + n) % n;
+    element<HTMLSelectElement>("joint").value = String(this.state.joint);
+    for (const p of this.panels) p.choose?.();
+    this.seek(this.state.t);
+  }
+
+  zoom(span: Span | null): void {
+    this.width = span ? 0 : this.stretches.all;
+    this.show(span ?? [0, this.recording.end]);
+  }
+
+  // --- time
+
+  seek(t: number): void {
+    const { state } = this;
+    state.t = this.within(t);
+    if (this.width && (state.t < state.span[0] - 1e-9 || state.t > state.span[1] + 1e-9)) this.show(this.spanAround());
+    else for (const p of this.panels) p.seek?.(state.t);
+    if (!state.playing) this.remember();
+  }
+
+  play(on: boolean): void {
+    if (!this.recording.ran) return;
+    this.state.playing = on;
+    this.last = null;
+    this.seek(on && this.state.t >= this.recording.end - 1e-9 ? 0 : this.state.t);
+  }
+
+  /** Once per frame of the browser. */
+  tick(now: number): void {
+    if (this.state.playing && this.last !== null) {
+      const t = this.state.t + (now - this.last) / 1000 * this.state.rate;
+      this.seek(t > this.recording.end ? 0 : t);
+      this.late = now - this.last > 55 ? this.late + 1 : 0;
+      if (this.late > 10) {
+        this.stage.view?.lighten();
+        this.late = 0;
+      }
+    }
+    this.last = this.state.playing ? now : null;
+    this.stage.draw();
+  }
+
+  theme(name: Theme): void {
+    document.documentElement.dataset.theme = name;
+    this.ink = inkOf(document.documentElement);
+    element("theme").textContent = name === "dark" ? "Light" : "Dark";
+    this.panels.forEach((p) => p.paint());
+  }
+
+  private show(span: Span): void {
+    this.state.span = span;
+    for (const b of document.querySelectorAll<HTMLElement>("[data-stretch]")) b.setAttribute("aria-pressed", String(this.stretches[b.dataset.stretch as Stretch] === this.width));
+    for (const p of this.panels) p.zoom?.();
+    for (const p of this.panels) p.seek?.(this.state.t);
+  }
+
+  /** The stretch that holds the time shown, on a grid that ends with the run: so the plots turn like pages. */
+  private spanAround(): Span {
+    const { width, recording: { end } } = this;
+    if (width >= end) return [0, end || 1];
+    const pages = Math.floor((end - this.state.t) / width + 1e-9), to = Math.max(end - pages * width, width);
+    return [to - width, to];
+  }
+
+  private within(t: number): number { return Math.min(Math.max(t, 0), this.recording.end); }
+
+  // --- what the page consists of
+
+  private text(): void {
+    const { meta } = this.recording, ran = meta.outcome !== "not run";
+    element("name").textContent = meta.name;
+    const step = meta.step !== null ? `step ${quantity(1000 * meta.step, "ms")}` : meta.accuracy !== null ? `accuracy ${number(meta.accuracy)}` : "";
+    element("about").textContent = [
+      `${plural(meta.modules.length, "module")}, ${plural(meta.joints.length, "joint")}, ${quantity(meta.mass, "kg")}`,
+      ...(ran ? [`${meta.cpg}${meta.frequency ? ` at ${quantity(meta.frequency, "Hz")}` : ""}`, quantity(meta.duration, "s")] : []),
+      `engine ${meta.engine}${step ? `, ${step}` : ""}`,
+    ].filter(Boolean).join(" · ");
+    headline(this);
+    element("foot-text").textContent = [`gaitlab ${meta.build}.`, ...(ran ? [`Trace hash ${meta.summary.trace_hash ?? "unknown"}.`, "Values on this page are rounded; the trace beside it has them in full.",
+      `The same run again: ${meta.command}`] : [])].join(" ");
+    element("scenario").textContent = meta.scenario;
+    const { window, checks: all } = meta.verdict;
+    element("definitions").parentElement!.hidden = !ran;
+    if (ran) element("definitions").append(make("p", `Judged from ${number(window.from, 4)} to ${number(window.to, 4)} s; the start is shown, and not judged.`),
+      make("ul", ...all.filter((c) => c.definition).map((c) => make("li", make("b", c.title), `: ${c.definition}${c.source ? ` (limit: ${c.source})` : ""}`))));
+  }
+
+  private arrange(): void {
+    const { recording } = this, { meta } = recording, jointed = meta.joints.length > 0;
+    const keep = (id: string, when: boolean) => {
+      panelOf(id).hidden = !when;
+      return when;
+    };
+    for (const [n, joint] of meta.joints.entries()) element("joint").append(new Option(`${n}  ${joint.name}`, String(n)));
+    if (keep("checks", recording.ran || meta.verdict.checks.length > 0)) checks(this);
+    if (keep("parts", meta.outcome === "not run")) parts(this);
+    panelOf("checks").hidden = meta.outcome === "not run";
+    element("transport").hidden = !recording.ran;
+    if (recording.ran) {
+      this.panels.push(new Transport(this, (on) => this.play(on), (x) => { this.state.rate = x; }), new Overview(this));
+    }
+    if (keep("motion", recording.ran && jointed)) this.panels.push(new JointPlots(this));
+    if (keep("envelope", recording.ran && jointed)) this.panels.push(new Envelope(this));
+    if (keep("heat", recording.ran && jointed)) this.panels.push(new HeatMap(this));
+    if (keep("foot", recording.ran && meta.ground.kind !== "none")) this.panels.push(new Footfalls(this));
+    if (keep("path", recording.ran && meta.ground.kind !== "none")) this.panels.push(new Path(this));
+    if (keep("docks", recording.ran && meta.docks.length > 0)) docks(recording);
+    if (keep("phase", recording.ran && jointed)) this.panels.push(new Phases(this));
+    if (keep("energy", recording.ran && jointed)) this.panels.push(new Energy(this));
+    // Those that have nothing to show are left out by now.
+    for (const row of document.querySelectorAll<HTMLElement>(".row")) {
+      const shown = [...row.children].filter((c) => !(c as HTMLElement).hidden).length;
+      row.hidden = !shown;
+      row.dataset.panels = String(shown);
+    }
+  }
+
+  private press(id: "faces" | "axes"): void {
+    if (!element(id).hidden) this.stage.switch(id);
+  }
+
+  // --- buttons, keys, size, paper
+
+  private wire(): void {
+    element("theme").textContent = this.ink.theme === "dark" ? "Light" : "Dark";
+    const on = (id: string, act: () => void) => element(id).addEventListener("click", act);
+    on("theme", () => this.theme(this.ink.theme === "dark" ? "light" : "dark"));
+    on("print", () => window.print());
+    on("keys", () => {
+      const list = element("keylist");
+      list.hidden = !list.hidden;
+      element("keys").setAttribute("aria-expanded", String(!list.hidden));
+    });
+    on("previous", () => this.choose(this.state.joint - 1));
+    on("next", () => this.choose(this.state.joint + 1));
+    element("joint").addEventListener("change", (e) => this.choose(Number((e.target as HTMLSelectElement).value)));
+    for (const b of document.querySelectorAll<HTMLElement>("[data-stretch]")) {
+      b.addEventListener("click", () => {
+        this.width = this.stretches[b.dataset.stretch as Stretch];
+        this.show(this.spanAround());
+      });
+      b.hidden = b.dataset.stretch !== "all" && this.stretches[b.dataset.stretch as Stretch] >= this.stretches.all;
+    }
+    this.show(this.state.span);
+    addEventListener("keydown", (e) => this.key(e));
+    let wait = 0;
+    addEventListener("resize", () => {
+      clearTimeout(wait);
+      wait = window.setTimeout(() => this.panels.forEach((p) => p.paint()), 60);
+    });
+    let before: Theme | null = null;
+    addEventListener("beforeprint", () => {
+      if (before) return;
+      before = this.ink.theme;
+      this.play(false);
+      document.documentElement.classList.add("printing");
+      this.theme("light");
+      this.stage.freeze(true);
+    });
+    addEventListener("afterprint", () => {
+      if (!before) return;
+      document.documentElement.classList.remove("printing");
+      this.stage.freeze(false);
+      this.theme(before);
+      before = null;
+    });
+  }
+
+  private key(e: KeyboardEvent): void {
+    const target = e.target as HTMLElement;
+    if (target.matches("select, input:not(#time)") || e.ctrlKey || e.metaKey || e.altKey) return;
+    const { state, recording } = this, step = e.shiftKey ? 0.1 : recording.meta.period, look = (from: Look) => () => this.stage.view?.look(from);
+    const press = (id: string) => () => { if (!element(id).hidden) element(id).click(); };
+    const acts: Record<string, () => void> = {
+      " ": () => this.play(!state.playing), ArrowLeft: () => this.goTo(state.t - step), ArrowRight: () => this.goTo(state.t + step), Home: () => this.goTo(0), End: () => this.goTo(recording.end),
+      "[": () => this.choose(state.joint - 1), "]": () => this.choose(state.joint + 1), 1: look("iso"), 2: look("side"), 3: look("top"), 4: look("front"), j: () => this.stage.frame(state.joint),
+      f: press("follow"), c: press("forces"), n: press("faces"), a: press("axes"), d: press("theme"), z: () => this.zoom(null), "?": press("keys"),
+    };
+    const act = acts[e.key.length === 1 ? e.key.toLowerCase() : e.key];
+    if (!act || (e.key === " " && target.matches("button, summary"))) return;
+    e.preventDefault();
+    act();
+  }
+
+  // The address names what is shown, so that it can be copied; not more often than browsers allow.
+  private remembering = 0;
+  private remember(): void {
+    clearTimeout(this.remembering);
+    if (this.link.has("paused") || !this.recording.ran) return;
+    this.remembering = window.setTimeout(() => {
+      const joint = this.recording.meta.joints[this.state.joint]?.name;
+      const parts = [...(joint ? [`joint=${encodeURIComponent(joint).replaceAll("%2F", "/")}`] : []), `t=${+this.state.t.toFixed(3)}`];
+      try {
+        history.replaceState(null, "", `#${parts.join("&")}`);
+      } catch {
+        // A page within another page may not.
+      }
+    }, 400);
+  }
+}

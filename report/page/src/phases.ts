@@ -1,0 +1,79 @@
+// First harmonic of every joint in the limit cycle: how far it lags behind the first that swings, and how wide it swings.
+import { Board, axisName, font, line, type Box, type Pen } from "./board";
+import { element, leaveOut } from "./dom";
+import { keys } from "./joint_plots";
+import type { Desk, Panel } from "./panel";
+
+const low = -Math.PI / 2 - 0.25; // half a turn stands in the middle of the axis
+const wrap = (a: number): number => a - 2 * Math.PI * Math.floor((a - low) / (2 * Math.PI));
+
+export class Phases implements Panel {
+  private readonly board: Board | null = null;
+  private readonly widest: number;
+  private readonly reference: number;
+
+  constructor(private readonly desk: Desk) {
+    const { phases, joints, cycle } = desk.recording.meta;
+    this.widest = Math.max(...phases.map((p) => p.setpoint[0]), 1e-9);
+    this.reference = Math.max(phases.findIndex((p) => p.setpoint[0] > 0.2 * this.widest), 0);
+    if (!phases.length || !phases.some((p) => p.setpoint[0] > 1e-6)) {
+      leaveOut(element("phase"), cycle ? "no joint is given a set point that swings." : "no limit cycle was found.");
+      return;
+    }
+    element("phase-note").textContent = `behind ${joints[this.reference].name}`;
+    this.board = new Board(element("phase"), "Phase lag of every joint", (pen, width, height) => this.draw(pen, width, height));
+    keys("phase-key", [["dotk", "--sky", "set point"], ["ring", "--vermillion", "angle"]]);
+    element("phase-key").append("area: amplitude");
+  }
+
+  paint(): void { this.board?.paint(); }
+  choose(): void { this.board?.paint(); }
+
+  private draw(pen: Pen, width: number, height: number): void {
+    const { ink, recording, state } = this.desk, { phases } = recording.meta, n = phases.length, box: Box = { left: 52, right: width - 8, top: 8, bottom: height - 44 };
+    const Y = (v: number) => box.bottom - (v - low) / (2 * Math.PI) * (box.bottom - box.top), X = (j: number) => box.left + (j + 0.5) / n * (box.right - box.left);
+    pen.font = font(11);
+    pen.strokeStyle = ink.grid;
+    pen.lineWidth = 1;
+    pen.fillStyle = ink.muted;
+    pen.textAlign = "right";
+    pen.textBaseline = "middle";
+    for (const [v, text] of [[-Math.PI / 2, "−π/2"], [0, "0"], [Math.PI / 2, "π/2"], [Math.PI, "π"]] as const) {
+      line(pen, box.left, Y(v), box.right, Y(v));
+      pen.fillText(text, box.left - 7, Y(v));
+    }
+    axisName(pen, ink, (box.left + box.right) / 2, box.bottom + 24, "joint number");
+    pen.save();
+    pen.translate(2, (box.top + box.bottom) / 2);
+    pen.rotate(-Math.PI / 2);
+    axisName(pen, ink, 0, 0, "lag (rad)");
+    pen.restore();
+    pen.font = font(11);
+    pen.fillStyle = ink.muted;
+    pen.textAlign = "center";
+    const every = [1, 2, 5, 10, 20, 50].find((k) => k * (box.right - box.left) / n > 22) ?? 100;
+    for (let j = 0; j < n; j += every) pen.fillText(String(j), X(j), box.bottom + 6);
+    const most = Math.max(2.5, Math.min(9, (box.right - box.left) / n * 0.46)), zero = phases[this.reference].setpoint[1];
+    const disc = (j: number, lag: number, amplitude: number) => {
+      pen.beginPath();
+      pen.arc(X(j), Y(wrap(lag)), Math.max(2.2, most * Math.sqrt(amplitude / this.widest)), 0, 2 * Math.PI);
+    };
+    phases.forEach(({ setpoint: [A, a], angle: [B, b] }, j) => {
+      const chosen = j === state.joint;
+      if (A < 0.02 * this.widest) {
+        pen.fillStyle = chosen ? ink.accent : ink.line;
+        pen.fillRect(X(j) - 2.5, Y(0) - 0.75, 5, 1.5);
+        return;
+      }
+      pen.fillStyle = chosen ? ink.blue : ink.sky;
+      pen.globalAlpha = chosen ? 1 : 0.75;
+      disc(j, zero - a, A);
+      pen.fill();
+      pen.globalAlpha = 1;
+      pen.strokeStyle = ink.vermillion;
+      pen.lineWidth = 1.5;
+      disc(j, zero - b, Math.min(B, 1.5 * this.widest));
+      pen.stroke();
+    });
+  }
+}

@@ -1,0 +1,50 @@
+// A run as the page reads it: what the program says of it, and its channels over time.
+import { inflate, unpack, type Values } from "./channels";
+import type { Meta } from "./format";
+
+export class Recording {
+  readonly times: Float64Array;
+
+  constructor(readonly meta: Meta, private readonly channels: ReadonlyMap<string, Values>) {
+    const t = channels.get("t");
+    this.times = Float64Array.from({ length: Math.max(meta.rows, 1) }, (_, i) => t?.[i] ?? i * meta.period);
+    // A channel in 32 bits has 7 digits: where a row stands on the grid, the grid knows its time better.
+    this.times.forEach((time, i) => { if (Math.abs(time - i * meta.period) < 1e-3 * meta.period) this.times[i] = i * meta.period; });
+  }
+
+  static async of(page: Document): Promise<Recording> {
+    const text = (id: string) => page.getElementById(id)?.textContent?.trim() ?? "";
+    const meta = JSON.parse(text("meta")) as Meta;
+    if (meta.format !== 1) throw new Error(`it is of format ${meta.format}, this page reads format 1`);
+    const bytes = meta.channels.length ? await inflate(text("data")) : new Uint8Array();
+    return new Recording(meta, unpack(meta.channels, bytes));
+  }
+
+  get rows(): number { return this.times.length; }
+  get end(): number { return this.times[this.rows - 1]; }
+  get ran(): boolean { return this.meta.outcome !== "not run" && this.rows > 1; }
+
+  has(name: string): boolean { return this.channels.has(name); }
+  find(name: string): Values | null { return this.channels.get(name) ?? null; }
+  /** Zeros where the recording has no such channel. */
+  channel(name: string): Values { return this.channels.get(name) ?? (this.zeros ??= new Float32Array(this.rows)); }
+  private zeros?: Values;
+
+  /** The last row that is not after t. */
+  row(t: number): number {
+    let i = Math.min(Math.max(Math.floor(t / this.meta.period + 1e-6), 0), this.rows - 1);
+    while (i > 0 && this.times[i] > t + 1e-9) i--;
+    return i;
+  }
+
+  /** At time t, straight between rows. */
+  at(values: Values, t: number): number {
+    const i = this.row(t);
+    if (i + 1 >= this.rows) return values[i];
+    const share = Math.min(Math.max((t - this.times[i]) / (this.times[i + 1] - this.times[i]), 0), 1);
+    return values[i] * (1 - share) + values[i + 1] * share;
+  }
+
+  /** The first row of the judged window. */
+  get judged(): number { return this.row(this.meta.verdict.window.from); }
+}

@@ -1,0 +1,127 @@
+// The 3D picture in the page: its buttons, legends, tags; clicks on hinges. Without WebGL it says so, and the rest of the page works.
+import { gradient, type Theme } from "./colour";
+import { element, make } from "./dom";
+import { Labels } from "./labels";
+import { fixed, number, percent } from "./numbers";
+import type { Desk, Panel } from "./panel";
+import { View, type Look } from "./view";
+
+export class Stage implements Panel {
+  readonly view: View | null;
+  private readonly host = element("stage");
+  private readonly tag = element("tag");
+  private readonly labels = new Labels(element("names"));
+  private image: HTMLImageElement | null = null;
+
+  constructor(private readonly desk: Desk) {
+    const canvas = element<HTMLCanvasElement>("view");
+    this.view = opened(() => new View(desk.recording, desk.loads, canvas));
+    if (!this.view) {
+      this.host.replaceChildren(make("p.empty", "This browser cannot draw in 3D (it has no WebGL 2). Everything else on this page works."));
+      return;
+    }
+    const { view } = this, { meta } = desk.recording;
+    element("grid-size").textContent = meta.ground.kind === "plane" || meta.ground.kind === "boxes" ? `grid ${number(view.ground.spacing)} m` : "";
+    element("ramp-words").textContent = !desk.recording.ran || !meta.joints.length ? "" : desk.loads.limited ? "hinge: share of what its motor can give" : "hinge: torque, of the largest in this run";
+    for (const b of document.querySelectorAll<HTMLElement>("[data-look]")) b.addEventListener("click", () => view.look(b.dataset.look as Look));
+    this.toggle("follow", desk.recording.ran, () => view.follow, (on) => { view.follow = on; });
+    this.toggle("forces", view.arrows.any, () => view.forces, (on) => { view.forces = on; });
+    this.toggle("faces", view.marks.anyFaces, () => view.marks.faces, (on) => { view.marks.faces = on; });
+    this.toggle("axes", meta.joints.length > 0, () => view.marks.axes, (on) => { view.marks.axes = on; });
+    this.pointer(canvas, view);
+  }
+
+  paint(): void {
+    element("ramp").style.background = gradient(this.desk.ink.theme);
+    element("legend-load").hidden = !element("ramp-words").textContent;
+    this.view?.resize();
+    this.view?.paint(this.desk.ink.theme as Theme);
+  }
+
+  seek(t: number): void { this.view?.set(t); }
+  choose(): void { this.view?.select(this.desk.state.joint); }
+
+  /** Draws if something changed; whether it did. */
+  draw(): boolean {
+    if (!this.view?.render()) return false;
+    this.annotate(this.view);
+    return true;
+  }
+
+  /** The chosen joint and its module fill the picture; again: the whole robot. */
+  frame(joint: number): void { this.view?.look("iso", joint); }
+
+  switch(what: "faces" | "axes" | "follow" | "forces"): void { element(what).click(); }
+
+  /** A picture in place of the canvas, for paper. */
+  freeze(on: boolean): void {
+    this.image?.remove();
+    this.image = null;
+    if (!on || !this.view) return;
+    this.image = make("img.still");
+    this.image.alt = "The robot at the time chosen";
+    this.image.src = this.view.image();
+    this.host.append(this.image);
+  }
+
+  private toggle(id: string, useful: boolean, get: () => boolean, set: (on: boolean) => void): void {
+    const button = element<HTMLButtonElement>(id);
+    button.hidden = !useful;
+    button.setAttribute("aria-pressed", String(get()));
+    button.addEventListener("click", () => {
+      set(!get());
+      button.setAttribute("aria-pressed", String(get()));
+      if (id === "faces") element("legend-faces").hidden = !get();
+      if (id === "axes") element("legend-axes").hidden = !get();
+      this.view?.set(this.desk.state.t);
+    });
+  }
+
+  private annotate(view: View): void {
+    const { recording, loads, state } = this.desk, { joints } = recording.meta, j = view.hovered >= 0 ? view.hovered : state.joint;
+    const at = j >= 0 ? view.place(j) : null;
+    this.tag.hidden = !at;
+    if (at) {
+      const torque = recording.find(`joint.${j}.torque`), width = this.host.clientWidth, decimals = Math.max(2, Math.ceil(-Math.log10(loads.peak)) + 1);
+      const numbers = recording.ran && torque ? ` ${fixed(recording.at(torque, state.t), decimals)} N m${loads.limited ? `, ${percent(Math.round(100 * loads.shareAt(j, state.t)) / 100)}` : ""}` : "";
+      this.tag.replaceChildren(make("b", joints[j].name), numbers);
+      const half = this.tag.offsetWidth / 2, x = Math.min(Math.max(at[0], half + 8), width - half - 8), under = at[1] < 84;
+      this.tag.classList.toggle("under", under);
+      this.tag.style.setProperty("--point", `${(at[0] - x + half).toFixed(1)}px`);
+      this.tag.style.transform = `translate(${(x - half).toFixed(1)}px, ${under ? `${(at[1] + 22).toFixed(1)}px` : `calc(${(at[1] - 18).toFixed(1)}px - 100%)`})`;
+    }
+    const order = joints.map((_, k) => k).filter((k) => k !== j);
+    this.labels.show(!view.marks.axes ? [] : order.flatMap((k) => {
+      const tip = view.project(view.marks.tip(k));
+      return tip ? [{ text: joints[k].name, x: tip[0], y: tip[1] }] : [];
+    }));
+  }
+
+  private pointer(canvas: HTMLCanvasElement, view: View): void {
+    let down: [number, number] | null = null;
+    canvas.addEventListener("pointerdown", (e) => { down = [e.clientX, e.clientY]; });
+    canvas.addEventListener("pointerup", (e) => {
+      const still = down && Math.hypot(e.clientX - down[0], e.clientY - down[1]) < 5, joint = still ? view.pick(e.clientX, e.clientY) : -1;
+      down = null;
+      if (joint >= 0) this.desk.choose(joint);
+    });
+    canvas.addEventListener("pointermove", (e) => { if (!e.buttons) hover(view.pick(e.clientX, e.clientY)); });
+    canvas.addEventListener("pointerleave", () => hover(-1));
+    canvas.addEventListener("dblclick", (e) => this.frame(view.pick(e.clientX, e.clientY)));
+    const hover = (joint: number) => {
+      if (joint === view.hovered) return;
+      view.hovered = joint;
+      canvas.style.cursor = joint >= 0 ? "pointer" : "grab";
+      view.set(this.desk.state.t);
+    };
+  }
+}
+
+function opened(open: () => View): View | null {
+  try {
+    return open();
+  } catch (e) {
+    if (/WebGL/i.test(String(e))) return null;
+    throw e;
+  }
+}
