@@ -1,20 +1,10 @@
-// What the drives of a robot have, whichever actuator holds them.
+// What the motors of a robot have at rest, and who says so. At every speed: envelope.h.
 #pragma once
 #include <vector>
 
 #include "core/scenario/scenario.h"
 
 namespace gaitlab::report {
-
-/// Of one joint, as its actuator answers.
-struct Drive {
-  double rest = 0;       ///< N m: the largest torque at rest; infinite: the actuator states no limit
-  double no_load = 0;    ///< rad/s: where that torque has come to 0; infinite: it never does
-  DriveRatings ratings;  ///< 0: not stated
-};
-
-/// Of every joint; empty where nothing drives joints.
-std::vector<Drive> drives(const Scenario& scenario);
 
 /// Whether the drives are DC motors, which have a voltage and a current.
 bool dc_motors(const Scenario& scenario);

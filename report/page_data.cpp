@@ -74,7 +74,7 @@ Json motors_json(const Motors& motors) {
     all.push_back({{"unit", motor.unit},
                    {"command", known(motor.command)},
                    {"current", known(motor.current)},
-                   {"continuous", Json()},  // no module type states one yet
+                   {"continuous", known(motor.continuous)},
                    {"rest", known(motor.rest)},
                    {"no_load", known(motor.no_load)},
                    {"speed", motor.speed},

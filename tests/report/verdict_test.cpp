@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/scenario/resolved.h"
+#include "report/envelope.h"
 #include "report/motors.h"
 #include "tests/program/fixture.h"
 
@@ -124,7 +125,7 @@ TEST(Verdict, JudgesSpeedsByTheOneWithoutTorque) {
   EXPECT_EQ(with(1.01 * no_load).status, CheckStatus::fail);
   EXPECT_EQ(with(1.01 * no_load).joint, "m3/passive");
   const Scenario rated = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated", "actuator.speed_max=1.2"});
-  EXPECT_EQ(drives(rated).at(0).ratings.speed, 1.2);
+  EXPECT_EQ(motors(rated, 0).joint(0).speed_max, 1.2);
 }
 
 /// What a maker states is held against the run: RMS over the window for what lasts, the largest for peaks.
