@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/model/kinematics.h"
-#include "core/recording/states.h"
 #include "report/convex.h"
+#include "report/states.h"
 
 namespace gaitlab::report {
 

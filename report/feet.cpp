@@ -7,7 +7,7 @@
 #include <map>
 
 #include "core/model/kinematics.h"
-#include "core/recording/states.h"
+#include "report/states.h"
 
 namespace gaitlab::report {
 

@@ -5,7 +5,7 @@
 
 #include "core/recording/recording.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 /// Recording::state of many rows: the columns are looked up once. The recording outlives it.
 class States {
@@ -20,4 +20,4 @@ class States {
   std::vector<Series> angles_;
 };
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report

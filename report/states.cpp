@@ -1,6 +1,6 @@
-#include "core/recording/states.h"
+#include "report/states.h"
 
-namespace gaitlab {
+namespace gaitlab::report {
 
 States::States(const Recording& recording, const Robot& robot)
     : base_{recording.series("base.x"),  recording.series("base.y"),  recording.series("base.z"), recording.series("base.qw"),
@@ -17,4 +17,4 @@ RobotState States::operator()(std::size_t row) const {
   return s;
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::report
