@@ -72,7 +72,7 @@ int run(const RunArguments& arguments) {
 
 int run(const Scenario& scenario, const RunArguments& arguments) {
   warn_of_start(scenario, arguments.quiet);  // first: a slip of units is why a step is refused
-  Simulation simulation({&scenario, 1});
+  Simulation simulation({&scenario, 1}, Loads::recorded);
   RunFolder folder(arguments.out, scenario.name);
   constexpr double kMuch = 1e8;  // bytes
   if (const RowsNeeded needed = simulation.rows_needed(0); needed.bytes() > kMuch && !arguments.quiet) {

@@ -9,6 +9,7 @@
 
 #include "core/scenario/wording.h"
 #include "report/fall.h"
+#include "report/load_checks.h"
 #include "report/motors.h"
 #include "report/number_texts.h"
 #include "report/trust.h"
@@ -284,7 +285,14 @@ Check collision(const Run& run) {
   return made;
 }
 
-Check docks(const Run&) { return not_judged("dock", "structure", "N", "the module types do not state what a dock holds"); }
+template <DockQuantity kQuantity>
+Check dock(const Run& run) {
+  constexpr const char* kIds[] = {"dock_tension", "dock_shear", "dock_bending", "dock_torsion"};
+  const bool force = kQuantity == DockQuantity::tension || kQuantity == DockQuantity::shear;
+  Check made = check(kIds[static_cast<std::size_t>(kQuantity)], "structure", force ? "N" : "N m");
+  judge_docks(run.scenario, run.record, run.summary, kQuantity, dock_limits(*run.scenario.robot, kQuantity), made);
+  return made;
+}
 Check battery(const Run&) { return not_judged("battery", "structure", "A", "the module types state no battery"); }
 
 Check in_ground(const Run& run) {
@@ -301,6 +309,18 @@ Check in_ground(const Run& run) {
   made.from = found->time;
   made.text =
       fmt::format("body {} goes {:.3g} mm into the ground", run.scenario.robot->bodies[found->body].name, 1000 * found->depth);
+  return made;
+}
+
+Check slip(const Run& run) {
+  Check made = check("slip", "ground", "");
+  judge_slip(run.scenario, run.record, run.summary, made);
+  return made;
+}
+
+Check stability(const Run& run) {
+  Check made = check("stability", "ground", "m");
+  judge_stability(run.scenario, run.record, run.summary, made);
   return made;
 }
 
@@ -343,9 +363,28 @@ Check created(const Run& run) {
   return made;
 }
 
-constexpr Check (*kChecks[])(const Run&) = {
-    outcome, height,    tilt,  voltage, current,   rest_torque,        heat,   gear,   tracking,
-    stops,   collision, docks, battery, in_ground, torque_error_check, ledger, created};
+constexpr Check (*kChecks[])(const Run&) = {outcome,
+                                            height,
+                                            tilt,
+                                            voltage,
+                                            current,
+                                            rest_torque,
+                                            heat,
+                                            gear,
+                                            tracking,
+                                            stops,
+                                            collision,
+                                            dock<DockQuantity::tension>,
+                                            dock<DockQuantity::shear>,
+                                            dock<DockQuantity::bending>,
+                                            dock<DockQuantity::torsion>,
+                                            battery,
+                                            in_ground,
+                                            slip,
+                                            stability,
+                                            torque_error_check,
+                                            ledger,
+                                            created};
 
 const char* name_of(CheckStatus status) {
   switch (status) {

@@ -100,4 +100,13 @@ void halve_ticks(Trace& ticks) {
   ticks.values.resize(kept * columns);
 }
 
+void halve_rows(Trace& table) {
+  const std::size_t columns = table.columns.size();
+  const std::size_t rows = table.rows();
+  std::size_t kept = std::min<std::size_t>(1, rows);
+  for (std::size_t k = 2; k < rows; k += 2, ++kept)
+    std::ranges::copy(table.row(k), Out(table.values).subspan(kept * columns, columns).begin());
+  table.values.resize(kept * columns);
+}
+
 }  // namespace gaitlab

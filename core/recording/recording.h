@@ -43,6 +43,9 @@ struct Recording {
   /// = 0 the integral of torque^2 and the time at each limit. Over all steps, so that a peak or an RMS of any part of the run
   /// does not depend on trace.period.
   Trace ticks;
+  /// At the rows of `ticks`, but under the new commands: loads of docks and feet, ways that feet slid, how the robot stands.
+  /// Without columns where nobody asked the simulation for it.
+  Trace loads;
   std::vector<JointStatistics> joints;  ///< none: the robot has no joint, or the run is of a format that did not keep them
   Ledger ledger;                        ///< at the end
   StepTally tally;                      ///< of the engine's steps
@@ -84,5 +87,7 @@ enum TickColumn : std::size_t {
 std::vector<Column> tick_columns(std::size_t joints);
 /// Makes one row of each two behind the first: the later one, with the larger of their peaks.
 void halve_ticks(Trace& ticks);
+/// Makes one row of each two behind the first: the later one.
+void halve_rows(Trace& table);
 
 }  // namespace gaitlab

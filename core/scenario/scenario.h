@@ -66,6 +66,7 @@ struct Limits {
   double saturated_periods = 3;      ///< control periods on end
   double height = 0.5;               ///< of the centre of mass, of that at the start
   double tilt = 1.0471975511965976;  ///< rad
+  double slip = 0.2;                 ///< of the way of the centre of mass
   bool operator==(const Limits&) const = default;
   void fields(Fields& f);
 };

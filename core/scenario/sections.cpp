@@ -200,6 +200,10 @@ void Limits::fields(Fields& f) {
   f.number(
       "tilt", tilt,
       {"rad", kPositive, 4, "Tilt of the base from its start above which the verdict warns. Default: 60 degrees, chosen."});
+  f.number(
+      "slip", slip,
+      {"", 0, 1e6,
+       "Share of its way that a robot may slide on its feet, weighted by their loads; more is a warning. Default: chosen."});
 }
 
 SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type)

@@ -110,6 +110,11 @@ double Simulation::energy(const Lane& lane) const {
   return sample.sums.kinetic + sample.sums.potential + rotors;
 }
 
+double Simulation::stop_torque(const Lane& lane, const RobotState& state, std::size_t joint) {
+  const Joint& of = lane.robot.joints[joint];
+  return HingeStop::at(state.q[joint], state.qd[joint], of.lo, of.hi).torque;
+}
+
 /// `whole`: also what no column asks for.
 Sample& Simulation::take_sample(Lane& lane, bool whole) {
   const std::size_t lanes = lanes_.size();
@@ -130,7 +135,7 @@ Sample& Simulation::take_sample(Lane& lane, bool whole) {
     s.current[j] = current_[i];
     s.saturation[j] = saturation_[i];
     s.torque[j] = torque_[i];
-    s.stop_torque[j] = HingeStop::at(s.state.q[j], s.state.qd[j], lane.robot.joints[j].lo, lane.robot.joints[j].hi).torque;
+    s.stop_torque[j] = stop_torque(lane, s.state, j);
   }
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
   plant_->tally(l, s.tally);
@@ -238,6 +243,7 @@ void Simulation::command() {
     if (lane->recording.control_ticks % lane->ticks_per_row == 0) record_tick(*lane);
     guard(*lane, [&] { command(*lane); });
   }
+  record_loads([](const Lane& lane) { return !lane.closed; });
   watch_stability();
 }
 
@@ -248,6 +254,7 @@ void Simulation::record_tick(Lane& lane) {
   if (!ticks.values.empty() && ticks.values[ticks.values.size() - columns] == time()) return;
   if (ticks.rows() > kMostTickRows) {
     halve_ticks(ticks);
+    halve_rows(lane.recording.loads);
     lane.ticks_per_row *= 2;
     if (lane.recording.control_ticks % lane.ticks_per_row != 0 && !lane.closed) return;
   }
@@ -255,6 +262,37 @@ void Simulation::record_tick(Lane& lane) {
   const Out row = Out(ticks.values).last(columns);
   row[0] = time();
   meter_.tick(lane.index, row.subspan(1));
+  lane.loads_due = lane.loads != nullptr;
+}
+
+/// What lanes that are `wanted` bear in this moment under the commands that begin now, which change torques at once; of a lane
+/// that ends, under those in force.
+void Simulation::record_loads(const std::function<bool(const Lane&)>& wanted) {
+  const auto due = [&](const auto& lane) { return lane->loads_due && wanted(*lane); };
+  if (std::ranges::none_of(lanes_, due)) return;
+  if (actuator_ != nullptr)
+    actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
+  for (const auto& lane : lanes_) {
+    if (due(lane)) record_loads(*lane);
+  }
+}
+
+void Simulation::record_loads(Lane& lane) {
+  lane.loads_due = false;
+  if (!fine(lane)) return;
+  Sample& s = lane.loads->sample();
+  s.t = time();
+  layout_.read(plant_state_, lane.index, s.state);
+  s.forward_kinematics(lane.robot);
+  plant_->contacts(lane.index, s.contacts);
+  for (std::size_t j = 0; j < layout_.joints; ++j) {
+    s.torque[j] = torque_[j * lanes_.size() + lane.index];
+    s.stop_torque[j] = stop_torque(lane, s.state, j);
+  }
+  if (lane.loads->want_reactions()) s.compute_reactions(lane.contacts, *plant_, lane.index);
+  Trace& loads = lane.recording.loads;
+  loads.values.resize(loads.values.size() + loads.columns.size());
+  lane.loads->measure(Out(loads.values).last(loads.columns.size()));
 }
 
 void Simulation::command(Lane& lane) {
@@ -327,11 +365,16 @@ void Simulation::check() {
 }
 
 void Simulation::check(Lane& lane) {
+  if (!fine(lane)) fail(lane, diverged(lane));
+}
+
+/// Whether every number of its state is one, and not beyond all bounds.
+bool Simulation::fine(const Lane& lane) const {
   bool fine = true;
   for (std::size_t i = lane.index; i < plant_state_.size(); i += lanes_.size()) {
     fine = fine && std::abs(plant_state_[i]) < kLargestSpeed;  // false for NaN too
   }
-  if (!fine) fail(lane, diverged(lane));
+  return fine;
 }
 
 SimulationError Simulation::diverged(const Lane& lane) const {
@@ -361,7 +404,9 @@ void Simulation::close(Lane& lane) {
   lane.closed = true;
   plant_->update_contacts();
   record_tick(lane);
+  record_loads([&](const Lane& one) { return &one == &lane; });
   Recording& recording = lane.recording;
+  if (lane.loads) lane.loads->drop_idle_feet(recording.loads);
   recording.steps = step_number();
   recording.simulated = time();
   const Sample& last = take_sample(lane, true);

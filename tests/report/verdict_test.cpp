@@ -59,7 +59,8 @@ TEST(Verdict, OfAGaitThatTheMotorsCanDo) {
   for (const char* const id :
        {"outcome", "fall", "voltage", "current", "tracking", "stops", "collision", "in_ground", "ledger"})
     EXPECT_EQ(walk().status(id), CheckStatus::pass) << id << ": " << walk().check(id).text;
-  for (const char* const id : {"heat", "gear", "dock", "battery"}) EXPECT_EQ(walk().status(id), CheckStatus::not_judged) << id;
+  for (const char* const id : {"heat", "gear", "dock_tension", "battery"})
+    EXPECT_EQ(walk().status(id), CheckStatus::not_judged) << id;
   EXPECT_EQ(to_lines(made).front(), "feasible with these motors");
 }
 
