@@ -135,7 +135,7 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   const RobotTree tree(robot);
   const Motors motors = report::motors(scenario, fastest_joint(r));
   const std::vector<Foot> feet = report::feet(scenario, r);
-  const std::vector<Signal> signals = report::signals(r, feet);
+  const std::vector<Signal> signals = report::signals(r, feet, motors.kinds.empty() ? "" : motors.kinds[0].unit);
   std::size_t stride = 1;
   Packing packing = packed(signals, r.rows(), stride);
   std::string data = packing.text();

@@ -11,33 +11,34 @@ namespace {
 
 /// Columns that are rounded alike.
 struct Quantity {
-  const char* pattern;
-  double quantum;      ///< the largest
-  bool fine = false;   ///< less for small magnitudes
-  bool spare = false;  ///< left out where it is 0 all the time
+  const char *pattern, *unit;  ///< nullptr: of the command
+  double quantum;              ///< the largest
+  bool fine = false;           ///< less for small magnitudes
+  bool spare = false;          ///< left out where it is 0 all the time
 };
 
-constexpr Quantity kQuantities[] = {{"t", 1e-6},
-                                    {"base.?", 2e-5},
-                                    {"base.q?", 1e-5},
-                                    {"com.?", 2e-5},
-                                    {"joint.*.setpoint", 1e-4},
-                                    {"joint.*.angle", 1e-4},
-                                    {"joint.*.speed", 1e-3, true},
-                                    {"joint.*.torque", 1e-3, true},
-                                    {"joint.*.stop_torque", 1e-3, true, true},
-                                    {"joint.*.voltage_command", 2e-3, true},
-                                    {"joint.*.voltage", 2e-3, true},
-                                    {"joint.*.current", 1e-3, true},
-                                    {"joint.*.saturation", 1},
-                                    {"dock.*.tension", 0.01, true},
-                                    {"dock.*.shear", 0.01, true},
-                                    {"dock.*.bending", 1e-3, true},
-                                    {"dock.*.torsion", 1e-3, true},
-                                    {"stability", 5e-4},
-                                    {"energy.*", 1e-3, true},
-                                    {"box.*.?", 2e-5},
-                                    {"box.*.q?", 1e-5}};
+// Units, too: a CSV file holds none.
+constexpr Quantity kQuantities[] = {{"t", "s", 1e-6},
+                                    {"base.?", "m", 2e-5},
+                                    {"base.q?", "", 1e-5},
+                                    {"com.?", "m", 2e-5},
+                                    {"joint.*.setpoint", "rad", 1e-4},
+                                    {"joint.*.angle", "rad", 1e-4},
+                                    {"joint.*.speed", "rad/s", 1e-3, true},
+                                    {"joint.*.torque", "N m", 1e-3, true},
+                                    {"joint.*.stop_torque", "N m", 1e-3, true, true},
+                                    {"joint.*.voltage_command", nullptr, 2e-3, true},
+                                    {"joint.*.voltage", "V", 2e-3, true},
+                                    {"joint.*.current", "A", 1e-3, true},
+                                    {"joint.*.saturation", "", 1},
+                                    {"dock.*.tension", "N", 0.01, true},
+                                    {"dock.*.shear", "N", 0.01, true},
+                                    {"dock.*.bending", "N m", 1e-3, true},
+                                    {"dock.*.torsion", "N m", 1e-3, true},
+                                    {"stability", "m", 5e-4},
+                                    {"energy.*", "J", 1e-3, true},
+                                    {"box.*.?", "m", 2e-5},
+                                    {"box.*.q?", "", 1e-5}};
 constexpr double kForce = 0.02;  // N, of feet
 constexpr double kPlace = 5e-4;  // m, of feet
 
@@ -56,13 +57,13 @@ void set_quanta(std::span<Signal> group, std::size_t rows, const Quantity& quant
   for (Signal& signal : group) signal.quantum = quantum_of(largest, quantity.quantum);
 }
 
-void add_columns(const Recording& r, const Quantity& quantity, std::vector<Signal>& all) {
+void add_columns(const Recording& r, const Quantity& quantity, const std::string& command_unit, std::vector<Signal>& all) {
   const std::size_t first = all.size();
   for (const Trace* table : {&r.trace, &r.rest}) {
     for (std::size_t i = 0; i < table->columns.size() && table->rows() > 0; ++i) {
-      const Column& column = table->columns[i];
-      if (!glob(quantity.pattern, column.name)) continue;
-      Signal signal{column.name, column.unit, 1, {*table, i}, {}};
+      const std::string& name = table->columns[i].name;
+      if (!glob(quantity.pattern, name)) continue;
+      Signal signal{name, quantity.unit == nullptr ? command_unit : quantity.unit, 1, {*table, i}, {}};
       if (!quantity.spare || magnitude(signal, r.rows()) > 0) all.push_back(std::move(signal));
     }
   }
@@ -79,7 +80,7 @@ void add_feet(const std::vector<Foot>& feet, std::size_t rows, std::vector<Signa
   add("fx", "N", &Foot::fx);
   add("fy", "N", &Foot::fy);
   add("fz", "N", &Foot::fz);
-  set_quanta(std::span(all).subspan(first), rows, {"", kForce, true});
+  set_quanta(std::span(all).subspan(first), rows, {"", "N", kForce, true});
   add("x", "m", &Foot::x);
   add("y", "m", &Foot::y);
   add("z", "m", &Foot::z);
@@ -87,9 +88,9 @@ void add_feet(const std::vector<Foot>& feet, std::size_t rows, std::vector<Signa
 
 }  // namespace
 
-std::vector<Signal> signals(const Recording& r, const std::vector<Foot>& feet) {
+std::vector<Signal> signals(const Recording& r, const std::vector<Foot>& feet, const std::string& command_unit) {
   std::vector<Signal> all;
-  for (const Quantity& quantity : kQuantities) add_columns(r, quantity, all);
+  for (const Quantity& quantity : kQuantities) add_columns(r, quantity, command_unit, all);
   add_feet(feet, r.rows(), all);
   return all;
 }

@@ -22,7 +22,7 @@ struct Signal {
 /// them, then the feet, `foot.N.fx`. Stops that are never reached are left out. Quanta are those of docs/report.md; where a
 /// quantity is small in all joints, feet or docks, a thousandth of its largest magnitude. `record` and `feet` outlive the
 /// result.
-std::vector<Signal> signals(const Recording& record, const std::vector<Foot>& feet);
+std::vector<Signal> signals(const Recording& record, const std::vector<Foot>& feet, const std::string& command_unit);
 
 /// All signals, of every `stride`th row and the last one.
 Packing packed(const std::vector<Signal>& signals, std::size_t rows, std::size_t stride);
