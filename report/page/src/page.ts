@@ -198,7 +198,7 @@ export class Page implements Desk {
     if (!element(id).hidden) this.stage.switch(id);
   }
 
-  // --- buttons, keys, size, paper
+  // --- buttons, keys, paper
 
   private wire(): void {
     element("theme").textContent = this.ink.theme === "dark" ? "Light" : "Dark";
@@ -222,11 +222,6 @@ export class Page implements Desk {
     }
     this.show(this.state.span);
     addEventListener("keydown", (e) => this.key(e));
-    let wait = 0;
-    addEventListener("resize", () => {
-      clearTimeout(wait);
-      wait = window.setTimeout(() => this.panels.forEach((p) => p.paint()), 60);
-    });
     let before: Theme | null = null;
     addEventListener("beforeprint", () => {
       if (before) return;
