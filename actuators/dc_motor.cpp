@@ -37,9 +37,16 @@ void DcMotorActuator::Settings::fields(Fields& f) {
   f.choice("efficiency_model", efficiency_model, kEfficiencyModels,
            "paper: eta acts on the torque both ways, as in eq. 2; directional: eta driving, 1/eta back-driven.");
   f.number("turn_speed", turn_speed, {"rad/s", 1e-6, 1e3, "Joint speed over which `directional` goes from 1 to eta or 1/eta."});
-  f.per_joint("u_max", u_max, {"V", 0, 1e6, "Driver supply: the command is cut to +- this."});
-  f.per_joint("i_max", i_max, {"A", 0, 1e6, "Absolute rating: the current is cut to +- this."});
+  f.limit("u_max", u_max, {"V", 0, 1e6, "Driver supply: the command is cut to +- this."});
+  f.limit("i_max", i_max, {"A", 0, 1e6, "Absolute rating: the current is cut to +- this."});
   f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1, "Of the rotor (J); acts on the joint as n^2 J."});
+  f.rating("i_continuous", i_continuous, {"A", 0, 1e6, "RMS current that the motor bears for good, a verdict's limit."});
+  f.rating("gear_torque_peak", gear_torque_peak,
+           {"N m", 0, 1e9, "Largest torque that the gear bears, at the joint, a verdict's limit."});
+  f.rating("gear_torque_continuous", gear_torque_continuous,
+           {"N m", 0, 1e9, "RMS torque that the gear bears for good, at the joint, a verdict's limit."});
+  f.rating("speed_max", speed_max,
+           {"rad/s", 0, 1e6, "Largest speed of the joint that motor and gear bear, a verdict's limit."});
   const auto useless = [](double eta) { return !(eta > 0); };
   if (efficiency_model == EfficiencyModel::directional &&
       (useless(efficiency.common) || std::any_of(efficiency.each.begin(), efficiency.each.end(), useless)))
@@ -51,6 +58,7 @@ DcMotorActuator::DcMotorActuator(const RobotInfo& robot, const std::vector<const
     for (const Settings* s : lanes) {
       motors_.push_back({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], s->efficiency[j], s->u_max[j], s->i_max[j],
                          s->efficiency_model == EfficiencyModel::directional ? s->turn_speed : 0.0});
+      ratings_.push_back({s->i_continuous[j], s->gear_torque_peak[j], s->gear_torque_continuous[j], s->speed_max[j]});
       limit_.push_back(s->u_max[j]);
       inertia_.push_back(s->gear[j] * s->gear[j] * s->rotor_inertia[j]);
     }

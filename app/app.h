@@ -41,11 +41,13 @@ struct SummaryOptions {
   bool verbose = false;          ///< the energy ledger and the step's limit, too
   bool joints = false;           ///< a row per joint
   bool fail_infeasible = false;  ///< exit code 3 where the verdict is so, 1 of a failed run
+  bool demand = false;           ///< also run the demand twin (report/demand.h)
 };
 
 struct RunArguments : ScenarioArguments {
   std::optional<std::string> out;
   std::string format = "h5";
+  bool no_page = false;  ///< without report.html
   SummaryOptions shown;
   std::vector<std::string> joints;  ///< names, of the figure; none: those of the scenario
 };
@@ -55,6 +57,9 @@ int run(const Scenario& scenario, const RunArguments& arguments);
 /// Prints the summary of a run, the verdict first.
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                    const report::Verdict& verdict, const SummaryOptions& shown);
+/// The verdict on a run; where that is asked for with what its demand twin, which is simulated, takes.
+report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                       const report::Overlaps& overlaps, const SummaryOptions& shown);
 /// Where that is asked for 3 of an infeasible verdict and 1 of a failed run; else 0, also of what was not judged.
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown);
 

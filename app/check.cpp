@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "app/commands.h"
 #include "app/run_time.h"
+#include "core/recording/atomic_file.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
+#include "report/page.h"
+#include "report/start_row.h"
 #include "report/trust.h"
 
 namespace gaitlab::app {
@@ -23,7 +27,19 @@ std::unique_ptr<Simulation> made(const Scenario& s, const RunTime& time) try {
   throw InputError(std::move(problems));
 }
 
-int check(const ScenarioArguments& arguments) {
+struct CheckArguments : ScenarioArguments {
+  std::optional<std::string> page;  ///< file for a page of the robot as it starts
+};
+
+void write_page(const Scenario& s, const std::string& file) {
+  const Recording start = report::start_row(s);
+  report::Verdict verdict;
+  verdict.word = "not judged";
+  write_file(file, report::page(report::page_data(s, start, report::summarise(s, start, 0), verdict)));
+}
+
+int check(const CheckArguments& arguments) {
+  if (arguments.page) check_page(*arguments.page);
   Catalog catalog = standard_catalog();
   const Scenario s = read(arguments, catalog);
   warn_of_start(s, arguments.quiet);
@@ -54,15 +70,24 @@ int check(const ScenarioArguments& arguments) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     fmt::print("  {:5}  {:<16} {:+.4f} {:+.4f}\n", j, robot.joints[j].name, robot.joints[j].lo, robot.joints[j].hi);
   }
+  if (arguments.page) {
+    write_page(s, *arguments.page);
+    print_page(*arguments.page);
+  }
   return 0;
 }
 
 }  // namespace
 
 void add_check(Commands& commands) {
-  add_command<ScenarioArguments>(commands, "check", "Validate a scenario without running it, and print what it is made of.",
-                                 check,
-                                 [](CLI::App& command, ScenarioArguments& arguments) { add_scenario(command, arguments); });
+  add_command<CheckArguments>(commands, "check", "Validate a scenario without running it, and print what it is made of.", check,
+                              [](CLI::App& command, CheckArguments& arguments) {
+                                add_scenario(command, arguments);
+                                command
+                                    .add_option("--page", arguments.page,
+                                                "file for a page of the robot as it starts, with its faces; must not exist")
+                                    ->check(not_empty);
+                              });
 }
 
 }  // namespace gaitlab::app

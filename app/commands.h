@@ -1,6 +1,7 @@
 // How the subcommands of the program register themselves: each beside its code.
 #pragma once
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -36,6 +37,15 @@ void add_scenario(CLI::App& command, ScenarioArguments& arguments);
 
 /// For CLI::Option::check: a path that is an empty shell variable would name the working folder.
 std::string not_empty(const std::string& text);
+
+/// InputError: a file that is to be written exists, or its folder does not.
+void check_new(const std::string& name);
+
+inline constexpr const char* kPageFile = "report.html";  ///< in a run folder
+/// InputError where a page cannot be written there: as check_new, but for `own`, which it may take the place of.
+void check_page(const std::string& name, const std::filesystem::path& own = {});
+/// Says where a page is.
+void print_page(const std::filesystem::path& file);
 
 /// In the order of the help.
 void add_run(Commands& commands);

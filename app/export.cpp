@@ -20,15 +20,6 @@ struct ExportArguments {
   std::string file;          ///< to write; must not exist
 };
 
-void check_new(const std::string& name) {
-  namespace fs = std::filesystem;
-  const fs::path file = name;
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(file, error))) throw InputError(SourceLocation{name}, "exists; nothing was written");
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, error)) throw InputError(SourceLocation{name}, "cannot be written: its folder does not exist");
-}
-
 void export_run(const ExportArguments& arguments) {
   if (!arguments.source.sets.empty()) {
     throw InputError(SourceLocation{"--set " + arguments.source.sets.front()},

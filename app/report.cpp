@@ -12,7 +12,10 @@
 #include "core/recording/recording_file.h"
 #include "core/recording/run_files.h"
 #include "core/recording/run_folder.h"
+#include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
+#include "report/demand.h"
+#include "report/page.h"
 #include "report/run_figure.h"
 #include "report/summary.h"
 #include "report/trust.h"
@@ -25,8 +28,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ReportArguments {
-  std::string run;                 ///< folder
-  std::optional<std::string> out;  ///< folder for summary.json, verdict.json and figure.svg
+  std::string run;                  ///< folder
+  std::optional<std::string> out;   ///< folder for summary.json, verdict.json, figure.svg and report.html
+  std::optional<std::string> page;  ///< file for a page alone
   SummaryOptions shown;
   std::vector<std::string> joints;  ///< names, of the figure
 };
@@ -55,6 +59,14 @@ StoredScenario scenario_of(const std::string& run, const StoredRecording& read) 
   return {"", holds.string() + " (its scenario)", read.origin.scenario};
 }
 
+/// What a folder does not hold, told without naming it.
+std::vector<std::string> told_missing(std::vector<std::string> missing, const fs::path& trace) {
+  for (std::string& sentence : missing) {
+    if (sentence.starts_with(trace.string())) sentence.replace(0, trace.string().size(), trace.filename().string());
+  }
+  return missing;
+}
+
 /// InputError where the recording cannot be one of the scenario: only of files that somebody made up.
 void check_fit(const std::string& run, const Scenario& scenario, const Recording& recording) {
   const auto refuse = [&](const std::string& what) {
@@ -76,6 +88,9 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
 }
 
 int report(const ReportArguments& arguments) {
+  const fs::path trace = trace_file(arguments.run);
+  const fs::path folder = trace.parent_path();
+  if (arguments.page) check_page(*arguments.page, folder / kPageFile);
   StoredRecording read = read_recording(arguments.run);
   Recording& recording = read.recording;
   const StoredScenario stored = scenario_of(arguments.run, read);
@@ -84,27 +99,38 @@ int report(const ReportArguments& arguments) {
   draw_joints(scenario, arguments.joints);
   if (read.missing.empty()) check_fit(arguments.run, scenario, recording);
   if (arguments.out && !read.missing.empty()) {
-    throw InputError(SourceLocation{arguments.run},
-                     fmt::format("summary and figure cannot be made anew: {}; simulate it again: gaitlab rerun {}",
-                                 fmt::join(read.missing, "; "), arguments.run));
+    throw InputError(
+        SourceLocation{arguments.run},
+        fmt::format(
+            "summary and figure cannot be made anew: {}; a page can: --page FILE; or simulate it again: gaitlab rerun {}",
+            fmt::join(read.missing, "; "), arguments.run));
   }
-  const fs::path folder = trace_file(arguments.run).parent_path();
   // A CSV file alone does not have it.
   const nlohmann::json told = read.origin.outcome.empty() ? summarised(folder, "outcome") : nlohmann::json(recording.outcome);
   if (told.is_string()) recording.outcome = told;
   report::Summary summary = report::summarise(scenario, recording, wall_time(folder));
   summary.build = read.origin.build;
   const report::Overlaps overlaps = report::overlaps(scenario, recording);
-  const report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
+  const report::Verdict verdict = judged(scenario, recording, summary, overlaps, arguments.shown);
+  std::string page;
+  if (arguments.out || arguments.page) {
+    page = report::page(report::page_data(scenario, recording, summary, verdict, told_missing(read.missing, trace)));
+  }
+  if (arguments.page) write_file(*arguments.page, page);
   if (arguments.out) {
     RunFolder out(*arguments.out, scenario.name);
     write_file(out.path() / "figure.svg", report::run_figure(scenario, recording, summary));
     write_file(out.path() / "verdict.json", report::to_json(verdict));
+    write_file(out.path() / kPageFile, page);
     write_file(out.path() / "summary.json", report::to_json(summary, scenario, recording));
     out.keep();
   }
   print_summary(scenario, recording, summary, verdict, arguments.shown);
-  if (arguments.out) fmt::print("  {:<13} {}: summary.json, verdict.json, figure.svg\n", "files", *arguments.out);
+  if (arguments.out) {
+    fmt::print("  {:<13} {}: summary.json, verdict.json, figure.svg\n", "files", *arguments.out);
+    print_page(fs::path(*arguments.out) / kPageFile);
+  }
+  if (arguments.page) print_page(*arguments.page);
   for (const std::string& missing : read.missing) fmt::print(stderr, "{}: note: {}\n", arguments.run, missing);
   if (recording.outcome != "done") {
     fmt::print(stderr, "{}: note: this run ended early: {}\n", arguments.run, recording.outcome);
@@ -129,6 +155,21 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
   if (shown.joints) fmt::print("{}", report::joint_table(summary, scenario));
 }
 
+report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                       const report::Overlaps& overlaps, const SummaryOptions& shown) {
+  report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
+  if (!shown.demand || Judged::limited(summary.judged.joints) == 0) return verdict;
+  Catalog catalog = standard_catalog();
+  const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario)};
+  Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
+  if (!report::raise_limits(twin)) {
+    verdict.demand_doubt = "the actuator declares no limits that could be raised";
+    return verdict;
+  }
+  report::add_demand(verdict, scenario, summary, report::demand(twin, recording, summary));
+  return verdict;
+}
+
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {
   if (!shown.fail_infeasible) return 0;
   return verdict.word == "failed" ? 1 : verdict.word == "infeasible" ? 3 : 0;
@@ -138,6 +179,8 @@ void add_shown(CLI::App& command, SummaryOptions& shown) {
   command.add_flag("--joints", shown.joints, "print a row per joint, the most loaded first");
   command.add_flag("--fail-infeasible", shown.fail_infeasible,
                    "exit code 3 where the verdict is infeasible, 1 where the run failed");
+  command.add_flag("--demand", shown.demand,
+                   "simulate once more without the limits of the motors where joints reach them, and tell how much is missing");
   command.add_flag("--verbose", shown.verbose, "print the energy ledger and the limit of the step, too");
 }
 
@@ -171,16 +214,18 @@ void warn_of_run(const Scenario& scenario, const Recording& recording, const rep
 }
 
 void add_report(Commands& commands) {
-  add_command<ReportArguments>(commands, "report", "Print the summary of a run folder again, without simulating.", report,
-                               [](CLI::App& command, ReportArguments& arguments) {
-                                 command.add_option("RUN", arguments.run, "run folder")->required()->check(not_empty);
-                                 command.add_option(
-                                     "--out", arguments.out,
-                                     "folder for summary.json, verdict.json and figure.svg, made anew; new or empty");
-                                 add_joint(command, arguments.joints);
-                                 command.get_option("--joint")->needs("--out");
-                                 add_shown(command, arguments.shown);
-                               });
+  add_command<ReportArguments>(
+      commands, "report", "Print the summary of a run folder again, without simulating.", report,
+      [](CLI::App& command, ReportArguments& arguments) {
+        command.add_option("RUN", arguments.run, "run folder")->required()->check(not_empty);
+        command.add_option("--out", arguments.out,
+                           "folder for summary.json, verdict.json, figure.svg and report.html, made anew; new or empty");
+        command.add_option("--page", arguments.page, "file for the page alone; new, or the run's report.html")
+            ->check(not_empty);
+        add_joint(command, arguments.joints);
+        command.get_option("--joint")->needs("--out");
+        add_shown(command, arguments.shown);
+      });
 }
 
 }  // namespace gaitlab::app

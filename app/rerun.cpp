@@ -209,6 +209,7 @@ int rerun(const RerunArguments& arguments) {
   as.out = arguments.out;
   as.quiet = arguments.quiet;
   as.format = format_of(arguments.run);
+  as.no_page = true;
   Catalog catalog = standard_catalog();
   return run(read_stored(stored_scenario(arguments.run), catalog, OtherPlugins::refused), as);
 }

@@ -16,6 +16,7 @@
 #include "core/simulation/simulation.h"
 #include "report/build_id.h"
 #include "report/figure.h"
+#include "report/page.h"
 #include "report/run_figure.h"
 #include "report/summary.h"
 
@@ -46,9 +47,10 @@ void write_run(const std::filesystem::path& folder, const std::string& format, c
 }
 
 void write_report(const std::filesystem::path& folder, const Scenario& scenario, const Recording& recording,
-                  const report::Summary& summary, const report::Verdict& verdict) {
+                  const report::Summary& summary, const report::Verdict& verdict, bool page) {
   write_file(folder / "figure.svg", report::run_figure(scenario, recording, summary));
   write_file(folder / "verdict.json", report::to_json(verdict));
+  if (page) write_file(folder / kPageFile, report::page(report::page_data(scenario, recording, summary, verdict)));
   // Last: a folder with a summary is a whole run.
   write_file(folder / "summary.json", report::to_json(summary, scenario, recording));
 }
@@ -70,7 +72,7 @@ int run(const RunArguments& arguments) {
 
 int run(const Scenario& scenario, const RunArguments& arguments) {
   warn_of_start(scenario, arguments.quiet);  // first: a slip of units is why a step is refused
-  Simulation simulation({&scenario, 1});
+  Simulation simulation({&scenario, 1}, Loads::recorded);
   RunFolder folder(arguments.out, scenario.name);
   constexpr double kMuch = 1e8;  // bytes
   if (const RowsNeeded needed = simulation.rows_needed(0); needed.bytes() > kMuch && !arguments.quiet) {
@@ -98,13 +100,14 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   const report::Summary summary = report::summarise(scenario, recording, wall.count());
   write_run(folder.path(), arguments.format, scenario, recording, summary);
   const report::Overlaps overlaps = report::overlaps(scenario, recording);
-  const report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
-  write_report(folder.path(), scenario, recording, summary, verdict);
+  const report::Verdict verdict = judged(scenario, recording, summary, overlaps, arguments.shown);
+  write_report(folder.path(), scenario, recording, summary, verdict, !arguments.no_page);
   folder.keep();
   if (!arguments.quiet) {
     print_summary(scenario, recording, summary, verdict, arguments.shown);
     fmt::print("  {:<13} {}: {}, summary.json, verdict.json,\n  {:<13} scenario.resolved.yaml, figure.svg\n", "files",
                folder.path().string(), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
+    if (!arguments.no_page) print_page(folder.path() / kPageFile);
   }
   warn_of_run(scenario, recording, summary, overlaps);
   if (failure.empty()) return exit_code(verdict, arguments.shown);
@@ -120,6 +123,7 @@ void add_run(Commands& commands) {
                                                  "run folder (default runs/NAME, then NAME-2 ...); new or empty");
                               command.add_option("--format", arguments.format, "format of the trace: h5 (default) or csv")
                                   ->check(CLI::IsMember({"h5", "csv"}));
+                              command.add_flag("--no-report", arguments.no_page, "write no report.html");
                               add_joint(command, arguments.joints);
                               add_shown(command, arguments.shown);
                             });

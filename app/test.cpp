@@ -69,6 +69,7 @@ std::string counts(const std::vector<GoldenCase>& cases) {
   const auto add = [&](Verdict verdict, const char* what) {
     if (const std::size_t n = count(cases, verdict); n > 0) text += fmt::format(", {} {}", n, what);
   };
+  add(Verdict::infeasible, "infeasible");
   add(Verdict::run_failed, "broke off");
   add(Verdict::bad_input, "not tested");
   add(Verdict::skipped, "skipped");
@@ -183,7 +184,8 @@ std::string junit(const std::vector<GoldenCase>& cases) {
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
   text += fmt::format(
       "<testsuite name=\"gaitlab test\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n",
-      cases.size(), count(cases, Verdict::regression), errors, count(cases, Verdict::skipped), seconds);
+      cases.size(), count(cases, Verdict::regression) + count(cases, Verdict::infeasible), errors,
+      count(cases, Verdict::skipped), seconds);
   for (const GoldenCase& c : cases) {
     text += fmt::format("<testcase classname=\"golden\" name=\"{}\" time=\"{:.3f}\">", report::xml_escaped(c.file), c.seconds);
     const auto element = [&](const char* name, const std::string& message, const std::string& content) {
@@ -200,6 +202,7 @@ std::string junit(const std::vector<GoldenCase>& cases) {
       return escaped;
     };
     if (c.verdict == Verdict::regression) element("failure", outside(c.difference), lines(failure(c)));
+    if (c.verdict == Verdict::infeasible) element("failure", to_string(c.verdict), lines(c.problem));
     if (c.verdict == Verdict::bad_input || c.verdict == Verdict::run_failed)
       element("error", to_string(c.verdict), lines(c.problem));
     if (c.verdict == Verdict::skipped) element("skipped", "no golden", "");
@@ -221,9 +224,11 @@ void check_report(const std::string& path) {
 }
 
 int exit_code(const std::vector<GoldenCase>& cases) {
-  if (count(cases, Verdict::regression) > 0) return 4;
+  if (count(cases, Verdict::bad_input) > 0) return 2;
   if (count(cases, Verdict::run_failed) > 0) return 1;
-  return count(cases, Verdict::bad_input) > 0 || count(cases, Verdict::passed) == 0 ? 2 : 0;
+  if (count(cases, Verdict::regression) > 0) return 4;
+  if (count(cases, Verdict::infeasible) > 0) return 3;
+  return count(cases, Verdict::passed) == 0 ? 2 : 0;
 }
 
 int test_goldens(const TestArguments& arguments) {
@@ -233,7 +238,7 @@ int test_goldens(const TestArguments& arguments) {
   std::vector<GoldenCase> cases = golden_cases(arguments, catalog);
   {
     const Progress progress(false);
-    run_cases(cases, arguments.jobs, std::cref(progress));
+    run_cases(cases, arguments, std::cref(progress));
   }
   bool written = true;
   const auto write = [&](const std::function<void()>& file) {  // what was found counts more than a file that cannot be written
@@ -277,6 +282,8 @@ void add_test(Commands& commands) {
         command.add_option("--golden", arguments.golden, "golden folder to compare one scenario with, not its own")
             ->check(not_empty);
         command.add_option("--out", arguments.out, "folder for figures of what failed (default runs/test)");
+        command.add_flag("--fail-infeasible", arguments.fail_infeasible,
+                         "exit code 3 where the verdict on a run is infeasible, and nothing worse came up");
         command.add_flag("--strict", arguments.strict, "in a folder, too, a scenario without a golden is an error");
       });
 }

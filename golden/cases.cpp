@@ -206,15 +206,19 @@ std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& ca
   return cases;
 }
 
-void run_cases(std::vector<GoldenCase>& cases, int jobs, const std::function<void(double)>& progress) {
+void run_cases(std::vector<GoldenCase>& cases, const TestArguments& arguments, const std::function<void(double)>& progress) {
   std::vector<Scenario> scenarios;
   for (const GoldenCase& c : cases) {
     if (c.scenario) scenarios.push_back(*c.scenario);
   }
-  std::vector<Outcome> outcomes = golden_runs(scenarios, jobs, progress);
+  std::vector<Outcome> outcomes = golden_runs(scenarios, arguments.jobs, progress, arguments.fail_infeasible);
   auto outcome = outcomes.begin();
   for (GoldenCase& c : cases) {
-    if (c.scenario) judge(c, *outcome++);
+    if (!c.scenario) continue;
+    judge(c, *outcome);
+    if (c.verdict == Verdict::passed && !outcome->infeasible.empty())
+      c.fail(Verdict::infeasible, fmt::format("{}: infeasible: {}", c.file, outcome->infeasible));
+    ++outcome;
   }
 }
 
@@ -224,6 +228,8 @@ std::string to_string(Verdict verdict) {
       return "passed";
     case Verdict::skipped:
       return "skipped: no golden";
+    case Verdict::infeasible:
+      return "INFEASIBLE";
     case Verdict::bad_input:
       return "NOT TESTED";
     case Verdict::run_failed:

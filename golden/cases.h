@@ -16,12 +16,14 @@ struct TestArguments {
   std::optional<std::string> golden;      ///< folder: of another scenario than the one that is run
   std::optional<std::string> engine;      ///< instead of the scenario's, with its own step and integrator
   std::optional<std::string> junit, out;  ///< file; folder for figures
+  bool fail_infeasible = false;           ///< a run that the robot cannot do is a failure, too
   bool strict = false;                    ///< in a folder, too, every scenario must have a golden
   int jobs = 1;                           ///< threads
 };
 
-/// From best to worst; the program's exit code follows from the worst.
-enum class Verdict { passed, skipped, bad_input, run_failed, regression };
+/// From best to worst. The program's exit code is of the first of these that there is: bad_input 2, run_failed 1, regression 4,
+/// infeasible 3.
+enum class Verdict { passed, skipped, infeasible, bad_input, run_failed, regression };
 
 struct GoldenCase {
   std::string file;                       ///< of the scenario, as given or found
@@ -56,7 +58,8 @@ void check_own(const Golden& golden, const std::filesystem::path& folder, const 
 std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& catalog);
 
 /// Runs and compares those that can be; `progress(share)` as of golden_runs.
-void run_cases(std::vector<GoldenCase>& cases, int jobs, const std::function<void(double)>& progress = {});
+void run_cases(std::vector<GoldenCase>& cases, const TestArguments& arguments,
+               const std::function<void(double)>& progress = {});
 
 /// `passed`, `FAILED`, `skipped: no golden` ...
 std::string to_string(Verdict verdict);

@@ -13,6 +13,7 @@
 #include "core/simulation/simulation.h"
 #include "report/build_id.h"
 #include "report/numbers.h"
+#include "report/verdict.h"
 
 namespace gaitlab::golden {
 
@@ -82,12 +83,21 @@ std::uint64_t splitmix64(std::uint64_t counter) {
 // In [-1, 1).
 double symmetric(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-52 - 1; }
 
-GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>& progress) {
+/// What the verdict says where it is infeasible.
+std::string infeasible(const Scenario& scenario, const Recording& record) {
+  const report::Verdict verdict =
+      report::verdict(scenario, record, report::summarise(scenario, record, 0), report::overlaps(scenario, record));
+  if (verdict.word != "infeasible") return "";
+  return std::ranges::find(verdict.checks, report::CheckStatus::fail, &report::Check::status)->text;
+}
+
+GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>& progress, std::string* why) {
   Scenario ours = scenario;
   ours.trace.columns = columns(scenario);
   Simulation simulation({&ours, 1});
   simulation.run(progress);
   const Recording record = simulation.take_recording(0);
+  if (why != nullptr) *why = infeasible(scenario, record);
   return {thinned(record.trace, scenario.trace.period), numbers(scenario, record)};
 }
 
@@ -113,8 +123,8 @@ class Bar {
 
 }  // namespace
 
-std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs,
-                                 const std::function<void(double)>& progress) {
+std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs, const std::function<void(double)>& progress,
+                                 bool judged) {
   std::vector<Outcome> outcomes(scenarios.size());
   Bar bar(scenarios, progress);
   parallel(scenarios.size(), jobs, [&](std::size_t i) {
@@ -124,10 +134,11 @@ std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int job
     };
     try {
       double before = 0;
-      outcomes[i].run = golden_run(scenarios[i], [&](double share) {
+      const auto advance = [&](double share) {
         bar.add((share - before) * steps(scenarios[i]));
         before = share;
-      });
+      };
+      outcomes[i].run = golden_run(scenarios[i], advance, judged ? &outcomes[i].infeasible : nullptr);
     } catch (...) {
       outcomes[i].error = std::current_exception();
     }

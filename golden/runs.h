@@ -16,14 +16,15 @@ struct Outcome {
   /// row every 20 ms (the largest whole multiple of the trace period up to that, at least one of it); and the figures that a
   /// golden holds.
   GoldenRun run;
-  double seconds = 0;        ///< that it took, for reports alone
-  std::exception_ptr error;  ///< InputError: the step is too long; RunError: it diverged
+  std::string infeasible = {};  ///< where that was asked for: why the robot cannot do it (report/verdict.h); empty: it can
+  double seconds = 0;           ///< that it took, for reports alone
+  std::exception_ptr error;     ///< InputError: the step is too long; RunError: it diverged
 };
 
 /// One each, in the order of `scenarios`; up to `jobs` at once. `progress(share)` is called often, one call at a time. Every
-/// run is an object of its own: the same bits for any `jobs`.
+/// run is an object of its own: the same bits for any `jobs`. judged: each also has its verdict.
 std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs,
-                                 const std::function<void(double)>& progress = {});
+                                 const std::function<void(double)>& progress = {}, bool judged = false);
 
 /// Those that a golden of this run holds: all, but for the costs of transport of a robot that stays (within 10 mm): they are
 /// shares of noise. The golden decides, so that a run on the other side of that limit is still compared.

@@ -109,13 +109,14 @@ class Row {
 /// What was found so far.
 class Search {
  public:
-  Search(const Robot& robot, const std::vector<Piece>& pieces) : pieces_(pieces), can_(robot) {}
+  Search(const Robot& robot, const std::vector<Piece>& pieces, const Limits& limits)
+      : pieces_(pieces), can_(robot), limits_(limits) {}
 
   void collide(Row& row, double time) {
     double deepest = 0;
     const bool first = met_.empty();
     row.pairs(can_, [&](std::size_t a, std::size_t b) {
-      const double depth = penetration(row.piece(a), row.piece(b), kCollides);
+      const double depth = penetration(row.piece(a), row.piece(b), limits_.touch);
       if (!(depth > 0)) return;
       const Pair pair = std::minmax(pieces_[a].body, pieces_[b].body);
       met_.insert(pair);
@@ -131,10 +132,10 @@ class Search {
   }
   void sink(Row& row, double time) {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      if (row.lowest(i) > -kSinks) continue;
+      if (row.lowest(i) > -limits_.sink) continue;
       double lowest = 0;
       for (const Vec3& vertex : row.piece(i).vertices) lowest = std::min(lowest, vertex.z() - pieces_[i].local.radius);
-      if (-lowest <= (sunk_ ? sunk_->depth : kSinks)) continue;
+      if (-lowest <= (sunk_ ? sunk_->depth : limits_.sink)) continue;
       if (!sunk_) sunk_ = Sunk{.time = time};
       sunk_->body = pieces_[i].body;
       sunk_->depth = -lowest;
@@ -151,6 +152,7 @@ class Search {
  private:
   const std::vector<Piece>& pieces_;
   Meetings can_;
+  const Limits& limits_;
   std::set<Pair> met_ = {};
   Collision collision_ = {};
   std::optional<Sunk> sunk_ = {};
@@ -164,7 +166,7 @@ Overlaps overlaps(const Scenario& scenario, const Recording& r) {
   const std::vector<Piece> pieces = pieces_of(robot);
   std::set<std::size_t> shaped;
   for (const Piece& piece : pieces) shaped.insert(piece.body);
-  Search search(robot, pieces);
+  Search search(robot, pieces, scenario.limits);
   Kinematics k(robot);
   Row there(pieces);
   for (std::size_t row = 0; row < r.rows(); ++row) {

@@ -25,17 +25,14 @@ struct Sunk {
   double depth = 0;      ///< m, the largest of all rows
 };
 
-inline constexpr double kCollides = 5e-4;  ///< m: less is the roundness of the shapes' prisms and of a hinge's stop
-inline constexpr double kSinks = 0.005;    ///< m: less is the softness of the ground
-
 struct Overlaps {
   std::size_t shaped = 0;  ///< number of bodies with a shape; 0: nothing is known, also of a run without poses
   std::optional<Collision> collision = {};
   std::optional<Sunk> sunk = {};  ///< on a plane
 };
 
-/// Of the shapes of all bodies in every row of the trace. Under contact.law bullet nothing is known: the engine's solver keeps
-/// bodies apart.
+/// Of the shapes of all bodies in every row of the trace; less than Limits::touch and Limits::sink is nothing. Under
+/// contact.law bullet nothing is known: the engine's solver keeps bodies apart.
 Overlaps overlaps(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

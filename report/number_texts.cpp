@@ -21,6 +21,8 @@ constexpr double kLeastTravel = 1e-3;  // m: the work of a robot that stays is d
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
+std::string rough_percent(double share) { return fmt::format("{:.{}g} %", 100 * share, share < 0.1 ? 2 : 3); }
+
 std::string thousandths(double value) { return value < 1000 ? fmt::format("{:.3f}", value) : fmt::format("{:.3g}", value); }
 
 double created(const Recording& record) {

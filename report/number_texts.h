@@ -10,6 +10,8 @@ namespace gaitlab::report::texts {
 using Lines = std::vector<std::string>;
 
 std::string percent(double share);
+/// Of estimates: two digits, three from 10 % on.
+std::string rough_percent(double share);
 
 /// Three decimals; of a thousand and more three digits.
 std::string thousandths(double value);

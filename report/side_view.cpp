@@ -5,6 +5,7 @@
 #include <limits>
 #include <tuple>
 
+#include "core/math/convex_hull.h"
 #include "report/convex.h"
 
 namespace gaitlab::report {
@@ -58,25 +59,9 @@ Seen see(const std::vector<Shape>& shapes, const Pose& pose, Role role, const Ca
   return seen;
 }
 
-double cross(Point o, Point a, Point b) { return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x); }
-
 }  // namespace
 
-Polygon convex_hull(std::vector<Point> points) {
-  // Andrew's monotone chain: the lower hull from left to right, then the upper one back.
-  std::sort(points.begin(), points.end(), [](Point a, Point b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });
-  if (points.size() < 3) return points;
-  Polygon hull;
-  const auto add = [&hull](Point p, std::size_t fixed) {
-    while (hull.size() >= fixed + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const Point& point : points) add(point, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
-  hull.pop_back();
-  return hull;
-}
+Polygon convex_hull(std::vector<Point> points) { return math::convex_hull(std::move(points)); }
 
 Polygon box_outline(const Pose& pose, const Vec3& size, const Camera& camera) {
   std::vector<Point> flat;

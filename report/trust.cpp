@@ -8,6 +8,7 @@
 
 #include "core/scenario/wording.h"
 #include "core/simulation/step_advice.h"
+#include "report/number_texts.h"
 
 namespace gaitlab::report {
 
@@ -42,8 +43,6 @@ std::string remedy(const Scenario& s, double share) {
   return text;
 }
 
-std::string percent(double share) { return fmt::format("{:.{}g} %", 100 * share, share < 0.1 ? 2 : 3); }
-
 }  // namespace
 
 TorqueError torque_error(const Recording& r) {
@@ -62,7 +61,7 @@ TorqueError torque_error(const Recording& r) {
 std::string step_text(const Physics& physics) {
   std::string text = physics.adaptive_step ? fmt::format("step auto (at most {:.4g} s)", physics.step)
                                            : fmt::format("step {} s", number_text(physics.step));
-  if (physics.adapts()) text += fmt::format(", accuracy {}", percent(physics.accuracy));
+  if (physics.adapts()) text += fmt::format(", accuracy {}", texts::rough_percent(physics.accuracy));
   return text;
 }
 
@@ -71,7 +70,8 @@ std::string steps_text(const Scenario& scenario, const Recording& r) {
   if (r.tally.solves > 0) text += fmt::format(", {:.0f} solves", r.tally.solves);
   const TorqueError error = torque_error(r);
   if (error.estimated) {
-    text += fmt::format("; torque error about {} (joint {})", percent(error.share), scenario.robot->joints[error.joint].name);
+    text += fmt::format("; torque error about {} (joint {})", texts::rough_percent(error.share),
+                        scenario.robot->joints[error.joint].name);
   } else if (scenario.actuator.entry != nullptr && !r.joints.empty()) {
     text += "; torque error not estimated";
   }
@@ -93,18 +93,19 @@ std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
   const TorqueError error = torque_error(r);
   if (error.share > torque_error_limit(s)) {
     warnings.push_back(fmt::format("the torque of joint {} is off by about {} of its peak, estimated from other steps; take {}",
-                                   s.robot->joints[error.joint].name, percent(error.share), remedy(s, error.share)));
+                                   s.robot->joints[error.joint].name, texts::rough_percent(error.share),
+                                   remedy(s, error.share)));
   }
   if (s.physics.adapts() && r.tally.coarse > kOftenCoarse * r.simulated) {
     warnings.push_back(
         fmt::format("in {} of the time the shortest steps of the integrator did not reach the accuracy {}: the result depends "
                     "on the steps and may not be reproducible at any; is something undamped, or driven without bounds?",
-                    percent(r.tally.coarse / r.simulated), percent(s.physics.accuracy)));
+                    texts::rough_percent(r.tally.coarse / r.simulated), texts::rough_percent(s.physics.accuracy)));
   }
   const double residual = std::abs(r.ledger.residual());
   const double drawn = std::abs(r.ledger.electrical);
   const double judged = energy_scale(s, r);
-  if (s.actuator.entry != nullptr && residual > kEnergyResidual * judged) {
+  if (s.actuator.entry != nullptr && residual > s.limits.energy_residual * judged) {
     warnings.push_back(fmt::format("the energy does not add up: {:.3g} J are missing of {:.3g} J drawn; take {}", residual,
                                    drawn, s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step"));
   }

@@ -19,8 +19,6 @@ TorqueError torque_error(const Recording& record);
 /// Share that torque_error may have: 1 %, or the accuracy that the scenario asks for, if that is more.
 double torque_error_limit(const Scenario& scenario);
 
-inline constexpr double kEnergyResidual = 0.01;  ///< share of energy_scale that may be unaccounted for
-
 /// `step auto (at most 0.005 s), accuracy 1 %`, or `step 2.5e-05 s`.
 std::string step_text(const Physics& physics);
 

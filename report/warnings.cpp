@@ -9,6 +9,7 @@
 #include "core/laws/dc_motor.h"
 #include "core/plugin/robot_info.h"
 #include "report/number_texts.h"
+#include "report/settings_numbers.h"
 #include "report/trust.h"
 
 namespace gaitlab::report {
@@ -21,41 +22,6 @@ constexpr double kCannotSettle = 2;     // measured: 1.3 to 1.9 settle, 2.3 does
 constexpr double kRounding = 1 + 1e-9;  // of products that are equal on paper
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kDegrees = 360;  // a larger range is not an angle in degrees either: it stands for "no limit"
-
-/// The numbers of a plugin's settings, by key: `Kp`, `model.ramp`.
-class Numbers final : public Fields {
- public:
-  struct Found {
-    std::string key, unit;
-    PerJoint value;
-  };
-  explicit Numbers(const PluginSelection& plugin) {
-    if (plugin.entry != nullptr) visit_settings(*plugin.entry, plugin.settings.get(), *this);
-  }
-  void visit(const Field& field) override {
-    if (const auto* number = std::get_if<field::Number>(&field.value)) {
-      found_.push_back({prefix_ + field.key, number->spec.unit, PerJoint{number->value}});
-    } else if (const auto* each = std::get_if<field::EachJoint>(&field.value)) {
-      found_.push_back({prefix_ + field.key, each->spec.unit, each->value});
-    } else if (const auto* group = std::get_if<field::Group>(&field.value)) {
-      const std::string before = prefix_;
-      prefix_ += std::string(field.key) + ".";
-      group->visit(group->self, *this);
-      prefix_ = before;
-    }
-  }
-  void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
-
-  [[nodiscard]] const std::vector<Found>& all() const { return found_; }
-  [[nodiscard]] const Found* find(const std::string& key) const {
-    const auto at = std::find_if(found_.begin(), found_.end(), [&](const Found& one) { return one.key == key; });
-    return at == found_.end() ? nullptr : &*at;
-  }
-
- private:
-  std::vector<Found> found_;
-  std::string prefix_;
-};
 
 /// Two digits, downwards: 156.4 becomes 150.
 double two_digits(double value) {
@@ -101,10 +67,10 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warni
 
 /// Whether the derivative answers a step of the error with more than a quarter of what Kp does (Kd N / (Kd + N Ts), eq. 5): it
 /// then moves the bound on Kp.
-bool damps(const Numbers& settings, std::size_t joint, double period) {
-  const Numbers::Found* Kp = settings.find("Kp");
-  const Numbers::Found* Kd = settings.find("Kd");
-  const Numbers::Found* N = settings.find("N");
+bool damps(const SettingsNumbers& settings, std::size_t joint, double period) {
+  const SettingsNumbers::Found* Kp = settings.find("Kp");
+  const SettingsNumbers::Found* Kd = settings.find("Kd");
+  const SettingsNumbers::Found* N = settings.find("N");
   if (Kd == nullptr || !(Kd->value[joint] > 0)) return false;
   const double d = Kd->value[joint];
   const double step = N == nullptr ? d / period : d * N->value[joint] / (d + N->value[joint] * period);
@@ -112,7 +78,7 @@ bool damps(const Numbers& settings, std::size_t joint, double period) {
 }
 
 void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& out) {
-  const Numbers settings(s.controller);
+  const SettingsNumbers settings(s.controller);
   const auto* gain = settings.find("Kp");
   if (gain == nullptr || make_controller(s.controller, info(*s.robot))->command_unit() != "V") return;
   double largest = 0;
@@ -155,8 +121,8 @@ void check_degrees(const Scenario& s, std::vector<Warning>& out) {
   const auto beyond = [](double value) { return std::abs(value) > 2 * kTurn; };
   for (const PluginSelection* plugin : {&s.cpg, &s.controller, &s.actuator}) {
     if (plugin->entry == nullptr) continue;
-    const Numbers numbers(*plugin);
-    for (const Numbers::Found& one : numbers.all()) {
+    const SettingsNumbers numbers(*plugin);
+    for (const SettingsNumbers::Found& one : numbers.all()) {
       for (std::size_t j = 0; one.unit == "rad" && j < std::max<std::size_t>(1, one.value.each.size()); ++j) {
         if (!beyond(one.value[j])) continue;
         const std::string key = std::string(word(plugin->entry->kind)) + "." + one.key;
@@ -209,13 +175,11 @@ std::vector<Warning> setup_warnings(const Scenario& s) {
 
 namespace {
 
-constexpr double kJump = 0.05;  // rad: half the tracking error that the paper's figure 14 has room for
-
 void check_joints(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
   if (s.actuator.entry == nullptr || r.joints.empty()) return;
   const std::size_t jumps = texts::worst(r, &JointStatistics::start_jump);
-  if (const double jump = r.joints[jumps].start_jump; jump > kJump) {
-    const bool ramps = s.cpg.entry != nullptr && Numbers(s.cpg).find("model.ramp") != nullptr;
+  if (const double jump = r.joints[jumps].start_jump; jump > s.limits.start_jump) {
+    const bool ramps = s.cpg.entry != nullptr && SettingsNumbers(s.cpg).find("model.ramp") != nullptr;
     out.push_back(
         {place_of(s, "cpg"),
          fmt::format("the set point of joint {} is {:.3g} rad from its angle at t = 0, and its motor answers at once: "
@@ -223,7 +187,7 @@ void check_joints(const Scenario& s, const Recording& r, std::vector<Warning>& o
                      s.robot->joints[jumps].name, jump, ramps ? ", or cpg.model.ramp" : "")});
   }
   const std::size_t beyond = texts::worst(r, &JointStatistics::range_share);
-  if (const JointStatistics& joint = r.joints[beyond]; joint.range_share > kBeyondOften) {
+  if (const JointStatistics& joint = r.joints[beyond]; joint.range_share > s.limits.beyond_range_share) {
     out.push_back(
         {place_of(s, "cpg"),
          fmt::format("joint {} is beyond its range for {} of the time, by up to {:.3g} rad (its set point for {}): the "

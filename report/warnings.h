@@ -9,8 +9,6 @@
 
 namespace gaitlab::report {
 
-inline constexpr double kBeyondOften = 0.01;  ///< share of the time that a joint may be beyond its range
-
 struct Warning {
   SourceLocation place;
   std::string text;
@@ -27,9 +25,9 @@ struct Warning {
 /// - a robot that starts beside its heightfield.
 std::vector<Warning> setup_warnings(const Scenario& scenario);
 
-/// Of a run: a set point that jumps at the start, a joint beyond its range for more than 1 % of the time, a robot that left its
-/// heightfield, motors that gave energy back instead of drawing any, bodies that pass through one another or the ground
-/// (collisions.h), a CPG that moves no joint.
+/// Of a run: a set point that jumps at the start, a joint beyond its range for more than Limits::beyond_range_share, a robot
+/// that left its heightfield, motors that gave energy back instead of drawing any, bodies that pass through one another or the
+/// ground (collisions.h), a CPG that moves no joint.
 std::vector<Warning> run_warnings(const Scenario& scenario, const Recording& record, const Overlaps& overlaps);
 
 /// Whether (x, y), m, is beyond the border of the heightfield; false on other grounds.

@@ -8,6 +8,13 @@ template <class T>
 struct BasicDcMotor;
 using DcMotor = BasicDcMotor<double>;
 
+/// What the drive of a joint bears, as its maker states it; 0: not stated. Verdicts read this; nothing is simulated with it.
+struct DriveRatings {
+  double current_continuous = 0;                  ///< A, RMS
+  double torque_peak = 0, torque_continuous = 0;  ///< N m at the joint, of the gear: largest; RMS
+  double speed = 0;                               ///< rad/s at the joint, largest
+};
+
 /// Memoryless and elementwise over joint*lanes + lane, so that one plain loop serves one lane and eight. No allocation.
 class Actuator {
  public:
@@ -26,6 +33,8 @@ class Actuator {
   /// effort as it would be without the limit that depends on the speed (a motor's largest current); the same bits where that
   /// does not bind. Asked by contact.law: bullet, whose rows have the limit apart. Without such a limit: effort.
   virtual void unlimited(In command, In speed, Out torque, Out slope) const { effort(command, speed, torque, slope); }
+  /// One per joint * lanes + lane; empty: the maker states none.
+  [[nodiscard]] virtual std::span<const DriveRatings> ratings() const { return {}; }
   /// Where effort is nothing but DC motors (core/laws/dc_motor.h): one per joint * lanes + lane, which an engine may then
   /// evaluate itself, several lanes at once. Else nullptr.
   [[nodiscard]] virtual const DcMotor* dc_motors() const { return nullptr; }

@@ -79,9 +79,13 @@ struct OneOf {
   std::string& value;
   std::span<const char* const> names;
 };
+/// What a value per joint is to a verdict. limit: of what the actuator gives; a run without it shows what a gait demands.
+/// rating: what its maker states; 0 everywhere means that nobody does, and the resolved scenario leaves it out.
+enum class Role { setting, limit, rating };
 struct EachJoint {
   PerJoint& value;
   Spec spec;
+  Role role = Role::setting;
 };
 /// A joint, by name or number in the file, by number here.
 struct Joint {
@@ -169,6 +173,14 @@ class Fields {
     value = value_of<Enum>(name, names);
   }
   void per_joint(const char* key, PerJoint& value, Spec spec) { visit({key, spec.about, field::EachJoint{value, spec}}); }
+  /// The most that an actuator gives, in the unit of its command or of a current.
+  void limit(const char* key, PerJoint& value, Spec spec) {
+    visit({key, spec.about, field::EachJoint{value, spec, field::Role::limit}});
+  }
+  /// What a maker states or does not (0): it limits verdicts, not the simulation.
+  void rating(const char* key, PerJoint& value, Spec spec) {
+    visit({key, spec.about, field::EachJoint{value, spec, field::Role::rating}});
+  }
   void joint(const char* key, std::int64_t& value, const char* about) { visit({key, about, field::Joint{value}}); }
   void vector(const char* key, std::span<double> value, Spec spec) { visit({key, spec.about, field::Vector{value, spec}}); }
   void numbers(const char* key, std::vector<double>& value, Spec spec) {

@@ -103,6 +103,10 @@ class GuardedActuator final : public Actuator {
   void electrical(In command, In speed, Electrical out) const override {
     guarded(entry_, "electrical", [&] { actuator_->electrical(command, speed, out); });
   }
+  [[nodiscard]] std::span<const DriveRatings> ratings() const override {
+    const std::span<const DriveRatings> stated = guarded(entry_, "ratings", [&] { return actuator_->ratings(); });
+    return stated.empty() ? stated : sized("ratings", stated);
+  }
   void unlimited(In command, In speed, Out torque, Out slope) const override {
     guarded(entry_, "unlimited", [&] { actuator_->unlimited(command, speed, torque, slope); });
   }
@@ -111,10 +115,11 @@ class GuardedActuator final : public Actuator {
   }
 
  private:
-  [[nodiscard]] In sized(const char* function, In values) const {
+  template <class Values>
+  [[nodiscard]] Values sized(const char* function, Values values) const {
     if (values.size() == size_) return values;
     throw PluginError(entry_,
-                      fmt::format("{} has {} numbers; expected {}, one per joint and lane", function, values.size(), size_));
+                      fmt::format("{} has {} values; expected {}, one per joint and lane", function, values.size(), size_));
   }
 
   const Entry& entry_;

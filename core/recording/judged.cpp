@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -36,9 +37,19 @@ MotorLimit motor_limit(double saturation) {
   return saturation == 2 ? MotorLimit::current : saturation == 1 ? MotorLimit::voltage : MotorLimit::none;
 }
 
-JudgedJoint from_ticks(const Trace& ticks, std::size_t joint, std::size_t first) {
-  const auto column = [&](TickColumn which) { return Series(ticks, 1 + joint * kTickColumns + which); };
-  const Series t(ticks, 0);
+/// Of the rows behind `first`: the largest, and when; NaN where nothing is known.
+std::pair<double, double> peak_of(const Series& t, const Series& values, std::size_t first) {
+  if (values.empty()) return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+  std::pair<double, double> largest{0, 0};
+  for (std::size_t k = first + 1; k < t.size(); ++k) {
+    if (values[k] > kLarger * largest.first) largest = {values[k], t[k]};
+  }
+  return largest;
+}
+
+JudgedJoint from_ticks(const Recording& record, std::size_t joint, std::size_t first) {
+  const auto column = [&](TickColumn which) { return record.tick(joint, which); };
+  const Series t(record.ticks, 0);
   const Series torque = column(kTorquePeak);
   const Series error = column(kErrorPeak);
   const Series limit = column(kPeakLimit);
@@ -62,8 +73,15 @@ JudgedJoint from_ticks(const Trace& ticks, std::size_t joint, std::size_t first)
     if (!j.reaches_limit()) j.first_limit = motor_limit(limit[k]);
     j.first_limit_time = t[k];
   }
+  std::tie(j.envelope_peak, j.envelope_peak_time) = peak_of(t, column(kEnvelopePeak), first);
+  std::tie(j.speed_peak, j.speed_peak_time) = peak_of(t, column(kSpeedPeak), first);
+  j.voltage_peak = peak_of(t, column(kVoltagePeak), first).first;
+  j.current_peak = peak_of(t, column(kCurrentPeak), first).first;
   const double span = t.back() - t[first];
   if (!(span > 0)) return j;
+  const Series amperes = column(kCurrentSquare);
+  j.current_rms = amperes.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                  : std::sqrt(std::max(0.0, amperes.back() - amperes[first]) / span);
   j.torque_rms = std::sqrt(std::max(0.0, square.back() - square[first]) / span);
   j.voltage_limited = (voltage.back() - voltage[first]) / span;
   j.current_limited = (current.back() - current[first]) / span;
@@ -102,13 +120,13 @@ Judged judge(const Recording& r, const MotionCycle& cycle) {
   window(judged, r.simulated, cycle);
   judged.joints.resize(r.joints.size());
   judged.whole.resize(r.joints.size());
-  const bool known = r.ticks.rows() > 0 && r.ticks.columns.size() == 1 + kTickColumns * r.joints.size();
+  const bool known = !r.joints.empty() && !r.tick(0, kCurrentLimited).empty();
   // The period is an estimate, which must not decide whether a row at the start of the window belongs to it.
   const double period = judged.periods > 0 ? cycle.period : 0;
-  const std::size_t first = known ? row_at(Series(r.ticks, 0), judged.from, std::max(kSameTime, kWholePeriod * period)) : 0;
+  if (known) judged.first_row = row_at(Series(r.ticks, 0), judged.from, std::max(kSameTime, kWholePeriod * period));
   for (std::size_t j = 0; known && j < r.joints.size(); ++j) {
-    judged.joints[j] = from_ticks(r.ticks, j, first);
-    judged.whole[j] = from_ticks(r.ticks, j, 0);
+    judged.joints[j] = from_ticks(r, j, judged.first_row);
+    judged.whole[j] = from_ticks(r, j, 0);
   }
   judged.order.resize(judged.joints.size());
   std::iota(judged.order.begin(), judged.order.end(), 0);

@@ -18,6 +18,11 @@ struct JudgedJoint {
   double torque_rms = 0;                            ///< N m
   double voltage_limited = 0, current_limited = 0;  ///< share of the window
   double error_peak = 0, error_peak_time = 0;       ///< rad, largest magnitude of set point minus angle; s
+  // NaN where the folder is too old to know.
+  double envelope_peak = 0, envelope_peak_time = 0;  ///< largest share of the torque that there is at that speed; s
+  double speed_peak = 0, speed_peak_time = 0;        ///< rad/s, largest magnitude; s
+  double current_rms = 0;                            ///< A
+  double voltage_peak = 0, current_peak = 0;         ///< V, A, largest magnitudes
   /// The first limit that it was at, for some time or in the instant of the largest torque of a tick; s.
   MotorLimit first_limit = MotorLimit::none;
   double first_limit_time = 0;
@@ -28,6 +33,7 @@ struct JudgedJoint {
 struct Judged {
   double from = 0, to = 0;          ///< s
   std::size_t periods = 0;          ///< whole periods in the window; 0: no limit cycle was found
+  std::size_t first_row = 0;        ///< of Recording::ticks: the window holds what is behind it
   std::vector<JudgedJoint> joints;  ///< within the window
   std::vector<JudgedJoint> whole;   ///< the same of the whole run
   /// Worst first, by the share of time at a limit, then the RMS of the torque, then its peak; equal ones by their numbers.

@@ -31,6 +31,13 @@ Series Recording::joint(std::size_t number, const char* quantity) const {
   return series(fmt::format("joint.{}.{}", number, quantity));
 }
 
+Series Recording::tick(std::size_t number, TickColumn column) const {
+  const std::size_t columns = ticks.columns.size();
+  if (joints.empty() || ticks.rows() < 2 || (columns - 1) % joints.size() != 0) return {};
+  const std::size_t each = (columns - 1) / joints.size();  // fewer in older folders: new ones are behind
+  return column < each ? Series(ticks, 1 + number * each + column) : Series();
+}
+
 namespace {
 
 /// NaN where the column is missing.
@@ -76,6 +83,11 @@ std::vector<Column> tick_columns(std::size_t joints) {
     add("torque_square", "N^2 m^2 s", "integral of the motor torque squared from t = 0, over all steps");
     add("voltage_limited", "s", "time at the voltage limit from t = 0, over all steps");
     add("current_limited", "s", "time at the current limit from t = 0, over all steps");
+    add("speed_peak", "rad/s", "largest magnitude of the speed since the row before, over all steps");
+    add("envelope_peak", "", "largest share of the torque that the actuator has at that speed, since the row before");
+    add("current_square", "A^2 s", "integral of the current squared from t = 0, over all steps");
+    add("voltage_peak", "V", "largest magnitude of the motor's voltage since the row before, over all steps");
+    add("current_peak", "A", "largest magnitude of the motor's current since the row before, over all steps");
   }
   return columns;
 }
@@ -93,11 +105,21 @@ void halve_ticks(Trace& ticks) {
         now[c + kTorquePeak] = before[c + kTorquePeak];
         now[c + kPeakLimit] = before[c + kPeakLimit];
       }
-      now[c + kErrorPeak] = std::max(before[c + kErrorPeak], now[c + kErrorPeak]);
+      for (const TickColumn peak : {kErrorPeak, kSpeedPeak, kEnvelopePeak, kVoltagePeak, kCurrentPeak})
+        now[c + peak] = std::max(before[c + peak], now[c + peak]);
     }
     std::ranges::copy(row(k), row(kept).begin());
   }
   ticks.values.resize(kept * columns);
+}
+
+void halve_rows(Trace& table) {
+  const std::size_t columns = table.columns.size();
+  const std::size_t rows = table.rows();
+  std::size_t kept = std::min<std::size_t>(1, rows);
+  for (std::size_t k = 2; k < rows; k += 2, ++kept)
+    std::ranges::copy(table.row(k), Out(table.values).subspan(kept * columns, columns).begin());
+  table.values.resize(kept * columns);
 }
 
 }  // namespace gaitlab

@@ -33,16 +33,36 @@ class Series {
 /// Patterns of the columns that summary, figures and warnings read; recorded whatever `trace.columns` says.
 const std::vector<std::string>& report_columns();
 
+inline constexpr std::size_t kMostTickRows = 20000;  ///< of Recording::ticks, even: 5 min of control ticks 15 ms apart
+/// Columns of a joint in Recording::ticks, behind t.
+enum TickColumn : std::size_t {
+  kTorquePeak,
+  kErrorPeak,
+  kPeakLimit,
+  kTorqueSquare,
+  kVoltageLimited,
+  kCurrentLimited,
+  kSpeedPeak,
+  kEnvelopePeak,
+  kCurrentSquare,
+  kVoltagePeak,
+  kCurrentPeak,
+  kTickColumns
+};
+
 /// How one rollout ran.
 struct Recording {
   /// At every trace tick, and at the end: the columns that `trace.columns` names; then those of report_columns() that it leaves
   /// out.
   Trace trace, rest;
   /// At control ticks at least 2 ms apart (above 20 000 rows: every second of them, and so on), and at the end: for each joint
-  /// the largest |torque| (and whether the motor was at a limit then) and |set point - angle| since the row before, and from t
-  /// = 0 the integral of torque^2 and the time at each limit. Over all steps, so that a peak or an RMS of any part of the run
-  /// does not depend on trace.period.
+  /// the largest |torque| (and whether the motor was at a limit then), |set point - angle|, |speed|, |voltage|, |current| and
+  /// share of the torque that there is since the row before, and from t = 0 the integrals of torque^2 and current^2 and the
+  /// time at each limit. Over all steps, so that a peak or an RMS of any part of the run does not depend on trace.period.
   Trace ticks;
+  /// At the rows of `ticks`, but under the new commands: loads of docks and feet, ways that feet slid, how the robot stands.
+  /// Without columns where nobody asked the simulation for it.
+  Trace loads;
   std::vector<JointStatistics> joints;  ///< none: the robot has no joint, or the run is of a format that did not keep them
   Ledger ledger;                        ///< at the end
   StepTally tally;                      ///< of the engine's steps
@@ -62,27 +82,19 @@ struct Recording {
   [[nodiscard]] Vec3 com(std::size_t row) const;
   /// Of the centre of mass, from the first row to the last.
   [[nodiscard]] Vec3 travel() const { return rows() == 0 ? Vec3(Vec3::Zero()) : Vec3(com(rows() - 1) - com(0)); }
+  /// A joint's column of `ticks`; empty where it is not known, as in a folder of an older format.
+  [[nodiscard]] Series tick(std::size_t joint, TickColumn column) const;
   /// Whether `state` finds what it needs: always but in a folder of an older format.
   [[nodiscard]] bool has_states(const Robot& robot) const;
   /// Angles and pose at the time of a row; speeds 0.
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t row) const;
 };
 
-inline constexpr std::size_t kMostTickRows = 20000;  ///< of Recording::ticks, even: 5 min of control ticks 15 ms apart
-/// Columns of a joint in Recording::ticks, behind t.
-enum TickColumn : std::size_t {
-  kTorquePeak,
-  kErrorPeak,
-  kPeakLimit,
-  kTorqueSquare,
-  kVoltageLimited,
-  kCurrentLimited,
-  kTickColumns
-};
-
 /// The columns of Recording::ticks for so many joints.
 std::vector<Column> tick_columns(std::size_t joints);
 /// Makes one row of each two behind the first: the later one, with the larger of their peaks.
 void halve_ticks(Trace& ticks);
+/// Makes one row of each two behind the first: the later one.
+void halve_rows(Trace& table);
 
 }  // namespace gaitlab

@@ -61,7 +61,7 @@ std::vector<Beside> tables(const Recording& r) {
       joints.values.push_back(number);
     });
   }
-  return {{"rest", r.rest}, {"ticks", r.ticks}, {"joints", joints}, {"run", run}};
+  return {{"rest", r.rest}, {"ticks", r.ticks}, {"loads", r.loads}, {"joints", joints}, {"run", run}};
 }
 
 InputError unfit(const fs::path& file, const std::string& what) {
@@ -70,8 +70,9 @@ InputError unfit(const fs::path& file, const std::string& what) {
 
 /// What tables() made, back into the recording.
 void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r) {
+  const auto find = [&](const char* name) { return std::ranges::find(beside, name, &Beside::name); };
   const auto take = [&](const char* name) -> Trace {
-    const auto found = std::ranges::find(beside, name, &Beside::name);
+    const auto found = find(name);
     if (found == beside.end()) throw unfit(file, fmt::format("there is no table /recording/{}", name));
     return std::move(found->table);
   };
@@ -82,6 +83,7 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   };
   r.rest = take("rest");
   r.ticks = take("ticks");
+  if (find("loads") != beside.end()) r.loads = take("loads");  // older folders do not have it
   const Trace joints = take("joints");
   const Trace run = take("run");
   r.joints.resize(joints.rows());

@@ -109,7 +109,8 @@ void Explainer::on(const char* key, const char* about, const field::OneOf& field
 
 void Explainer::on(const char* key, const char* about, const field::EachJoint& field) {
   const std::string range = range_without_unit(field.spec);
-  row(key, field.spec.unit, field.value.each.empty() ? number_text(field.value.common) : list_text(field.value.each),
+  const std::string preset = field.value.each.empty() ? number_text(field.value.common) : list_text(field.value.each);
+  row(key, field.spec.unit, field.role == field::Role::rating && field.value == PerJoint() ? "not stated" : preset,
       range.empty() ? "per joint" : range + ", per joint", about);
 }
 

@@ -180,7 +180,10 @@ void FigureSettings::fields(Fields& f) {
 }
 
 void Limits::fields(Fields& f) {
-  f.number("margin", margin, {"", 0, 1, "Share of what a motor has at rest above which its largest torque is a warning."});
+  f.number(
+      "margin", margin,
+      {"", 0, 1,
+       "Share of what motor and gear have (torque at that speed, ratings) above which the verdict warns. Default: chosen."});
   f.number("tracking_error", tracking_error,
            {"rad", kPositive, 1000,
             "Largest difference of a set point and its angle; up to twice that is a warning, more a failure. Default: what the "
@@ -200,6 +203,30 @@ void Limits::fields(Fields& f) {
   f.number(
       "tilt", tilt,
       {"rad", kPositive, 4, "Tilt of the base from its start above which the verdict warns. Default: 60 degrees, chosen."});
+  f.number("beyond_range", beyond_range,
+           {"rad", 0, 100, "How far a joint may be beyond its range; less is a warning. Default: chosen, a soft stop's give."});
+  f.number("beyond_range_share", beyond_range_share,
+           {"", 0, 1, "Share of the time that a joint may be beyond its range; less is a warning. Default: chosen."});
+  f.number("start_jump", start_jump,
+           {"rad", 0, 100,
+            "Jump of a set point at t = 0 above which there is a warning. Default: half of what the axis of the paper's figure "
+            "14 has room for."});
+  f.number("touch", touch,
+           {"m", 0, 10,
+            "How deep two bodies may be in one another without a word. Default: the roundness of cylinders, which are prisms "
+            "here, and the give of a hinge's stop."});
+  f.number("collision", collision,
+           {"m", 0, 10, "How deep two bodies may be in one another; less is a warning, more a failure. Default: chosen."});
+  f.number("sink", sink, {"m", 0, 10, "How deep a body may be in the ground. Default: the softness of the ground."});
+  f.number(
+      "energy_residual", energy_residual,
+      {"", 0, 1, "Share of the energy drawn that may be unaccounted for. Default: the error of the torques that is judged."});
+  f.number("energy_created", energy_created,
+           {"", 0, 1, "Share of the energy drawn that back-driven gears may create (eq. 2). Default: chosen."});
+  f.number(
+      "slip", slip,
+      {"", 0, 1e6,
+       "Share of its way that a robot may slide on its feet, weighted by their loads; more is a warning. Default: chosen."});
 }
 
 SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type)

@@ -53,6 +53,7 @@ void Writer::on(const char* key, const field::File& field) {
 void Writer::on(const char* key, const field::OneOf& field) { add(key, scalar_node(field.value)); }
 
 void Writer::on(const char* key, const field::EachJoint& field) {
+  if (field.role == field::Role::rating && field.value == PerJoint()) return;
   add(key, field.value.each.empty() ? scalar_node(number_text(field.value.common)) : numbers_node(field.value.each));
 }
 

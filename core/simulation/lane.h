@@ -6,6 +6,7 @@
 
 #include "core/plugin/plugin_instance.h"
 #include "core/simulation/lane_clock.h"
+#include "core/simulation/load_meter.h"
 #include "core/simulation/simulation.h"
 
 namespace gaitlab {
@@ -64,8 +65,10 @@ struct Simulation::Lane {
   std::vector<double> k1, k2, k3, k4, stage;
   Sample sample;
   std::unique_ptr<Probes> probes;
+  std::unique_ptr<LoadMeter> loads;  ///< nullptr: nobody asked
   Recording recording;
   std::int64_t ticks_per_row = 1;  ///< control ticks per row of Recording::ticks
+  bool loads_due = false;          ///< that row has none of Recording::loads yet
 };
 
 }  // namespace gaitlab

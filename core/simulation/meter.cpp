@@ -26,11 +26,13 @@ Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()), time_(lane
     }
   }
   for (auto& sums : sums_) sums.assign(lo_.size(), 0.0);
-  for (auto* values : {&recent_peak_, &recent_error_, &recent_limit_, &weight_, &share_, &seen_})
+  for (auto* values : {&recent_peak_, &recent_error_, &recent_limit_, &recent_speed_, &recent_envelope_, &recent_voltage_,
+                       &recent_current_, &weight_, &share_, &seen_})
     values->assign(lo_.size(), 0.0);
 }
 
-void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In measured) {
+void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In available,
+                In measured) {
   const std::size_t n = lo_.size();
   const In angle = part.angle;
   const In speed = part.speed;
@@ -80,6 +82,11 @@ void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Ac
     recent_limit_[i] = torque_now > recent_peak_[i] ? report.saturation[i] : recent_limit_[i];
     recent_peak_[i] = std::max(recent_peak_[i], torque_now);
     recent_error_[i] = std::max(recent_error_[i], seen_[i] * apart(i));
+    recent_speed_[i] = std::max(recent_speed_[i], seen_[i] * std::abs(speed[i]));
+    const double used = torque_now < available[i] ? torque_now / available[i] : torque_now > 0 ? 1.0 : 0.0;
+    recent_envelope_[i] = std::max(recent_envelope_[i], used);
+    recent_voltage_[i] = std::max(recent_voltage_[i], seen_[i] * std::abs(report.voltage[i]));
+    recent_current_[i] = std::max(recent_current_[i], seen_[i] * std::abs(report.current[i]));
   }
   share(&F::torque_rms, [&](std::size_t i) { return torque[i] * torque[i]; });
   peak(&F::speed_peak, [&](std::size_t i) { return std::abs(speed[i]); });
@@ -117,11 +124,15 @@ void Meter::tick(std::size_t lane, Out row) {
   const double* const square = at(sums_, &F::torque_rms);
   const double* const voltage = at(sums_, &F::saturated_voltage);
   const double* const current = at(sums_, &F::saturated_current);
+  const double* const amperes = at(sums_, &F::current_rms);
   std::size_t to = 0;
   for (std::size_t i = lane; i < lo_.size(); i += lanes_) {
-    for (const double value : {recent_peak_[i], recent_error_[i], recent_limit_[i], square[i], voltage[i], current[i]})
+    for (const double value : {recent_peak_[i], recent_error_[i], recent_limit_[i], square[i], voltage[i], current[i],
+                               recent_speed_[i], recent_envelope_[i], amperes[i], recent_voltage_[i], recent_current_[i]})
       row[to++] = value;
-    recent_peak_[i] = recent_error_[i] = recent_limit_[i] = 0;
+    for (auto* recent :
+         {&recent_peak_, &recent_error_, &recent_limit_, &recent_speed_, &recent_envelope_, &recent_voltage_, &recent_current_})
+      (*recent)[i] = 0;
   }
 }
 

@@ -29,8 +29,9 @@ bool can_share(const Scenario& a, const Scenario& b) {
          std::ranges::equal(elements(a), elements(b), same_place);
 }
 
-Simulation::Simulation(std::span<const Scenario> lanes) try
+Simulation::Simulation(std::span<const Scenario> lanes, Loads loads) try
     : scenarios_(lanes.begin(), lanes.end()),
+      loads_(loads),
       h_(scenarios_.at(0).physics.step),
       layout_{scenarios_[0].robot->joints.size(), scenarios_.size()},
       meter_(scenarios_) {
@@ -49,7 +50,8 @@ Simulation::Simulation(std::span<const Scenario> lanes) try
   }
   actuator_ = make_actuator(actuators, info(*first.robot));
   plant_ = first.physics.engine->make(plant_settings());
-  for (auto* values : {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_}) {
+  for (auto* values :
+       {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_, &available_, &largest_}) {
     values->assign(layout_.joints * lanes_.size(), 0.0);
   }
   cut_state();
@@ -161,6 +163,10 @@ void Simulation::set_start() {
     for (Trace* table : {&recording.trace, &recording.rest}) reserve(*table, s.duration / s.trace.period);
     const double ticks = s.duration / (s.control_period * static_cast<double>(lane.ticks_per_row));
     reserve(recording.ticks, std::min(ticks, static_cast<double>(kMostTickRows)));
+    if (loads_ == Loads::left_out) continue;
+    lane.loads = std::make_unique<LoadMeter>(s, lane.contacts);
+    recording.loads.columns = lane.loads->columns();
+    reserve(recording.loads, std::min(ticks, static_cast<double>(kMostTickRows)));
   }
 }
 

@@ -99,6 +99,19 @@ void Simulation::evaluate_motors(In speeds) {
   if (!plant_->evaluate_motors(command_, speeds, into)) actuator_->electrical(command_, speeds, into);
 }
 
+/// The torque that there is at these speeds in the direction of these torques, N m; infinity: the actuator states no limit.
+void Simulation::evaluate_available(In speeds, In torques) {
+  if (actuator_ == nullptr) return;
+  const In limit = actuator_->command_limit();
+  for (std::size_t i = 0; i < largest_.size(); ++i)
+    largest_[i] = std::isfinite(limit[i]) ? std::copysign(limit[i], torques[i]) : 0;
+  actuator_->effort(largest_, speeds, available_, slope_);
+  for (std::size_t i = 0; i < largest_.size(); ++i) {
+    available_[i] =
+        std::isfinite(limit[i]) ? std::copysign(1.0, torques[i]) * available_[i] : std::numeric_limits<double>::infinity();
+  }
+}
+
 /// Kinetic and potential, rotors included, J.
 double Simulation::energy(const Lane& lane) const {
   const Sample& sample = lane.sample;
@@ -108,6 +121,11 @@ double Simulation::energy(const Lane& lane) const {
     rotors += inertia[j * lanes_.size() + lane.index] * sample.state.qd[j] * sample.state.qd[j] / 2;
   }
   return sample.sums.kinetic + sample.sums.potential + rotors;
+}
+
+double Simulation::stop_torque(const Lane& lane, const RobotState& state, std::size_t joint) {
+  const Joint& of = lane.robot.joints[joint];
+  return HingeStop::at(state.q[joint], state.qd[joint], of.lo, of.hi).torque;
 }
 
 /// `whole`: also what no column asks for.
@@ -130,7 +148,7 @@ Sample& Simulation::take_sample(Lane& lane, bool whole) {
     s.current[j] = current_[i];
     s.saturation[j] = saturation_[i];
     s.torque[j] = torque_[i];
-    s.stop_torque[j] = HingeStop::at(s.state.q[j], s.state.qd[j], lane.robot.joints[j].lo, lane.robot.joints[j].hi).torque;
+    s.stop_torque[j] = stop_torque(lane, s.state, j);
   }
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
   plant_->tally(l, s.tally);
@@ -238,6 +256,7 @@ void Simulation::command() {
     if (lane->recording.control_ticks % lane->ticks_per_row == 0) record_tick(*lane);
     guard(*lane, [&] { command(*lane); });
   }
+  record_loads([](const Lane& lane) { return !lane.closed; });
   watch_stability();
 }
 
@@ -248,6 +267,7 @@ void Simulation::record_tick(Lane& lane) {
   if (!ticks.values.empty() && ticks.values[ticks.values.size() - columns] == time()) return;
   if (ticks.rows() > kMostTickRows) {
     halve_ticks(ticks);
+    halve_rows(lane.recording.loads);
     lane.ticks_per_row *= 2;
     if (lane.recording.control_ticks % lane.ticks_per_row != 0 && !lane.closed) return;
   }
@@ -255,6 +275,37 @@ void Simulation::record_tick(Lane& lane) {
   const Out row = Out(ticks.values).last(columns);
   row[0] = time();
   meter_.tick(lane.index, row.subspan(1));
+  lane.loads_due = lane.loads != nullptr;
+}
+
+/// What lanes that are `wanted` bear in this moment under the commands that begin now, which change torques at once; of a lane
+/// that ends, under those in force.
+void Simulation::record_loads(const std::function<bool(const Lane&)>& wanted) {
+  const auto due = [&](const auto& lane) { return lane->loads_due && wanted(*lane); };
+  if (std::ranges::none_of(lanes_, due)) return;
+  if (actuator_ != nullptr)
+    actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
+  for (const auto& lane : lanes_) {
+    if (due(lane)) record_loads(*lane);
+  }
+}
+
+void Simulation::record_loads(Lane& lane) {
+  lane.loads_due = false;
+  if (!fine(lane)) return;
+  Sample& s = lane.loads->sample();
+  s.t = time();
+  layout_.read(plant_state_, lane.index, s.state);
+  s.forward_kinematics(lane.robot);
+  plant_->contacts(lane.index, s.contacts);
+  for (std::size_t j = 0; j < layout_.joints; ++j) {
+    s.torque[j] = torque_[j * lanes_.size() + lane.index];
+    s.stop_torque[j] = stop_torque(lane, s.state, j);
+  }
+  if (lane.loads->want_reactions()) s.compute_reactions(lane.contacts, *plant_, lane.index);
+  Trace& loads = lane.recording.loads;
+  loads.values.resize(loads.values.size() + loads.columns.size());
+  lane.loads->measure(Out(loads.values).last(loads.columns.size()));
 }
 
 void Simulation::command(Lane& lane) {
@@ -301,7 +352,8 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
   for (std::size_t l = 0; l < lanes; ++l) measured_[l] = measured(*lanes_[l]) ? 1 : 0;
   for (const StepEffort::Part& part : applied.parts) {
     evaluate_motors(part.speed);
-    meter_.add(time(), part, setpoint_, {voltage_, current_, saturation_, power_in_, copper_, gear_}, measured_);
+    evaluate_available(part.speed, part.torque);
+    meter_.add(time(), part, setpoint_, {voltage_, current_, saturation_, power_in_, copper_, gear_}, available_, measured_);
     if (part.instant) continue;
     for (std::size_t l = 0; l < lanes; ++l) {
       const Out sums = lanes_[l]->ledger;
@@ -327,11 +379,16 @@ void Simulation::check() {
 }
 
 void Simulation::check(Lane& lane) {
+  if (!fine(lane)) fail(lane, diverged(lane));
+}
+
+/// Whether every number of its state is one, and not beyond all bounds.
+bool Simulation::fine(const Lane& lane) const {
   bool fine = true;
   for (std::size_t i = lane.index; i < plant_state_.size(); i += lanes_.size()) {
     fine = fine && std::abs(plant_state_[i]) < kLargestSpeed;  // false for NaN too
   }
-  if (!fine) fail(lane, diverged(lane));
+  return fine;
 }
 
 SimulationError Simulation::diverged(const Lane& lane) const {
@@ -361,7 +418,9 @@ void Simulation::close(Lane& lane) {
   lane.closed = true;
   plant_->update_contacts();
   record_tick(lane);
+  record_loads([&](const Lane& one) { return &one == &lane; });
   Recording& recording = lane.recording;
+  if (lane.loads) lane.loads->drop_idle_feet(recording.loads);
   recording.steps = step_number();
   recording.simulated = time();
   const Sample& last = take_sample(lane, true);

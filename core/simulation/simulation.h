@@ -29,14 +29,18 @@ struct RowsNeeded {
 /// robot's structure: links, joints, which link each contact element is on.
 bool can_share(const Scenario& a, const Scenario& b);
 
+/// Whether Recording::loads is wanted: it takes the accelerations at every control tick.
+enum class Loads { left_out, recorded };
+
 /// Simulates one or more scenarios side by side, one per lane, each to its own end. All but what can_share asks may differ, and
 /// a lane's bits are those it has alone, whatever the others hold. Throws std::invalid_argument where they do not share it, or
 /// the engine has no such number of lanes. The constructor checks the step: InputError where h lambda > 1 for the standing
-/// robot, naming the largest step allowed and the joint or contact that sets it. step() allocates nothing. A lane that leaves
+/// robot, naming the largest step allowed and the joint or contact that sets it. step() allocates nothing, but at
+/// control ticks where loads are recorded. A lane that leaves
 /// the numbers, or whose plugin throws, throws SimulationError if alone; beside others it ends there, and failure() tells.
 class Simulation {
  public:
-  explicit Simulation(std::span<const Scenario> lanes);
+  explicit Simulation(std::span<const Scenario> lanes, Loads loads = Loads::left_out);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -74,6 +78,7 @@ class Simulation {
   void advance(double h, const std::function<bool(const Lane&)>& measured);
   void check();
   void check(Lane& lane);
+  [[nodiscard]] bool fine(const Lane& lane) const;
 
   [[nodiscard]] PlantSettings plant_settings() const;
   void cut_state();
@@ -83,8 +88,10 @@ class Simulation {
   void watch_error();
   void watch_stability();
   void evaluate_motors(In speeds);
+  void evaluate_available(In speeds, In torques);
   void observe();
   [[nodiscard]] double energy(const Lane& lane) const;
+  [[nodiscard]] static double stop_torque(const Lane& lane, const RobotState& state, std::size_t joint);
   Sample& take_sample(Lane& lane, bool whole);
   template <class Work>
   void guard(Lane& lane, Work work);
@@ -92,10 +99,13 @@ class Simulation {
   void end(Lane& lane);
   void close(Lane& lane);
   void record_tick(Lane& lane);
+  void record_loads(const std::function<bool(const Lane&)>& wanted);
+  void record_loads(Lane& lane);
   [[nodiscard]] SimulationError stopped(const PluginError& error) const;
   [[nodiscard]] SimulationError diverged(const Lane& lane) const;
 
   std::vector<Scenario> scenarios_;
+  Loads loads_;
   double h_;
   std::int64_t steps_ = 0;  ///< of the longest lane
   std::unique_ptr<Actuator> actuator_;
@@ -105,7 +115,8 @@ class Simulation {
   std::vector<double> state_;
   std::unique_ptr<StepError> step_error_;                                    ///< nullptr: nothing to estimate
   Out plant_state_, plant_history_, step_error_state_, setpoint_, command_;  ///< parts of state_; joint * lanes + lane
-  std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_;  ///< scratch, elementwise
+  std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, available_,
+      largest_;                   ///< scratch, elementwise
   std::vector<double> saved_;     ///< scratch: state_ while a row within a step is made
   std::vector<double> measured_;  ///< scratch: 1 for a lane whose figures a step counts for, else 0
   std::vector<Lane*> ended_;      ///< scratch: of those that end at that row

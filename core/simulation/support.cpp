@@ -1,8 +1,11 @@
 #include "core/simulation/support.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
-#include <span>
+
+#include "core/math/convex_hull.h"
 
 namespace gaitlab {
 
@@ -31,6 +34,44 @@ std::vector<SupportElement> support_elements(std::vector<SupportElement> element
   const double highest = (holds({elements.data(), count}, com) ? elements[count - 1].gap : elements.front().gap) + kBand;
   std::erase_if(elements, [&](const SupportElement& s) { return s.gap > highest; });
   return elements;
+}
+
+namespace {
+
+/// A point seen from above, m.
+struct Above {
+  double x, y;
+};
+
+/// m^2: from c to the stretch from a to b.
+double distance_square(Above a, Above b, Above c) {
+  const Above along{b.x - a.x, b.y - a.y};
+  const double length = along.x * along.x + along.y * along.y;
+  const double foot = length > 0 ? ((c.x - a.x) * along.x + (c.y - a.y) * along.y) / length : 0;
+  const double at = std::clamp(foot, 0.0, 1.0);
+  const double x = a.x + at * along.x - c.x;
+  const double y = a.y + at * along.y - c.y;
+  return x * x + y * y;
+}
+
+}  // namespace
+
+double support_margin(std::span<const Vec3> points, const Vec3& com) {
+  if (points.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<Above> seen;
+  seen.reserve(points.size());
+  for (const Vec3& p : points) seen.push_back({p.x(), p.y()});
+  const std::vector<Above> hull = math::convex_hull(std::move(seen));
+  const Above c{com.x(), com.y()};
+  bool inside = hull.size() > 2;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Above a = hull[i];
+    const Above b = hull[(i + 1) % hull.size()];
+    nearest = std::min(nearest, distance_square(a, b, c));
+    inside = inside && (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0;  // c is to the left of the edge
+  }
+  return inside ? std::sqrt(nearest) : -std::sqrt(nearest);
 }
 
 }  // namespace gaitlab

@@ -42,6 +42,20 @@ TEST_F(GoldenCommand, ApprovedIsGreen) {
   EXPECT_FALSE(fs::exists(folder / "runs"));
 }
 
+/// The golden is kept, but the robot cannot do it: 3, and whatever else is wrong comes first.
+TEST_F(GoldenCommand, FailsWhatIsInfeasible) {
+  EXPECT_EQ(call("test good.yaml --fail-infeasible").code, 0);
+  folder.write("good.yaml", kCaterpillar + "limits: {tracking_error: 1e-6}\n");
+  EXPECT_EQ(call("test good.yaml").code, 0);
+  const Result result = call("test good.yaml --fail-infeasible --junit result.xml");
+  EXPECT_EQ(result.code, 3);
+  expect_contains(result.out, "  INFEASIBLE\n\n0 passed, 0 failed, 1 infeasible\n");
+  expect_contains(result.err, "good.yaml: infeasible: joint ");
+  expect_contains(read(folder / "result.xml"), "<failure message=\"INFEASIBLE\">good.yaml: infeasible: joint ");
+  folder.write("good.yaml", kCaterpillar + "limits: {tracking_error: 1e-6}\nactuator: {Kt: 0.0039895}\n");
+  EXPECT_EQ(call("test good.yaml --fail-infeasible").code, 4);
+}
+
 TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
   const Result result = call("test good.yaml --junit result.xml");

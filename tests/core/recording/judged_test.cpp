@@ -17,7 +17,8 @@ Recording ticks_of_ten_seconds() {
   r.ticks.columns = tick_columns(2);
   for (int k = 0; k <= 100; ++k) {
     const double t = k * kTick;
-    r.ticks.values.insert(r.ticks.values.end(), {t, 1, 0.01, 0, 1 * t, 0, 0, 2, 0.02, 0, 4 * t, 0, 0});
+    r.ticks.values.insert(r.ticks.values.end(), {t, 1,    0.01, 0,     1 * t, 0, 0,   0.5, 0.3,     0.2 * t, 3,  0.4,  //
+                                                 2, 0.02, 0,    4 * t, 0,     0, 0.6, 0.4, 0.8 * t, 4,       0.8});
   }
   return r;
 }
@@ -32,6 +33,42 @@ void limit(Recording& r, std::size_t joint, std::size_t which, int from, int to)
 }
 
 MotionCycle cycle(double from, double period) { return {true, from, period, 0.001}; }
+
+TEST(Judged, KnowsWhatAMotorGaveAndTook) {
+  Recording r = ticks_of_ten_seconds();
+  cell(r, 30, 1, kEnvelopePeak) = 0.9;
+  cell(r, 40, 1, kSpeedPeak) = 7;
+  cell(r, 2, 1, kSpeedPeak) = 9;  // before the window
+  const JudgedJoint j = judge(r, cycle(1, 2.5)).joints[1];
+  EXPECT_EQ(j.envelope_peak, 0.9);
+  EXPECT_DOUBLE_EQ(j.envelope_peak_time, 3);
+  EXPECT_EQ(j.speed_peak, 7);
+  EXPECT_DOUBLE_EQ(j.speed_peak_time, 4);
+  EXPECT_NEAR(j.current_rms, std::sqrt(0.8), 1e-12);  // rounding of sums of about 10
+  EXPECT_EQ(j.voltage_peak, 4);
+  EXPECT_EQ(j.current_peak, 0.8);
+}
+
+/// A folder of before the columns from speed_peak on: what it has is found, what it has not is not a number.
+TEST(Judged, ReadsOlderTicks) {
+  const Recording now = ticks_of_ten_seconds();
+  Recording old = now;
+  old.ticks = {};
+  constexpr std::size_t kOld = kCurrentLimited + 1;
+  const auto kept = [](std::size_t c) { return c == 0 || (c - 1) % kTickColumns < kOld; };
+  for (std::size_t c = 0; c < now.ticks.columns.size(); ++c) {
+    if (kept(c)) old.ticks.columns.push_back(now.ticks.columns[c]);
+  }
+  for (std::size_t i = 0; i < now.ticks.values.size(); ++i) {
+    if (kept(i % now.ticks.columns.size())) old.ticks.values.push_back(now.ticks.values[i]);
+  }
+  const JudgedJoint j = judge(old, cycle(1, 2.5)).joints[1];
+  EXPECT_EQ(j.torque_peak, 2);
+  EXPECT_NEAR(j.torque_rms, 2, 1e-12);
+  EXPECT_EQ(j.error_peak, 0.02);
+  for (const double value : {j.envelope_peak, j.speed_peak, j.current_rms, j.voltage_peak, j.current_peak})
+    EXPECT_TRUE(std::isnan(value));
+}
 
 TEST(Judged, ForgivesAtMostOnePeriodOfAStart) {
   const Recording r = ticks_of_ten_seconds();

@@ -1,0 +1,25 @@
+// What a dock bears, along its faces and across them.
+#pragma once
+#include <cmath>
+
+#include "core/dynamics/wrench.h"
+
+namespace gaitlab {
+
+/// About the common origin of the docked faces; shear and bending are magnitudes, so that they do not depend on the quarter
+/// turn by which the faces are docked. (docs/equations.md, 9)
+struct DockLoad {
+  double tension = 0;  ///< N, positive: pulls the modules apart
+  double shear = 0;    ///< N, in the plane of the faces
+  double bending = 0;  ///< N m, about an axis in that plane
+  double torsion = 0;  ///< N m, of the parent on the child, right-hand about the parent face's outward normal
+};
+
+/// on_child: what the parent exerts on the child (InverseDynamics::dock); normal: of the parent's face, outward, unit vector;
+/// both in the same axes.
+inline DockLoad dock_load(const Wrench& on_child, const Vec3& normal) {
+  const auto across = [&](const Vec3& v) { return std::sqrt((v - v.dot(normal) * normal).squaredNorm()); };
+  return {-on_child.force.dot(normal), across(on_child.force), across(on_child.moment), on_child.moment.dot(normal)};
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,170 @@
+#include "core/simulation/load_meter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/dock_load.h"
+#include "core/model/docking.h"
+#include "core/simulation/support.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kLoaded = 0.005;  // of the weight: less is the flicker of a foot that leaves the ground
+
+enum FootColumn : std::size_t { kFootForce, kFootPoint = 3, kFootSlid = 6, kFootColumns };
+
+double level(const Vec3& v) { return std::sqrt(v.x() * v.x() + v.y() * v.y()); }
+
+/// Seven digits are more than the law of contact knows, and half the bytes of a trace file.
+double rounded(double value) { return static_cast<double>(static_cast<float>(value)); }
+
+}  // namespace
+
+LoadMeter::LoadMeter(const Scenario& scenario, const std::vector<ContactElement>& elements)
+    : robot_(*scenario.robot),
+      elements_(elements),
+      sample_(robot_, elements.size(), 0),
+      weight_(robot_.mass * scenario.physics.gravity.norm()),
+      plane_(scenario.ground.kind == Ground::Kind::plane),
+      before_(robot_),
+      touched_(elements.size()) {
+  sample_.gravity = scenario.physics.gravity;
+  support_.reserve(elements.size());
+  for (std::size_t m = 1; m < robot_.modules.size() && !scenario.contact.solver(); ++m) {
+    const Module& module = robot_.modules[m];
+    const Module& parent = robot_.modules[static_cast<std::size_t>(module.parent)];
+    const FaceType& face = *find_face(robot_.types[parent.type], module.dock.parent_face);
+    const Body& body = robot_.bodies[parent.first_body + face.body];
+    docks_.push_back({m, body.link, body.in_link.R * face.normal});
+  }
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const auto same = [&](const Foot& foot) { return foot.body == elements[e].body; };
+    auto foot = std::ranges::find_if(feet_, same);
+    if (foot == feet_.end()) foot = feet_.insert(foot, Foot{.body = elements[e].body, .elements = {}});
+    foot->elements.push_back(e);
+  }
+  add_columns(scenario);
+}
+
+void LoadMeter::add_columns(const Scenario& scenario) {
+  const auto add = [&](std::string name, const char* unit, std::string definition) {
+    columns_.push_back({std::move(name), unit, std::move(definition)});
+  };
+  add("t", "s", "time");
+  add("path", "m", "horizontal way of the centre of mass from t = 0, from row to row");
+  add("slip", "m", "way that contact points slid under load, times the load over the weight, from t = 0");
+  if (plane_) add("stability", "m", "how far the centre of mass is within the support polygon; outside negative");
+  for (const DockFace& dock : docks_) {
+    const auto of_dock = [&](const char* quantity, const char* unit, const char* definition) {
+      add(fmt::format("dock.{}.{}", dock.module, quantity), unit, definition + fmt::format(" at m{}/dock", dock.module));
+    };
+    of_dock("tension", "N", "force that pulls the modules apart");
+    of_dock("shear", "N", "force in the plane of the faces");
+    of_dock("bending", "N m", "moment about an axis in the plane of the faces");
+    of_dock("torsion", "N m", "moment about the normal of the parent's face, of the parent on the child,");
+  }
+  foot_columns_ = columns_.size();
+  for (const Foot& foot : feet_) {
+    const std::string& body = scenario.robot->bodies[foot.body].name;
+    const auto of_foot = [&](const char* quantity, const char* unit, const char* definition) {
+      add(fmt::format("foot.{}.{}", body, quantity), unit, definition + body);
+    };
+    for (const char* const axis : {"fx", "fy", "fz"}) of_foot(axis, "N", "force of the ground, world axes, on ");
+    for (const char* const axis : {"x", "y", "z"}) of_foot(axis, "m", "where the normal forces act, world axes, on ");
+    of_foot("slid", "m", "way slid under load, from t = 0, of ");
+  }
+}
+
+double LoadMeter::slide(std::size_t e) const {
+  const ContactSample& now = sample_.contacts[e];
+  const Kinematics& k = sample_.kinematics;
+  const std::size_t link = elements_[e].link;
+  if (touched_[e].fn > 0) return level(k.point(link, touched_[e].in_link) - before_.point(link, touched_[e].in_link));
+  return level(now.point - before_.point(link, k.R[link].transpose() * (now.point - k.p[link])));
+}
+
+void LoadMeter::measure(Foot& foot, Out row) {
+  Vec3 force = Vec3::Zero();
+  Vec3 point = Vec3::Zero();
+  double load = 0;
+  double loads = 0;  // of both ticks
+  double way = 0;
+  for (const std::size_t e : foot.elements) {
+    const ContactSample& contact = sample_.contacts[e];
+    if (contact.fn > 0) {
+      force += contact.force;
+      point += contact.fn * contact.point;
+      load += contact.fn;
+    }
+    const double both = contact.fn + touched_[e].fn;
+    if (first_ || !(both > 0)) continue;
+    loads += both;
+    way += both * slide(e);
+  }
+  const bool loaded = load > kLoaded * weight_;
+  const bool was = foot.load > kLoaded * weight_;
+  if (loads > 0) {
+    if (weight_ > 0) slip_ += way / 2 / weight_;
+    foot.slid += way / loads * (loaded && was ? 1 : loaded || was ? 0.5 : 0);
+  }
+  if (load > 0) foot.point = point / load;
+  foot.load = load;
+  foot.idle = foot.idle && !(load > 0);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    row[kFootForce + static_cast<std::size_t>(i)] = rounded(force[i]);
+    row[kFootPoint + static_cast<std::size_t>(i)] = rounded(foot.point[i]);
+  }
+  row[kFootSlid] = rounded(foot.slid);
+}
+
+double LoadMeter::margin() {
+  support_.clear();
+  for (const ContactSample& contact : sample_.contacts) {
+    if (contact.fn > kLoaded * weight_) support_.push_back(contact.point);
+  }
+  return support_margin(support_, sample_.sums.com);
+}
+
+void LoadMeter::measure(Out row) {
+  const Kinematics& k = sample_.kinematics;
+  for (std::size_t i = 0; i < feet_.size(); ++i) measure(feet_[i], row.subspan(foot_columns_ + i * kFootColumns));
+  if (!first_) path_ += level(sample_.sums.com - com_before_);
+  std::size_t at = 0;
+  row[at++] = sample_.t;
+  row[at++] = rounded(path_);
+  row[at++] = rounded(slip_);
+  if (plane_) row[at++] = rounded(margin());
+  for (const DockFace& dock : docks_) {
+    const DockLoad load = dock_load(sample_.reactions.dock(dock.module), k.R[dock.link] * dock.normal);
+    for (const double value : {load.tension, load.shear, load.bending, load.torsion}) row[at++] = rounded(value);
+  }
+  first_ = false;
+  com_before_ = sample_.sums.com;
+  before_ = k;
+  for (std::size_t e = 0; e < touched_.size(); ++e) {
+    const ContactSample& contact = sample_.contacts[e];
+    const std::size_t link = elements_[e].link;
+    touched_[e].fn = contact.fn;
+    if (contact.fn > 0) touched_[e].in_link = k.R[link].transpose() * (contact.point - k.p[link]);
+  }
+}
+
+void LoadMeter::drop_idle_feet(Trace& loads) const {
+  std::vector<std::size_t> kept;
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    if (c < foot_columns_ || !feet_[(c - foot_columns_) / kFootColumns].idle) kept.push_back(c);
+  }
+  Trace left;
+  for (const std::size_t c : kept) left.columns.push_back(columns_[c]);
+  left.values.reserve(loads.rows() * kept.size());
+  for (std::size_t row = 0; row < loads.rows(); ++row) {
+    for (const std::size_t c : kept) left.values.push_back(loads.at(row, c));
+  }
+  loads = std::move(left);
+}
+
+}  // namespace gaitlab

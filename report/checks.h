@@ -1,0 +1,57 @@
+// The checks of a verdict: each fills in what one limit came to.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/fall.h"
+#include "report/motors.h"
+#include "report/verdict.h"
+
+namespace gaitlab::report {
+
+/// What every check reads.
+struct CheckedRun {
+  const Scenario& scenario;
+  const Recording& record;
+  const Summary& summary;
+  const Overlaps& overlaps;
+  std::vector<Drive> drives = report::drives(scenario);
+  bool has_dc_motors = report::dc_motors(scenario);
+  std::string motor_source = report::motor_source(scenario);
+  std::optional<Fall> fall = report::fall(scenario, record);
+
+  [[nodiscard]] const std::string& joint(std::size_t j) const { return scenario.robot->joints[j].name; }
+  [[nodiscard]] const Limits& limits() const { return scenario.limits; }
+  [[nodiscard]] bool driven() const { return !drives.empty() && !record.joints.empty(); }
+  /// Why what all steps did cannot be judged; empty: it can.
+  [[nodiscard]] std::string no_steps() const;
+};
+
+/// Up to `pass` a pass, up to `warn` a warning, above it, and where it is not a number, a failure.
+CheckStatus graded(double value, double pass, double warn);
+
+// A check comes with its id, title and unit, not judged, without a number and without a word; what stays so was not judged, and
+// the text says why.
+namespace checks {
+void outcome(const CheckedRun& run, Check& made);
+void height(const CheckedRun& run, Check& made);
+void tilt(const CheckedRun& run, Check& made);
+void voltage(const CheckedRun& run, Check& made);
+void current(const CheckedRun& run, Check& made);
+void envelope(const CheckedRun& run, Check& made);
+void speed(const CheckedRun& run, Check& made);
+void heat(const CheckedRun& run, Check& made);
+void gear_peak(const CheckedRun& run, Check& made);
+void gear_continuous(const CheckedRun& run, Check& made);
+void tracking(const CheckedRun& run, Check& made);
+void stops(const CheckedRun& run, Check& made);
+void collision(const CheckedRun& run, Check& made);
+void battery(const CheckedRun& run, Check& made);
+void in_ground(const CheckedRun& run, Check& made);
+void torque_error(const CheckedRun& run, Check& made);
+void ledger(const CheckedRun& run, Check& made);
+void created(const CheckedRun& run, Check& made);
+}  // namespace checks
+
+}  // namespace gaitlab::report

@@ -1,0 +1,31 @@
+// The demand twin: the same run by motors that lack nothing, which tells how much the real ones lack.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "report/summary.h"
+#include "report/verdict.h"
+
+namespace gaitlab::report {
+
+inline constexpr double kDemandTimes = 20;  ///< the twin's limits over those of the scenario
+
+/// What a gait takes where no limit holds its motors back.
+struct Demand {
+  std::string doubt = {};                ///< why it is not known, or what makes it doubtful; empty: nothing does
+  bool known = false;                    ///< whether `joints` says anything
+  std::vector<JudgedJoint> joints = {};  ///< of the twin, in the window of the run itself
+};
+
+/// Multiplies every limit of the scenario's actuator (fields declared as Fields::limit) by kDemandTimes. False: it has none.
+bool raise_limits(Scenario& scenario);
+
+/// Runs the twin, which raise_limits made of the scenario of `record`. A twin that diverges is not known; one whose robot is
+/// thrown up (centre of mass above 1.5 times the largest height of the run itself) is doubtful, and so is one that itself
+/// reaches a limit. Same bytes for the same run.
+Demand demand(const Scenario& twin, const Recording& record, const Summary& summary);
+
+/// Fills in `missing` of what fails or warns for a limit of the motors, and Verdict::demands.
+void add_demand(Verdict& verdict, const Scenario& scenario, const Summary& summary, const Demand& demand);
+
+}  // namespace gaitlab::report

@@ -1,0 +1,30 @@
+// The numbers among a plugin's settings, whichever plugin it is.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/plugin/plugin_instance.h"
+
+namespace gaitlab::report {
+
+/// By key: `Kp`, `model.ramp`; those of lists are left out.
+class SettingsNumbers final : public Fields {
+ public:
+  struct Found {
+    std::string key, unit;
+    PerJoint value;
+  };
+  explicit SettingsNumbers(const PluginSelection& plugin);
+  void visit(const Field& field) override;
+  void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
+
+  [[nodiscard]] const std::vector<Found>& all() const { return found_; }
+  /// nullptr: there is none.
+  [[nodiscard]] const Found* find(const std::string& key) const;
+
+ private:
+  std::vector<Found> found_;
+  std::string prefix_;
+};
+
+}  // namespace gaitlab::report

@@ -1,0 +1,74 @@
+// The demand twin: what motors without limits would take.
+#include "report/demand.h"
+
+#include "core/scenario/sections.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace report;
+
+std::vector<std::string> with(std::vector<std::string> sets) {
+  sets.insert(sets.end(), {"duration=4", "physics.engine=articulated"});
+  return sets;
+}
+
+/// A caterpillar whose motors have too little current, and what it takes.
+struct Weak {
+  Scenario scenario = shipped("caterpillar.yaml", with({"actuator.i_max=0.35"}));
+  Recording record = run(scenario);
+  Summary summary = summarise(scenario, record, 0);
+  Verdict judged = verdict(scenario, record, summary, overlaps(scenario, record));
+};
+
+TEST(Demand, IsTheRunWithLimitsTwentyTimesAsLarge) {
+  Weak weak;
+  Scenario twin = shipped("caterpillar.yaml", with({"actuator.i_max=0.35"}));
+  ASSERT_TRUE(raise_limits(twin));
+  const Demand made = demand(twin, weak.record, weak.summary);
+  ASSERT_TRUE(made.known);
+  EXPECT_EQ(made.doubt, "");
+  // The same by the command line, in a run of its own.
+  const Scenario free = shipped("caterpillar.yaml", with({"actuator.i_max=7", "actuator.u_max=148"}));
+  const Recording record = run(free);
+  const std::vector<JudgedJoint> joints = judge(record, weak.summary.limit_cycle).joints;
+  ASSERT_EQ(made.joints.size(), joints.size());
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    EXPECT_EQ(made.joints[j].torque_peak, joints[j].torque_peak) << j;
+    EXPECT_EQ(made.joints[j].current_peak, joints[j].current_peak) << j;
+    EXPECT_EQ(made.joints[j].voltage_peak, joints[j].voltage_peak) << j;
+    // eq. 2: T = eta Kt n i, so that the peaks are of one instant; to rounding.
+    EXPECT_NEAR(joints[j].torque_peak, 0.7 * 0.00395 * 594 * joints[j].current_peak, 1e-12);
+  }
+  ASSERT_EQ(weak.judged.word, "infeasible");
+  add_demand(weak.judged, weak.scenario, weak.summary, made);
+  EXPECT_EQ(weak.judged.demands.size(), Judged::limited(weak.summary.judged.joints));
+  for (const Check& check : weak.judged.checks) {
+    if (check.id != "current") continue;
+    EXPECT_EQ(check.status, CheckStatus::fail);
+    const auto names = joint_names(*weak.scenario.robot);
+    const auto worst = static_cast<std::size_t>(std::ranges::find(names, check.joint) - names.begin());
+    EXPECT_EQ(check.missing.substr(0, check.missing.find(" A")), fmt::format("{:.3g}", joints[worst].current_peak - 0.35));
+  }
+  EXPECT_TRUE(contains(to_lines(weak.judged).front() + to_lines(weak.judged).at(1) + to_lines(weak.judged).at(2), "missing: "));
+  EXPECT_TRUE(contains(to_json(weak.judged), "\"demand\": {"));
+}
+
+/// Nothing is missing where no limit is reached: nothing is asked.
+TEST(Demand, OfAnActuatorWithoutLimitsIsNotKnown) {
+  Scenario held = shipped("pendulum.yaml");
+  EXPECT_FALSE(raise_limits(held));
+}
+
+/// The robot that pushes itself off the ground as soon as its motors can.
+TEST(Demand, SaysWhatMakesItDoubtful) {
+  const Weak weak;
+  Scenario twin = shipped("caterpillar.yaml", with({"actuator.i_max=0.35", "cpg.frequency=40"}));
+  raise_limits(twin);
+  const Demand wild = demand(twin, weak.record, weak.summary);
+  EXPECT_NE(wild.doubt, "") << "thrown up, at its limits again, or diverged";
+}
+
+}  // namespace
+}  // namespace gaitlab::test
