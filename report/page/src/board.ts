@@ -10,16 +10,22 @@ export const font = (px: number, weight = 400): string => `${weight} ${px}px ${g
 
 export class Board {
   readonly canvas = document.createElement("canvas");
+  private painted = { width: 0, height: 0 };
 
   constructor(private readonly host: HTMLElement, label: string, private readonly draw: Draw) {
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", label);
     host.prepend(this.canvas);
+    new ResizeObserver(() => {
+      const { width, height } = host.getBoundingClientRect();
+      if (width !== this.painted.width || height !== this.painted.height) this.paint();
+    }).observe(host);
   }
 
   paint(): void {
     const { width, height } = this.host.getBoundingClientRect(), ratio = window.devicePixelRatio || 1, pen = this.canvas.getContext("2d");
     if (width < 2 || height < 2 || !pen) return;
+    this.painted = { width, height };
     this.canvas.width = Math.round(width * ratio);
     this.canvas.height = Math.round(height * ratio);
     this.canvas.style.width = `${width}px`;

@@ -8,6 +8,8 @@ const marks: Record<Status, string> = {
   pass: "M3 8.5l3.4 3.4L13 4.6", warn: "M8 2.6L14.4 13.4H1.6zM8 7v2.6M8 11.5v.1", fail: "M4 4l8 8M12 4l-8 8", "not judged": "M5.6 6a2.5 2.5 0 1 1 3.6 2.3c-.8.4-1.2.9-1.2 1.7M8 12.6v.1",
 };
 const words: Record<Status, string> = { pass: "pass", warn: "warning", fail: "fail", "not judged": "not judged" };
+/** On a figure that nobody but the project states. */
+export const rests = (source: string): boolean => source.startsWith("chosen");
 const groups: Record<string, string> = { run: "The run", motor: "Motors", motion: "Motion", structure: "Structure", ground: "Ground", trust: "Can the numbers be believed?" };
 
 export function checks(desk: Desk): void {
@@ -23,8 +25,8 @@ export function checks(desk: Desk): void {
     }
     body.append(...rows(desk, check));
   }
-  const chosen = verdict.checks.some((c) => c.limit !== null && c.source.includes("chosen"));
-  element("checks-note").textContent = chosen ? "* The limit is chosen; no maker states it." : "";
+  const chosen = verdict.checks.some((c) => c.limit !== null && rests(c.source));
+  element("checks-note").textContent = chosen ? "* rests on a figure that is chosen, not a maker's; the row says which" : "";
   const { pass, warn, fail, "not judged": open } = verdict.counts;
   element("counts").textContent = [[pass, "passed"], [warn, warn === 1 ? "warning" : "warnings"], [fail, "failed"], [open, "not judged"]].filter(([n]) => n).map(([n, word]) => `${n} ${word}`).join(", ");
 }
@@ -38,9 +40,9 @@ function rows(desk: Desk, check: Check): HTMLTableRowElement[] {
   const aloud = check.status === "warn" || check.status === "fail";
   if (!aloud) more.append(make("p", sentence(check.text)));
   if (check.definition) more.append(make("p", sentence(check.definition)));
-  if (check.source) more.append(make("p", `Limit: ${check.source}.`));
+  if (check.source) more.append(make("p", sentence(`limit: ${check.source}`)));
   more.hidden = true;
-  const limit = check.limit === null ? "no limit" : quantity(check.limit, check.unit) + (check.source.includes("chosen") ? "*" : "");
+  const limit = check.limit === null ? "no limit" : quantity(check.limit, check.unit) + (rests(check.source) ? "*" : "");
   const head = make("tr", make("td.mark", icon(marks[check.status]), make("span.sr", words[check.status])), make("td.what", open),
     make("td.value", check.status === "not judged" ? "not judged" : quantity(check.value, check.unit)), make("td.limit", limit));
   const text = make("td", ...(aloud ? [make("p.why", sentence(check.text))] : []), ...(check.missing ? [make("p.short", `Missing: ${check.missing}`)] : []), more), detail = make("tr", make("td"), text);

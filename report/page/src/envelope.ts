@@ -21,11 +21,10 @@ export class Envelope implements Panel {
 
   paint(): void {
     if (!this.board) return;
-    this.board.paint();
     const motor = this.desk.loads.motor(this.desk.state.joint);
     keys("envelope-key", [["", "--blue", this.desk.recording.meta.cycle ? "chosen joint, last period" : "chosen joint"], ["cloud", "--cloud", this.peers.length > 1 ? "all joints with this motor" : ""],
       ["hatch", "--hatch", limited(motor) ? "out of reach" : ""]]);
-    this.seek(this.desk.state.t);
+    this.board.paint();
   }
 
   choose(): void { this.paint(); }
@@ -93,6 +92,7 @@ export class Envelope implements Panel {
     pen.stroke();
     pen.restore();
     this.write(pen, box, steady);
+    this.seek(desk.state.t);
   }
 
   private write(pen: Pen, box: Box, steady: number | null): void {

@@ -44,7 +44,7 @@ export class Footfalls implements Panel {
     });
   }
 
-  paint(): void { this.board?.paint(); this.seek(this.desk.state.t); }
+  paint(): void { this.board?.paint(); }
   zoom(): void { this.board?.paint(); }
 
   seek(t: number): void {
@@ -81,5 +81,6 @@ export class Footfalls implements Panel {
       pen.fillText(`${Math.round(100 * duty)} %`, fullWidth - 2, Math.max(middle, 6));
     });
     timeAxis(pen, ink, left, width, height + 7, state.span);
+    this.seek(state.t);
   }
 }

@@ -117,6 +117,17 @@ export interface Verdict {
   window: { from: number; to: number };
   counts: Record<Status, number>;
   checks: Check[];
+  chosen_motors?: boolean; // figures of the motors are chosen, not a maker's
+  demand?: { doubt: string; joints: Demand[] }; // only where somebody asked
+}
+
+/** Largest magnitudes of a joint in a run whose motors have no limits. */
+export interface Demand {
+  joint: string;
+  voltage: number | null;
+  current: number | null;
+  torque: number | null;
+  speed: number | null;
 }
 
 /** Of summary.json, what the page reads. */

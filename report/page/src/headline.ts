@@ -41,7 +41,7 @@ function judgement(desk: Desk, meta: Meta): { mood: Mood; said: string; why: str
     const [first, ...rest] = failed;
     return {
       mood: "bad", said: "Not feasible with these motors",
-      why: first ? [ended(capital(first.text)), ...(first.source.includes("chosen") ? ["(The limit is chosen.)"] : []), ...others(rest)] : [],
+      why: first ? [ended(capital(first.text)), ...others(rest)] : [],
       facts: first ? shortfall(desk, first, failed) : walked(desk, meta),
     };
   }
@@ -64,10 +64,13 @@ const briefly = (found: Check[]): string => found.map((c) => c.text.split("; ")[
 function aside(meta: Meta): string[] {
   if (meta.outcome === "not run") return [];
   const of = (trust: boolean, ...status: Check["status"][]) => meta.verdict.checks.filter((c) => status.includes(c.status) && (c.group === "trust") === trust);
-  const warned = of(false, "warn"), doubtful = of(true, "warn", "fail"), open = of(false, "not judged"), bad = meta.verdict.verdict !== "feasible";
+  const warned = of(false, "warn"), doubtful = of(true, "warn", "fail"), open = of(false, "not judged"), bad = meta.verdict.verdict !== "feasible", gait = of(false, "fail"), limited = gait.some((c) => c.id === "voltage" || c.id === "current");
   return [
     ...(warned.length ? [bad ? `${capital(plural(warned.length, "warning"))}.` : `Warned of: ${briefly(warned)}.`] : []),
+    ...(meta.verdict.chosen_motors ? ["The figures of the motors are chosen, not a maker's."] : []),
+    ...(limited && !gait.some((c) => c.missing) ? [`How much is missing in volts and amperes, gaitlab report --demand tells.`] : []),
     ...(doubtful.length ? [`Doubtful: ${briefly(doubtful)}.`] : []),
+    ...(meta.verdict.demand?.doubt ? [ended(capital(meta.verdict.demand.doubt))] : []),
     ...(open.length > 6 ? [`Not judged, for want of a limit or of what it takes: ${open.length} checks.`] : open.length ? [`Not judged, for want of a limit: ${open.map((c) => inSentence(c.title)).join(", ")}.`] : []),
   ];
 }

@@ -36,7 +36,6 @@ export class HeatMap implements Panel {
     const rows = this.rows.length, { loads, ink } = this.desk;
     this.host.style.minHeight = `${foot + Math.max(Math.min(44 * rows, 132), Math.min(620, rows * (rows > 60 ? 3 : rows > 30 ? 11 : 16)))}px`;
     this.board.paint();
-    this.seek(this.desk.state.t);
     const scale = loads.scale(this.quantity);
     element("heat-note").textContent = { use: "100 % of what the motor can give at that speed", torque: `${number(scale)} N m`, current: `${number(scale)} A`, error: `${number(scale)} rad` }[this.quantity];
     element("heat-ramp").style.background = `linear-gradient(90deg,${[0, 0.25, 0.5, 0.8, 1].map((x) => `rgb(${load(ink.theme, x).join(",")}) ${100 * x}%`).join(",")})`;
@@ -95,6 +94,7 @@ export class HeatMap implements Panel {
       pen.strokeRect(left + 0.75, chosen * each + 0.75, width - 1.5, Math.max(each - 1.5, 2));
     }
     timeAxis(pen, ink, left, width, height + 7, state.span);
+    this.seek(state.t);
   }
 
   // As many names as there is room for; always that of the chosen joint.

@@ -47,7 +47,6 @@ export class JointPlots implements Panel {
 
   choose(): void { this.paint(); }
   zoom(): void { this.plots.forEach((p) => p.zoom()); }
-  resize(): void { this.plots.forEach((p) => p.resize()); }
 
   seek(t: number): void {
     this.plots.forEach((p) => p.seek(t));

@@ -1,11 +1,12 @@
 import { unpack } from "./channels";
 import { make } from "./dom";
+import { least, most, use } from "./motor";
 import { Page } from "./page";
 import { Recording } from "./recording";
 
 /** What tests (and the curious, in the console) see. */
 declare global {
-  interface Window { gaitlab: { page: Page; unpack: typeof unpack } }
+  interface Window { gaitlab: { page: Page; unpack: typeof unpack; motor: { most: typeof most; least: typeof least; use: typeof use } } }
 }
 
 Recording.of(document).then((recording) => {
@@ -13,7 +14,7 @@ Recording.of(document).then((recording) => {
     page.tick(now);
     requestAnimationFrame(frame);
   };
-  window.gaitlab = { page, unpack };
+  window.gaitlab = { page, unpack, motor: { most, least, use } };
   requestAnimationFrame((now) => {
     frame(now);
     document.documentElement.dataset.ready = "";

@@ -1,5 +1,5 @@
 // The geometry of a body: its pieces, and where they form one convex prism (a block of M-TRAN: box and half cylinder), that prism.
-import { BufferGeometry, ExtrudeGeometry, Matrix4, Shape as Outline, SphereGeometry, Vector2, Vector3 } from "three";
+import { BufferAttribute, BufferGeometry, Matrix4, SphereGeometry, Vector3 } from "three";
 import type { Pose, Shape } from "./format";
 import { position, rotation } from "./kinematics";
 
@@ -59,16 +59,43 @@ function prism({ kind, pose, size }: Shape): Prism | null {
   return { y0: origin.y - length / 2, y1: origin.y + length / 2, points };
 }
 
+// Between y0 and y1, its ends chamfered. Sides that meet at less than 30 degrees look round.
 function extrude(points: readonly Point[], y0: number, y1: number, chamfered: boolean): BufferGeometry {
   const n = points.length, c = points.reduce<Point>((a, p) => [a[0] + p[0] / n, a[1] + p[1] / n], [0, 0]);
-  const radius = Math.max(...points.map((p) => Math.hypot(p[0] - c[0], p[1] - c[1])));
-  const bevel = chamfered ? Math.min(0.03 * (y1 - y0), 0.06 * radius) : 0;
-  const inner = points.map((p) => new Vector2(c[0] + (p[0] - c[0]) * (1 - bevel / radius), c[1] + (p[1] - c[1]) * (1 - bevel / radius)));
-  const made = new ExtrudeGeometry(new Outline(inner), {
-    depth: y1 - y0 - 2 * bevel, bevelEnabled: chamfered, bevelThickness: bevel, bevelSize: bevel, bevelSegments: 1, curveSegments: 1,
+  const radius = Math.max(...points.map((p) => Math.hypot(p[0] - c[0], p[1] - c[1]))), bevel = chamfered ? Math.min(0.03 * (y1 - y0), 0.06 * radius) : 0;
+  const inner = points.map(([x, z]): Point => [c[0] + (x - c[0]) * (1 - bevel / radius), c[1] + (z - c[1]) * (1 - bevel / radius)]);
+  const sides = points.map(([x, z], i) => {
+    const [u, w] = points[(i + 1) % n];
+    return new Vector3(w - z, 0, x - u).normalize();
   });
-  made.rotateX(Math.PI / 2); // drawn in x and y, deep along z: becomes x and z, deep along -y
-  made.translate(0, y1 - bevel, 0);
+  const at: number[] = [], normals: number[] = [];
+  const corner = ([x, z]: Point, y: number, normal: Vector3) => {
+    at.push(x, y, z);
+    normals.push(normal.x, normal.y, normal.z);
+  };
+  const smooth = (side: number, end: number) => {
+    const meets = sides[(side + (end ? 1 : n - 1)) % n];
+    return meets.dot(sides[side]) > Math.cos(Math.PI / 6) ? meets.clone().add(sides[side]).normalize() : sides[side];
+  };
+  // A ring of quads; `tilt`: of its normals, along y.
+  const ring = (low: readonly Point[], yLow: number, high: readonly Point[], yHigh: number, tilt: number) => sides.forEach((_, i) => {
+    const k = (i + 1) % n, [a, b] = [0, 1].map((end) => smooth(i, end).clone().setY(tilt).normalize());
+    for (const [p, y, normal] of [[low[i], yLow, a], [high[k], yHigh, b], [low[k], yLow, b], [low[i], yLow, a], [high[i], yHigh, a], [high[k], yHigh, b]] as const) corner(p, y, normal);
+  });
+  const cap = (y: number, up: number) => {
+    const normal = new Vector3(0, up, 0);
+    for (let i = 1; i + 1 < n; i++) for (const k of up < 0 ? [0, i, i + 1] : [0, i + 1, i]) corner(inner[k], y, normal);
+  };
+  cap(y0, -1);
+  cap(y1, 1);
+  ring(points, y0 + bevel, points, y1 - bevel, 0);
+  if (bevel > 0) {
+    ring(inner, y0, points, y0 + bevel, -1);
+    ring(points, y1 - bevel, inner, y1, 1);
+  }
+  const made = new BufferGeometry();
+  made.setAttribute("position", new BufferAttribute(new Float32Array(at), 3));
+  made.setAttribute("normal", new BufferAttribute(new Float32Array(normals), 3));
   return made;
 }
 

@@ -1,6 +1,7 @@
 // The page: its state, its panels, what keys and links do.
 import { inkOf, type Ink, type Theme } from "./colour";
 import { checks } from "./checks";
+import { demand } from "./demand";
 import { docks } from "./docks";
 import { element, make, panelOf } from "./dom";
 import { Energy } from "./energy";
@@ -171,9 +172,9 @@ export class Page implements Desk {
       return when;
     };
     for (const [n, joint] of meta.joints.entries()) element("joint").append(new Option(`${n}  ${joint.name}`, String(n)));
-    if (keep("checks", recording.ran || meta.verdict.checks.length > 0)) checks(this);
+    if (keep("checks", meta.outcome !== "not run")) checks(this);
+    if (keep("demand", !!meta.verdict.demand?.joints.length)) demand(this);
     if (keep("parts", meta.outcome === "not run")) parts(this);
-    panelOf("checks").hidden = meta.outcome === "not run";
     element("transport").hidden = !recording.ran;
     if (recording.ran) {
       this.panels.push(new Transport(this, (on) => this.play(on), (x) => { this.state.rate = x; }), new Overview(this));
@@ -198,7 +199,7 @@ export class Page implements Desk {
     if (!element(id).hidden) this.stage.switch(id);
   }
 
-  // --- buttons, keys, size, paper
+  // --- buttons, keys, paper
 
   private wire(): void {
     element("theme").textContent = this.ink.theme === "dark" ? "Light" : "Dark";
@@ -222,11 +223,6 @@ export class Page implements Desk {
     }
     this.show(this.state.span);
     addEventListener("keydown", (e) => this.key(e));
-    let wait = 0;
-    addEventListener("resize", () => {
-      clearTimeout(wait);
-      wait = window.setTimeout(() => this.panels.forEach((p) => p.paint()), 60);
-    });
     let before: Theme | null = null;
     addEventListener("beforeprint", () => {
       if (before) return;

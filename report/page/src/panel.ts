@@ -26,7 +26,7 @@ export interface Desk {
   zoom(span: Span | null): void;
 }
 
-/** A panel draws itself anew when size or theme have changed; the rest only where it shows what changed. */
+/** A panel draws itself anew when the theme has changed (a new size it sees itself), the rest where it shows what changed. */
 export interface Panel {
   paint(): void;
   seek?(t: number): void;

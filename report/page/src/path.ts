@@ -18,16 +18,15 @@ export class Path implements Panel {
     [this.x, this.y] = ["x", "y"].map((c) => recording.channel(`com.${c}`));
     const feet = recording.meta.feet.map((_, n) => ["fz", "x", "y"].map((c) => recording.find(`foot.${n}.${c}`)));
     this.prints = feet.length <= 12 ? feet.filter((f): f is [Values, Values, Values] => f.every((v) => v)) : [];
-    if (!recording.has("com.x")) leaveOut(element("path"), "the recording has no centre of mass (trace.columns: com.*).");
-    else this.board = new Board(element("path"), "Way of the centre of mass from above", (pen, width, height) => this.draw(pen, width, height));
+    if (!recording.has("com.x")) {
+      leaveOut(element("path"), "the recording has no centre of mass (trace.columns: com.*).");
+      return;
+    }
+    keys("path-key", [["", "--blue", "centre of mass"], ["ring", "--blue", "start"], ["dotk", "--green", this.prints.length ? "feet on the ground" : ""]]);
+    this.board = new Board(element("path"), "Way of the centre of mass from above", (pen, width, height) => this.draw(pen, width, height));
   }
 
-  paint(): void {
-    if (!this.board) return;
-    this.board.paint();
-    keys("path-key", [["", "--blue", "centre of mass"], ["ring", "--blue", "start"], ["dotk", "--green", this.prints.length ? "feet on the ground" : ""]]);
-    this.seek(this.desk.state.t);
-  }
+  paint(): void { this.board?.paint(); }
 
   seek(t: number): void {
     if (!this.scale) return;
@@ -74,5 +73,6 @@ export class Path implements Panel {
     pen.fill();
     pen.stroke();
     pen.restore();
+    this.seek(desk.state.t);
   }
 }

@@ -29,6 +29,7 @@ export class Stage implements Panel {
     this.toggle("faces", view.marks.anyFaces, () => view.marks.faces, (on) => { view.marks.faces = on; });
     this.toggle("axes", meta.joints.length > 0, () => view.marks.axes, (on) => { view.marks.axes = on; });
     this.pointer(canvas, view);
+    new ResizeObserver(() => view.resize()).observe(this.host);
   }
 
   paint(): void {

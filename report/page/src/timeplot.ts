@@ -34,6 +34,7 @@ export interface Plot {
 export class TimePlot {
   private readonly plot: uPlot;
   private readonly head = document.createElement("div");
+  private readonly observer = new ResizeObserver(() => this.fit());
 
   constructor(private readonly host: HTMLElement, private readonly desk: Desk, what: Plot) {
     const { ink, recording } = desk, small = font(11), [left, right] = ranges(what);
@@ -64,13 +65,9 @@ export class TimePlot {
     host.setAttribute("role", "img");
     host.setAttribute("aria-label", what.label);
     this.plot.over.append(this.head);
+    this.observer.observe(host);
     this.plot.over.addEventListener("click", (e) => { if (this.plot.select.width < 4) desk.goTo(this.plot.posToVal(e.offsetX, "x")); });
     this.plot.over.addEventListener("dblclick", () => desk.zoom(null));
-  }
-
-  resize(): void {
-    const { width, height } = this.host.getBoundingClientRect();
-    if (width > 10 && height > 10) this.plot.setSize({ width, height });
   }
 
   zoom(): void {
@@ -84,7 +81,17 @@ export class TimePlot {
     this.head.style.transform = `translateX(${this.plot.valToPos(t, "x")}px)`;
   }
 
-  destroy(): void { this.plot.destroy(); }
+  destroy(): void {
+    this.observer.disconnect();
+    this.plot.destroy();
+  }
+
+  private fit(): void {
+    const { width, height } = this.host.getBoundingClientRect();
+    if (width < 10 || height < 10 || (width === this.plot.width && height === this.plot.height)) return;
+    this.plot.setSize({ width, height });
+    this.seek(this.desk.state.t);
+  }
 
   private bands(u: uPlot, bands: Span[]): void {
     const { ctx, bbox } = u;

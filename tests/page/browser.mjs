@@ -1,0 +1,34 @@
+// A page in Debian's Chromium, as a reader opens it: no network, no GPU.
+import { chromium } from "playwright-core";
+import { readFileSync } from "node:fs";
+import { resolve } from "node:path";
+
+const options = { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader"] };
+const browser = await chromium.launch(options);
+export const close = () => browser.close();
+
+/** A page that is ready; `complaints`: errors on the console, exceptions, requests. */
+export async function open(file, { link = "paused", width = 1440, height = 900, ...more } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, offline: true, bypassCSP: false, ...more });
+  const page = await context.newPage(), complaints = [];
+  page.on("console", (m) => { if (m.type() === "error") complaints.push(m.text()); });
+  page.on("pageerror", (e) => complaints.push(String(e.stack)));
+  page.on("request", (r) => { if (!/^(file|data|blob):/.test(r.url())) complaints.push(`a request: ${r.url()}`); });
+  await page.goto(`file://${resolve(file)}#${link}`);
+  // An error that keeps the page from being ready says more than the time that ran out.
+  await page.waitForSelector("html[data-ready]", { timeout: 120_000 }).catch((e) => { throw new Error(`${file} is not ready: ${complaints.join("\n") || e.message}`); });
+  return { page, complaints, close: () => context.close() };
+}
+
+/** What the program put into a page. */
+export function metaOf(file) {
+  const found = /<script type="application\/json" id="meta">([^]*?)<\/script>/.exec(readFileSync(file, "utf8"));
+  if (!found) throw new Error(`${file} has no meta`);
+  return JSON.parse(found[1]);
+}
+
+/** A CSV file as columns of numbers by name. */
+export function columnsOf(file) {
+  const [head, ...rows] = readFileSync(file, "utf8").trim().split("\n").map((line) => line.split(","));
+  return new Map(head.map((name, i) => [name.replaceAll('"', ""), rows.map((r) => Number(r[i]))]));
+}

@@ -1,0 +1,234 @@
+// The report page in a browser. usage: node page_test.mjs NAME=FILE...
+// feasible, infeasible, failed, open (not judged), built: pages by what they say; markup: one of a scenario with markup in its text;
+// trace: CSV of the feasible run with body.* columns.
+import assert from "node:assert/strict";
+import { createRequire } from "node:module";
+import { readFileSync } from "node:fs";
+import { after, test } from "node:test";
+import { close, columnsOf, metaOf, open } from "./browser.mjs";
+
+const files = Object.fromEntries(process.argv.slice(2).map((a) => a.split(/=(.*)/s)));
+const { trace, ...pages } = files;
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const said = { feasible: /^Feasible/, infeasible: /^Not feasible/, failed: /^The run ended early/, built: /^Built, not run$/, open: /^Not judged$/ };
+after(close);
+
+/** A test on an open page that must not complain. */
+const on = (name, file, options, body) => file && test(name, async () => {
+  const { page, complaints, close: done } = await open(file, options);
+  try {
+    await body(page, metaOf(file));
+    assert.deepEqual(complaints, []);
+  } finally {
+    await done();
+  }
+});
+const state = (page) => page.evaluate(() => ({ ...window.gaitlab.page.state }));
+const near = (a, b, off, what) => assert.ok(Math.abs(a - b) <= off, `${what}: ${a}, expected ${b}`);
+
+for (const [name, file] of Object.entries(pages)) {
+  on(`${name}: says what it found`, file, {}, async (page, meta) => {
+    if (said[name]) assert.match(await page.textContent("#said"), said[name]);
+    assert.equal(await page.textContent("#name"), meta.name);
+    assert.equal(await page.title(), `${meta.name}: gaitlab report`);
+    if (meta.outcome === "not run") return;
+    const rows = await page.$$eval("#checks [data-check]", (all) => all.map((r) => [r.dataset.check, r.querySelector(".mark").textContent, r.querySelector(".what").textContent]));
+    const words = { pass: "pass", warn: "warning", fail: "fail", "not judged": "not judged" };
+    assert.deepEqual(rows, meta.verdict.checks.map((c) => [c.id, words[c.status], c.title]));
+  });
+
+  on(`${name}: accessible, light and dark`, file, {}, async (page) => {
+    await page.evaluate(axe); // by the debugger: the page's own policy lets no script in
+    await page.evaluate(() => document.querySelectorAll("details").forEach((d) => { d.open = true; }));
+    for (const theme of ["light", "dark"]) {
+      const found = await page.evaluate(async (t) => {
+        window.gaitlab.page.theme(t);
+        const { violations } = await window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21aa"] });
+        return violations.map((v) => `${v.id}: ${v.nodes.map((n) => `${n.target} ${n.any[0]?.message ?? ""}`).join("; ")}`);
+      }, theme);
+      assert.deepEqual(found, [], theme);
+    }
+  });
+
+  on(`${name}: fits narrow windows`, file, { width: 390, height: 844 }, async (page) => {
+    for (const width of [390, 320]) {
+      await page.setViewportSize({ width, height: 844 });
+      await page.waitForTimeout(150);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(wide <= width, `${wide} px of ${width}`);
+    }
+  });
+}
+
+on("markup: text of a scenario stays text", pages.markup, {}, async (page, meta) => {
+  assert.match(meta.scenario, /<\/script><script>window.taken = 1/);
+  assert.equal(await page.textContent("#scenario"), meta.scenario);
+  assert.equal(await page.evaluate(() => window.taken), undefined);
+});
+
+for (const name of ["feasible", "infeasible"]) {
+  const file = pages[name];
+  on(`${name}: keys`, file, {}, async (page, meta) => {
+    await page.locator("#view").focus();
+    await page.keyboard.press("Home");
+    assert.equal((await state(page)).t, 0);
+    await page.keyboard.press("ArrowRight");
+    near((await state(page)).t, meta.period, 1e-9, "one row on");
+    await page.keyboard.press("Shift+ArrowRight");
+    near((await state(page)).t, meta.period + 0.1, 1e-9, "0.1 s on");
+    await page.keyboard.press("End");
+    near((await state(page)).t, meta.duration, meta.period, "the end");
+    const { joint } = await state(page);
+    await page.keyboard.press("]");
+    assert.equal((await state(page)).joint, (joint + 1) % meta.joints.length);
+    await page.keyboard.press("[");
+    assert.equal((await state(page)).joint, joint);
+    await page.keyboard.press("d");
+    assert.equal(await page.getAttribute("html", "data-theme"), "dark");
+    for (const [key, button] of [["f", "#follow"], ["n", "#faces"], ["a", "#axes"]]) {
+      const before = await page.getAttribute(button, "aria-pressed");
+      await page.keyboard.press(key);
+      assert.notEqual(await page.getAttribute(button, "aria-pressed"), before, key);
+    }
+    await page.keyboard.press("?");
+    assert.ok(await page.isVisible("#keylist"));
+    for (const key of ["1", "2", "3", "4", "j"]) await page.keyboard.press(key);
+    await page.keyboard.press("z");
+    assert.deepEqual((await state(page)).span, [0, await page.evaluate(() => window.gaitlab.page.recording.end)]);
+  });
+
+  on(`${name}: the slider sets the time`, file, {}, async (page, meta) => {
+    const t = 0.7 * meta.duration;
+    await page.$eval("#time", (e, x) => { e.value = String(x); e.dispatchEvent(new Event("input", { bubbles: true })); }, t);
+    near((await state(page)).t, t, 1e-9, "time");
+    assert.match(await page.textContent("#clock"), new RegExp(`^${t.toFixed(2)} /`));
+  });
+
+  on(`${name}: a click on a hinge chooses its joint`, file, {}, async (page) => {
+    const hit = await page.evaluate(() => {
+      const { stage, recording, state: now } = window.gaitlab.page, { view } = stage, r = view.canvas.getBoundingClientRect();
+      for (let j = 0; j < recording.meta.joints.length; j++) {
+        const at = view.place(j), x = r.left + at[0], y = r.top + at[1], k = view.pick(x, y);
+        if (k >= 0 && k !== now.joint && document.elementFromPoint(x, y) === view.canvas) return { x, y, k };
+      }
+      return null;
+    });
+    assert.ok(hit, "no hinge is in sight");
+    await page.mouse.click(hit.x, hit.y);
+    assert.equal((await state(page)).joint, hit.k);
+    assert.equal(await page.inputValue("#joint"), String(hit.k));
+  });
+
+  on(`${name}: a check goes to its joint and time`, file, {}, async (page, meta) => {
+    const places = meta.verdict.checks.filter((c) => c.joint !== null && c.from !== null);
+    assert.ok(places.length > 0);
+    for (const check of places) {
+      const title = page.locator(`[data-check="${check.id}"] button`);
+      await title.click();
+      const { joint, t } = await state(page);
+      assert.equal(meta.joints[joint].name, check.joint);
+      near(t, check.from, 1e-9, check.id);
+      assert.equal(await title.getAttribute("aria-expanded"), "true");
+    }
+  });
+
+  on(`${name}: plays`, file, {}, async (page) => {
+    await page.keyboard.press("Home");
+    await page.click("#play");
+    await page.waitForFunction(() => window.gaitlab.page.state.t > 0.2, null, { timeout: 60_000 });
+    await page.click("#play");
+    assert.equal((await state(page)).playing, false);
+  });
+
+  on(`${name}: prints`, file, { link: "paused&theme=dark" }, async (page) => {
+    const pdf = await page.pdf({ format: "A4", printBackground: true });
+    assert.ok(pdf.subarray(0, 5).toString() === "%PDF-" && pdf.length > 50_000, `${pdf.length} bytes`);
+    assert.equal(await page.getAttribute("html", "data-theme"), "dark", "as it was before");
+    await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+    assert.ok(await page.evaluate(() => document.querySelector("#stage img").naturalWidth > 100), "an image of the robot");
+    assert.equal(await page.getAttribute("html", "data-theme"), "light");
+  });
+}
+
+on("feasible: a link leads to joint, time and theme", pages.feasible, { link: "joint=m3/passive&t=1.25&theme=dark" }, async (page, meta) => {
+  const { joint, t, playing } = await state(page);
+  assert.deepEqual([meta.joints[joint].name, t, playing], ["m3/passive", 1.25, false]);
+  assert.equal(await page.getAttribute("html", "data-theme"), "dark");
+});
+
+on("feasible: does not start by itself where motion is reduced", pages.feasible, { link: "", reducedMotion: "reduce" }, async (page) => {
+  assert.equal((await state(page)).playing, false);
+});
+
+on("infeasible: which joint first, when, how much", pages.infeasible, {}, async (page, meta) => {
+  const facts = Object.fromEntries(await page.$$eval("#facts > div", (all) => all.map((d) => [d.querySelector("dt").textContent, d.querySelector("dd").textContent])));
+  // From the rows, with nothing of the page's: the first in the judged window whose motor is at its limit.
+  const first = await page.evaluate(({ joints, from, period }) => {
+    const { recording } = window.gaitlab.page, found = [Infinity, ""];
+    for (let j = 0; j < joints.length; j++) {
+      const flags = recording.channel(`joint.${j}.saturation`);
+      for (let i = 0; i < flags.length; i++) if (i * period >= from - period && flags[i] > 0 && i * period < found[0]) found.splice(0, 2, i * period, joints[j].name);
+    }
+    return found;
+  }, { joints: meta.joints, from: meta.verdict.window.from, period: meta.period });
+  assert.ok(facts["First at its limit"].startsWith(first[1]), `${facts["First at its limit"]}; ${first}`);
+  const failed = meta.verdict.checks.find((c) => c.status === "fail" && c.group !== "trust");
+  assert.ok(facts["Longest at its limit"].startsWith(failed.joint));
+  assert.ok(facts["Its longest stretch"].startsWith(failed.from.toFixed(2)));
+});
+
+// Hinges are where the engine had them: the body that a hinge's frame belongs to, of the trace's body.* columns, through the camera's
+// matrix. The page rounds positions to 0.02 mm, angles to 0.1 mrad, which adds up along the robot.
+on("feasible: hinges are drawn where the engine had them", trace && pages.feasible, {}, async (page, meta) => {
+  const columns = columnsOf(trace), times = columns.get("t");
+  for (const row of [0, 137, 400, times.length - 1]) {
+    const drawn = await page.evaluate((t) => {
+      const { page: desk } = window.gaitlab, { view } = desk.stage, r = view.canvas.getBoundingClientRect();
+      desk.goTo(t);
+      return { matrix: view.projection, size: [r.width, r.height], at: desk.recording.meta.joints.map((_, j) => view.place(j)), world: view.kinematics.pivots.map((p) => p.toArray()) };
+    }, times[row]);
+    meta.joints.forEach(({ name }, j) => {
+      const [module, hinge] = name.split("/"), body = `${module}/${hinge === "active" ? "link" : "passive"}`; // mtran.yaml: the hinges' children
+      const p = ["x", "y", "z"].map((c) => columns.get(`body.${body}.${c}`)[row]), m = drawn.matrix;
+      const [x, y, , w] = [0, 1, 2, 3].map((k) => m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k]);
+      near(Math.hypot(...p.map((v, k) => v - drawn.world[j][k])), 0, 3e-4, `${name} at ${times[row]} s, m`);
+      near(drawn.at[j][0], (x / w + 1) / 2 * drawn.size[0], 1.5, `${name} at ${times[row]} s, px`);
+      near(drawn.at[j][1], (1 - y / w) / 2 * drawn.size[1], 1.5, `${name} at ${times[row]} s, px`);
+    });
+  }
+});
+
+// Equations 1 and 2 with the constants of scenarios/modules/mtran.yaml: T = K i, i = (u - Ke w) / R, |u| <= 7.4 V, |i| <= 1.2 A.
+on("feasible: the envelope is that of the motor", pages.feasible, {}, async (page, meta) => {
+  const K = 0.7 * 0.00395 * 594, Ke = 0.00395 * 594, R = 4.3, clamp = (i) => Math.min(Math.max(i, -1.2), 1.2);
+  const motor = meta.motors[meta.joints[0].motor], fastest = Math.max(...motor.speed);
+  for (const w of [-0.9 * fastest, -2, -0.5, 0, 0.5, 1.5, 2.5, 0.9 * fastest]) {
+    const [most, least, use] = await page.evaluate(([m, v]) => {
+      const { motor: of } = window.gaitlab;
+      return [of.most(m, v), of.least(m, v), of.use(m, v, 0.4)];
+    }, [motor, w]);
+    // Between samples a kink is cut: by less than a step of speed times the slope K Ke / R.
+    const off = K * Ke / R * (motor.speed[1] - motor.speed[0]) / 4 + 1e-9, available = K * clamp((7.4 - Ke * w) / R);
+    near(most, available, off, `most at ${w} rad/s`);
+    near(least, K * clamp((-7.4 - Ke * w) / R), off, `least at ${w} rad/s`);
+    near(use, available > 0 ? Math.min(0.4 / available, 1) : 1, available > 0.4 ? off / available : 0, `share at ${w} rad/s`);
+  }
+});
+
+on("built: shows hinges, faces and axes, and no time", pages.built, {}, async (page, meta) => {
+  assert.deepEqual(await page.$$eval("#faces, #axes", (all) => all.map((b) => b.getAttribute("aria-pressed"))), ["true", "true"]);
+  for (const id of ["#transport", "#checks", "#motion", "#heat", "#path"]) assert.equal(await page.isVisible(id), false, id);
+  const rows = await page.$$eval("#parts tbody tr", (all) => all.map((r) => r.firstChild.textContent));
+  assert.deepEqual(rows, [...meta.docks.map((d) => meta.modules[d.module].name), ...meta.joints.map((j) => j.name)]);
+});
+
+// The bytes that report/page_data.cpp writes for these values, by hand from the rule: differences, zigzag, LEB128.
+// 0 1 -1 64 -64 8191 -8192 1000000: differences 0 1 -2 65 -128 8255 -16383 1008192, zigzag 0 2 3 130 255 16510 32765 2016384.
+on("unpacks the bytes that C++ packs", Object.values(pages)[0], {}, async (page) => {
+  const bytes = [0x00, 0x02, 0x03, 0x82, 0x01, 0xff, 0x01, 0xfe, 0x80, 0x01, 0xfd, 0xff, 0x01, 0x80, 0x89, 0x7b];
+  const unpacked = (channels, list) => page.evaluate(([c, b]) => [...window.gaitlab.unpack(c, Uint8Array.from(b))].map(([name, values]) => [name, [...values]]), [channels, list]);
+  assert.deepEqual(await unpacked([["a", "m", 1, 8]], bytes), [["a", [0, 1, -1, 64, -64, 8191, -8192, 1000000]]]);
+  assert.deepEqual(await unpacked([["a", "m", 1, 3], ["b", "", 0.5, 1]], [0, 2, 3, 2]), [["a", [0, 1, -1]], ["b", [0.5]]]);
+  await assert.rejects(unpacked([["a", "m", 1, 8]], bytes.slice(0, -1)), /end within channel a/);
+  await assert.rejects(unpacked([["a", "m", 1, 7]], bytes), /3 bytes too many/);
+});
