@@ -220,6 +220,8 @@ class Views {
 
 }  // namespace
 
+std::string_view body_colour(Role role) { return look(role).fill; }
+
 double views_height(const FigureInput& input) { return Views(input).height(); }
 
 void draw_views(Svg& svg, const FigureInput& input, double top) { Views(input).draw(svg, top); }

@@ -10,6 +10,9 @@ inline constexpr double kLeftOfNames = 120;        ///< px, where legs have thei
 /// px: where the panels of this figure begin.
 inline double left_edge(const FigureInput& input) { return input.footfalls.empty() ? kLeft : kLeftOfNames; }
 
+/// With which bodies are filled, `#RRGGBB`.
+std::string_view body_colour(Role role);
+
 /// px, legend and axis included.
 double views_height(const FigureInput& input);
 void draw_views(Svg& svg, const FigureInput& input, double top);

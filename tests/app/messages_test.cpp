@@ -50,7 +50,7 @@ TEST_F(Messages, WhatIsMissing) {
   refused("run", "gaitlab run: error: SCENARIO is missing: scenario file (YAML); expected gaitlab run SCENARIO");
   refused("export ok.yaml --to csv",
           "gaitlab export: error: FILE is missing: file to write; must not exist; expected gaitlab export SOURCE --to "
-          "csv|mjcf|urdf FILE");
+          "csv|gltf|mjcf|urdf FILE");
   refused("explain cpg",
           "gaitlab explain: error: NAME is missing: name as `gaitlab list` prints it; expected gaitlab explain [KIND] [NAME]");
   refused("new", "gaitlab new: error: a command is missing; expected gaitlab new and one of: plugin");
