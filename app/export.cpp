@@ -91,9 +91,10 @@ void export_gltf(const ExportArguments& arguments) {
                     stored.missing.empty() ? "it has no rows" : fmt::format("{}", fmt::join(stored.missing, "; ")), source));
   }
   write_gltf(arguments, scenario, &recording);
-  for (const std::size_t box : boxes_without_way(scenario, recording))
+  for (const std::size_t box : boxes_without_way(scenario, recording)) {
     fmt::print(stderr, "{}: note: ground.boxes[{}] stands as it started: its columns box.{}.* are not recorded\n", source, box,
                box);
+  }
 }
 
 int export_to(const ExportArguments& arguments) {

@@ -14,6 +14,11 @@ namespace gaitlab::interchange {
 /// uint32, little-endian, each accessor in a view of its own.
 class Glb {
  public:
+  Glb() = default;
+  ~Glb() = default;
+  Glb(const Glb&) = delete;
+  Glb& operator=(const Glb&) = delete;
+
   /// Adds to one of the file's lists (`nodes`, `materials` ...); the index there.
   std::size_t add(const char* list, nlohmann::json object);
   /// An object added before.

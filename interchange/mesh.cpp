@@ -32,6 +32,7 @@ class Surface {
   /// A convex side in a plane.
   void flat(const std::vector<Vec3>& around, const Vec3& normal) {
     std::vector<std::uint32_t> corners;
+    corners.reserve(around.size());
     for (const Vec3& place : around) corners.push_back(vertex(place, normal));
     for (std::size_t k = 2; k < corners.size(); ++k) triangle(corners[0], corners[k - 1], corners[k]);
   }
@@ -77,6 +78,7 @@ void add_cylinder(Surface& to, double radius, double length, bool half) {
     if (k < sides || half) rim.push_back(radius * n);
   }
   std::vector<Vec3> bottom;
+  bottom.reserve(rim.size());
   for (const Vec3& place : rim) bottom.push_back(place - up);
   to.flat(bottom, -Vec3::UnitY());
   std::vector<Vec3> top;
