@@ -46,6 +46,7 @@ contact: {{on: none}}
 actuator: {{type: none}}
 physics: {{engine: {}}}
 duration: 0.03
+trace: {{columns: [base.*]}}
 )",
                                                pitch, docks, GetParam())));
   }
@@ -102,6 +103,7 @@ contact: {{on: feet}}
 actuator: {{type: none}}
 duration: {}
 physics: {{engine: {}, step: 5e-5}}
+trace: {{columns: [base.*]}}
 {}
 )",
                               height, duration, engine, rest));
@@ -142,7 +144,7 @@ robot:
     name: arm
     bodies:
       hub: {{mass: 1, inertia: [0.01, 0.01, 0.01, 0, 0, 0]}}
-      arm: {{mass: 1, inertia: [0.01, 0.01, 0.05, 0, 0, 0]}}
+      arm: {{mass: 1, inertia: [0.02, 0.02, 0.03, 0, 0, 0]}}
     hinges: [{{name: turn, parent: hub, child: arm, origin: [0, 0, 0], axis: [0, 0, 1], range: [-3, 3]}}]
     contacts: {{feet: [{{body: arm, point: [0.3, 0, 0]}}]}}
 contact: {{on: feet}}
@@ -173,10 +175,13 @@ TEST(Loads, AreTheReactionsInTheAxesOfTheFaces) {
     s.actuator = s.controller = {};
     s.trace.columns = {"body.*", "reaction.*", "contact.*"};
     const Recording record = run_with_loads(s);
-    ASSERT_EQ(record.loads.rows(), record.trace.rows());
+    ASSERT_GE(record.loads.rows(), 2U);
     const Robot& robot = *s.robot;
     const Table table(record.trace);
-    for (std::size_t row = 0; row < record.trace.rows(); ++row) {
+    for (std::size_t tick = 0; tick < record.loads.rows(); ++tick) {  // of these there are fewer
+      std::size_t row = 0;
+      while (row + 1 < record.trace.rows() && record.trace.at(row, 0) < record.loads.at(tick, 0)) ++row;
+      ASSERT_EQ(record.trace.at(row, 0), record.loads.at(tick, 0));
       const auto vec = [&](const std::string& name) {
         return Vec3(table.at(row, name + "x"), table.at(row, name + "y"), table.at(row, name + "z"));
       };
@@ -192,7 +197,7 @@ TEST(Loads, AreTheReactionsInTheAxesOfTheFaces) {
         const Vec3 f = vec(dock + "f");
         const Vec3 moment = vec(dock + "m");
         const auto compare = [&](const char* quantity, double by_hand) {
-          const double got = load(record, row, fmt::format("dock.{}.{}", m, quantity));
+          const double got = load(record, tick, fmt::format("dock.{}.{}", m, quantity));
           worst = std::max(worst, std::abs(got - by_hand) / (1 + f.norm() + moment.norm()));
           largest = std::max(largest, std::abs(by_hand));
         };
@@ -258,7 +263,11 @@ TEST(Loads, OfTheSolverAreOfFeetAlone) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=0.1", "physics.engine=bullet", "contact.law=bullet"});
   const Recording record = run_with_loads(s);
   EXPECT_EQ(record.loads.find("dock.1.tension"), record.loads.columns.size());
-  EXPECT_GT(last_load(record, "foot.m3/active.fz"), 0);
+  double carried = 0;
+  for (const Column& column : record.loads.columns) {
+    if (glob("foot.*.fz", column.name)) carried += last_load(record, column.name);
+  }
+  EXPECT_GT(carried, 0);
 }
 
 TEST(Loads, LieInTheRunFolder) {

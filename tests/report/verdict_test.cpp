@@ -345,7 +345,7 @@ TEST(Verdict, IsAFileALineAndAnExitCode) {
   EXPECT_TRUE(contains(bad.out, "\n  verdict       infeasible: ")) << bad.out;
   const auto json = nlohmann::json::parse(read(folder.path() / "bad/verdict.json"));
   EXPECT_EQ(json.at("verdict"), "infeasible");
-  EXPECT_EQ(json.at("checks").size(), 17U);
+  EXPECT_EQ(json.at("checks").size(), 22U);
   EXPECT_EQ(gaitlab("run " + file + "--out good --fail-infeasible", folder.path()).code, 0);
   EXPECT_EQ(gaitlab("report bad --fail-infeasible", folder.path()).code, 3);
   EXPECT_EQ(gaitlab("report bad", folder.path()).code, 0);
