@@ -35,12 +35,12 @@ function judgement(desk: Desk, meta: Meta): { mood: Mood; said: string; why: str
     return { mood: "plan", said: "Built, not run", why: ["The robot as the scenario describes it: its modules, the axes of its hinges, its faces. A verdict needs a run."], facts: built(meta) };
   }
   if (verdict === "failed") {
-    return { mood: "bad", said: `The run ended early, at ${fixed(meta.duration, 2)} s`, why: [ended(capital(meta.outcome)), ...others(failed.filter((c) => c.id !== "outcome"))], facts: walked(desk, meta) };
+    return { mood: "bad", said: `The run ended early, at ${quantity(meta.duration, "s")}`, why: [ended(capital(meta.outcome)), ...others(failed.filter((c) => c.id !== "outcome"))], facts: walked(desk, meta) };
   }
   if (verdict === "infeasible") {
     const [first, ...rest] = failed;
     return {
-      mood: "bad", said: "Not feasible with these motors",
+      mood: "bad", said: first?.group === "motor" ? "Not feasible with these motors" : "Not feasible",
       why: first ? [ended(capital(first.text)), ...others(rest)] : [],
       facts: first ? shortfall(desk, first, failed) : walked(desk, meta),
     };
