@@ -12,11 +12,14 @@ export async function open(file, { link = "paused", width = 1440, height = 900, 
   const context = await browser.newContext({ viewport: { width, height }, offline: true, bypassCSP: false, ...more });
   const page = await context.newPage(), complaints = [];
   page.on("console", (m) => { if (m.type() === "error") complaints.push(m.text()); });
-  page.on("pageerror", (e) => complaints.push(String(e.stack)));
+  const broken = new Promise((_, reject) => page.on("pageerror", (e) => {
+    complaints.push(String(e.stack));
+    reject(e);
+  }));
+  broken.catch(() => {}); // once the page is ready, it is a complaint
   page.on("request", (r) => { if (!/^(file|data|blob):/.test(r.url())) complaints.push(`a request: ${r.url()}`); });
   await page.goto(`file://${resolve(file)}#${link}`);
-  // An error that keeps the page from being ready says more than the time that ran out.
-  await page.waitForSelector("html[data-ready]", { timeout: 120_000 }).catch((e) => { throw new Error(`${file} is not ready: ${complaints.join("\n") || e.message}`); });
+  await Promise.race([page.waitForSelector("html[data-ready]", { timeout: 120_000 }), broken]);
   return { page, complaints, close: () => context.close() };
 }
 

@@ -30,7 +30,7 @@ export class Ground {
     const { ground } = recording.meta;
     this.spacing = 10 ** Math.round(Math.log10(size / 7));
     if (ground.kind === "none") return;
-    const room = Math.max(30 * this.spacing, 3 * size), step = 10 * this.spacing;
+    const room = Math.max(50 * this.spacing, 5 * size), step = 10 * this.spacing;
     const [x0, x1, y0, y1] = area.map((v, i) => (i % 2 ? Math.ceil((v + room) / step) : Math.floor((v - room) / step)) * step);
     if (ground.kind !== "heightfield") scene.add(this.grid([x0, x1, y0, y1], false), this.grid([x0, x1, y0, y1], true));
     if (ground.heightfield) scene.add(this.field(ground.heightfield), this.net(ground.heightfield));

@@ -35,12 +35,12 @@ function judgement(desk: Desk, meta: Meta): { mood: Mood; said: string; why: str
     return { mood: "plan", said: "Built, not run", why: ["The robot as the scenario describes it: its modules, the axes of its hinges, its faces. A verdict needs a run."], facts: built(meta) };
   }
   if (verdict === "failed") {
-    return { mood: "bad", said: `The run ended early, at ${fixed(meta.duration, 2)} s`, why: [ended(capital(meta.outcome)), ...others(failed.filter((c) => c.id !== "outcome"))], facts: walked(desk, meta) };
+    return { mood: "bad", said: `The run ended early, at ${quantity(meta.duration, "s")}`, why: [ended(capital(meta.outcome)), ...others(failed.filter((c) => c.id !== "outcome"))], facts: walked(desk, meta) };
   }
   if (verdict === "infeasible") {
     const [first, ...rest] = failed;
     return {
-      mood: "bad", said: "Not feasible with these motors",
+      mood: "bad", said: first?.group === "motor" ? "Not feasible with these motors" : "Not feasible",
       why: first ? [ended(capital(first.text)), ...others(rest)] : [],
       facts: first ? shortfall(desk, first, failed) : walked(desk, meta),
     };
@@ -49,7 +49,8 @@ function judgement(desk: Desk, meta: Meta): { mood: Mood; said: string; why: str
     const cause = meta.motors.length ? "Nothing is known of what the motors can do, so nobody can say whether they can do this." : "There are no motors whose limits this run could exceed.";
     return { mood: "open", said: "Not judged", why: [cause, ...others(failed)], facts: walked(desk, meta) };
   }
-  const near = nearest(gait), why = near ? [`Every limit that is known is kept. Nearest to its limit: ${quantity(near.value, near.unit)} of ${quantity(near.limit, near.unit)} (${inSentence(near.title)}${near.joint ? `: ${near.joint}` : ""}).`] : [];
+  const near = gait.some((c) => c.status === "warn") ? null : nearest(gait);
+  const why = ["Every limit that is known is kept.", ...(near ? [`Nearest to its limit: ${quantity(near.value, near.unit)} of ${quantity(near.limit, near.unit)} (${inSentence(near.title)}${near.joint ? `: ${near.joint}` : ""}).`] : [])];
   return { mood: "good", said: meta.motors.length ? "Feasible with these motors" : "Feasible", why, facts: walked(desk, meta) };
 }
 

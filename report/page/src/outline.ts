@@ -61,12 +61,14 @@ function prism({ kind, pose, size }: Shape): Prism | null {
 
 // Between y0 and y1, its ends chamfered. Sides that meet at less than 30 degrees look round.
 function extrude(points: readonly Point[], y0: number, y1: number, chamfered: boolean): BufferGeometry {
-  const n = points.length, c = points.reduce<Point>((a, p) => [a[0] + p[0] / n, a[1] + p[1] / n], [0, 0]);
-  const radius = Math.max(...points.map((p) => Math.hypot(p[0] - c[0], p[1] - c[1]))), bevel = chamfered ? Math.min(0.03 * (y1 - y0), 0.06 * radius) : 0;
-  const inner = points.map(([x, z]): Point => [c[0] + (x - c[0]) * (1 - bevel / radius), c[1] + (z - c[1]) * (1 - bevel / radius)]);
-  const sides = points.map(([x, z], i) => {
+  const n = points.length, sides = points.map(([x, z], i) => {
     const [u, w] = points[(i + 1) % n];
     return new Vector3(w - z, 0, x - u).normalize();
+  });
+  const radius = Math.sqrt(area(points) / Math.PI), bevel = chamfered ? Math.min(0.03 * (y1 - y0), 0.06 * radius) : 0;
+  const inner = points.map(([x, z], i): Point => {
+    const a = sides[(i + n - 1) % n], b = sides[i], share = bevel / (1 + a.dot(b));
+    return [x - share * (a.x + b.x), z - share * (a.z + b.z)];
   });
   const at: number[] = [], normals: number[] = [];
   const corner = ([x, z]: Point, y: number, normal: Vector3) => {

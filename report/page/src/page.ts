@@ -61,8 +61,7 @@ export class Page implements Desk {
     this.panels.forEach((p) => p.paint());
     this.choose(this.state.joint);
     this.stage.view?.look((this.link.get("look") as Look | null) ?? "iso");
-    if (!recording.ran || this.link.has("faces")) this.press("faces");
-    if (!recording.ran || this.link.has("axes")) this.press("axes");
+    for (const marks of ["faces", "axes"] as const) if (meta.outcome === "not run" || this.link.has(marks)) this.press(marks);
     const calm = matchMedia("(prefers-reduced-motion: reduce)").matches || this.link.has("paused") || this.link.has("t");
     if (recording.ran && !calm) this.play(true);
   }

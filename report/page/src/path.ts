@@ -35,7 +35,7 @@ export class Path implements Panel {
   }
 
   private draw(pen: Pen, width: number, height: number): void {
-    const { x, y, desk } = this, { ink, recording } = desk, box: Box = { left: 52, right: width - 14, top: 10, bottom: height - 44 }, n = recording.rows;
+    const { x, y, desk } = this, { ink, recording } = desk, box: Box = { left: 58, right: width - 14, top: 10, bottom: height - 44 }, n = recording.rows;
     const reach: [number, number, number, number] = [Infinity, -Infinity, Infinity, -Infinity];
     const see = (a: Values, b: Values, only?: Values) => {
       for (let i = 0; i < n; i++) {
