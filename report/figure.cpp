@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "report/panel.h"
+#include "report/svg.h"
 #include "report/views.h"
 
 namespace gaitlab::report {

@@ -37,7 +37,7 @@ double footfall_height(std::size_t rows);
 
 /// Draws one row per leg below `top` (px): its name, a bar for each stance within `time`, its duty factor. `note` ends over the
 /// duty factors. `x` maps s to px; `time` has the lines of the panel above, whose axis serves both.
-void draw_footfalls(Svg& svg, const std::vector<Footfall>& rows, const std::string& note, const Ticks& time, const Scale& x,
-                    double top);
+void draw_footfalls(Canvas& canvas, const std::vector<Footfall>& rows, const std::string& note, const Ticks& time,
+                    const Scale& x, double top);
 
 }  // namespace gaitlab::report

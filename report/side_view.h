@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/model/kinematics.h"
-#include "report/svg.h"
+#include "report/canvas.h"
 
 namespace gaitlab::report {
 

@@ -82,20 +82,20 @@ class Views {
 
   [[nodiscard]] double height() const { return head() + pitch() * static_cast<double>(input_.views.size()) + kFoot; }
 
-  void draw(Svg& svg, double top) const {
+  void draw(Canvas& canvas, double top) const {
     const double bottom = top + height() - kFoot;
-    header(svg, top);
-    for (const double x : ticks_.values()) svg.line({x_(x), top + head()}, {x_(x), bottom}, kGridLine);
+    header(canvas, top);
+    for (const double x : ticks_.values()) canvas.line({x_(x), top + head()}, {x_(x), bottom}, kGridLine);
     std::vector<Point> centres;
     for (std::size_t i = 0; i < input_.views.size(); ++i) {
       const double floor = top + head() + pitch() * static_cast<double>(i + 1) - kViewGap / 2 - below_ * per_metre_;
       const Scale z{floors_[i], floors_[i] + 1, floor, floor - per_metre_};
-      draw_view(svg, input_.views[i], z);
+      draw_view(canvas, input_.views[i], z);
       if (input_.views[i].com) centres.push_back({x_(*input_.views[i].com), floor + below_ * per_metre_ + 8});
     }
     for (const Point& m : centres)
-      svg.polygons(std::vector<Polygon>{{m, {m.x - 5, m.y + 8}, {m.x + 5, m.y + 8}}}, {.fill = colour::kInk});
-    axis(svg, bottom);
+      canvas.polygons(std::vector<Polygon>{{m, {m.x - 5, m.y + 8}, {m.x + 5, m.y + 8}}}, {.fill = colour::kInk});
+    axis(canvas, bottom);
   }
 
  private:
@@ -104,64 +104,64 @@ class Views {
   [[nodiscard]] double head() const { return 34 + (two_rows() ? kLegendRow : 0); }
   [[nodiscard]] double pitch() const { return std::max(30.0, (above_ + below_) * per_metre_) + kViewGap; }
 
-  void draw_view(Svg& svg, const View& view, const Scale& z) const {
+  void draw_view(Canvas& canvas, const View& view, const Scale& z) const {
     const auto paper = [&](Point p) { return Point{x_(p.x), z(p.y)}; };
     if (input_.ground) {
-      svg.rectangle({left_, z(0)}, kRight - left_, 5, {.fill = colour::kPale});
-      svg.line({left_, z(0)}, {kRight, z(0)}, kAxisLine);
+      canvas.rectangle({left_, z(0)}, kRight - left_, 5, {.fill = colour::kPale});
+      canvas.line({left_, z(0)}, {kRight, z(0)}, kAxisLine);
     }
     for (const Polygon& solid : input_.solids) {
       Polygon seen = beside(beside(solid, ticks_.lo, 1), ticks_.hi, -1);
       if (seen.size() < 3) continue;
       std::transform(seen.begin(), seen.end(), seen.begin(), paper);
-      svg.polygons(std::vector<Polygon>{std::move(seen)}, {.stroke = colour::kGrey, .fill = colour::kPale, .width = 1});
+      canvas.polygons(std::vector<Polygon>{std::move(seen)}, {.stroke = colour::kGrey, .fill = colour::kPale, .width = 1});
     }
     for (const Outline& outline : view.outlines) {
       std::vector<Polygon> polygons = outline.polygons;
       for (Polygon& polygon : polygons) std::transform(polygon.begin(), polygon.end(), polygon.begin(), paper);
-      svg.polygons(polygons, {.stroke = outline.far ? colour::kGrey : colour::kInk,
-                              .fill = outline.far ? look(outline.role).far : look(outline.role).fill,
-                              .width = 1.8,
-                              .stroke_below = true});
+      canvas.polygons(polygons, {.stroke = outline.far ? colour::kGrey : colour::kInk,
+                                 .fill = outline.far ? look(outline.role).far : look(outline.role).fill,
+                                 .width = 1.8,
+                                 .stroke_below = true});
     }
     for (const Point& contact : view.contacts)
-      svg.circle(paper(contact), 2.6, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 0.8});
-    if (view.joint) arrow(svg, paper(*view.joint));
-    svg.text({left_ - 10, z(z.lo) + 4}, fmt::format("{:.6g} s", view.time), {.anchor = Anchor::end, .bold = true});
+      canvas.circle(paper(contact), 2.6, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 0.8});
+    if (view.joint) arrow(canvas, paper(*view.joint));
+    canvas.text({left_ - 10, z(z.lo) + 4}, fmt::format("{:.6g} s", view.time), {.anchor = Anchor::end, .bold = true});
   }
 
-  static void arrow(Svg& svg, Point tip) {
-    svg.line({tip.x, tip.y - 40}, {tip.x, tip.y - 10}, {.stroke = colour::kBlack, .width = 2});
-    svg.polygons(std::vector<Polygon>{{tip, {tip.x - 5, tip.y - 11}, {tip.x + 5, tip.y - 11}}}, {.fill = colour::kBlack});
+  static void arrow(Canvas& canvas, Point tip) {
+    canvas.line({tip.x, tip.y - 40}, {tip.x, tip.y - 10}, {.stroke = colour::kBlack, .width = 2});
+    canvas.polygons(std::vector<Polygon>{{tip, {tip.x - 5, tip.y - 11}, {tip.x + 5, tip.y - 11}}}, {.fill = colour::kBlack});
   }
 
   struct Entry {
     std::string_view name;
     double symbol, gap;  ///< px, before the name and before the symbol
-    std::function<void(Svg&, Point)> draw;
+    std::function<void(Canvas&, Point)> draw;
   };
 
   /// From right to left.
   [[nodiscard]] std::vector<Entry> legend() const {
     std::vector<Entry> all;
     if (any([](const View& view) { return view.com.has_value(); })) {
-      all.push_back({"centre of mass", 12, 26, [](Svg& svg, Point m) {
-                       svg.polygons(std::vector<Polygon>{{{m.x, m.y - 4}, {m.x - 5, m.y + 4}, {m.x + 5, m.y + 4}}},
-                                    {.fill = colour::kInk});
+      all.push_back({"centre of mass", 12, 26, [](Canvas& canvas, Point m) {
+                       canvas.polygons(std::vector<Polygon>{{{m.x, m.y - 4}, {m.x - 5, m.y + 4}, {m.x + 5, m.y + 4}}},
+                                       {.fill = colour::kInk});
                      }});
     }
     if (any([](const View& view) { return !view.contacts.empty(); })) {
-      all.push_back({"contact", 11, 24, [](Svg& svg, Point m) { svg.circle(m, 3, {.fill = colour::kVermillion}); }});
+      all.push_back({"contact", 11, 24, [](Canvas& canvas, Point m) { canvas.circle(m, 3, {.fill = colour::kVermillion}); }});
     }
     if (any([](const View& view) { return std::ranges::any_of(view.outlines, &Outline::far); })) {
-      all.push_back({"far side", 19, 20, [](Svg& svg, Point corner) {
-                       svg.rectangle({corner.x, corner.y - 6}, 12, 12, {.stroke = colour::kGrey, .fill = "#F4F4F4"});
+      all.push_back({"far side", 19, 20, [](Canvas& canvas, Point corner) {
+                       canvas.rectangle({corner.x, corner.y - 6}, 12, 12, {.stroke = colour::kGrey, .fill = "#F4F4F4"});
                      }});
     }
     for (auto role = kLooks.rbegin(); role != kLooks.rend(); ++role) {
       if (!any([&](const View& view) { return shows(view, role->role); })) continue;
-      all.push_back({role->name, 19, 20, [fill = role->fill](Svg& svg, Point corner) {
-                       svg.rectangle({corner.x, corner.y - 6}, 12, 12, {.stroke = colour::kInk, .fill = fill});
+      all.push_back({role->name, 19, 20, [fill = role->fill](Canvas& canvas, Point corner) {
+                       canvas.rectangle({corner.x, corner.y - 6}, 12, 12, {.stroke = colour::kInk, .fill = fill});
                      }});
     }
     return all;
@@ -179,26 +179,26 @@ class Views {
     return width > kRight - left_;
   }
 
-  void header(Svg& svg, double top) const {
-    svg.text({left_, top + 14}, views_title(), {.bold = true});
+  void header(Canvas& canvas, double top) const {
+    canvas.text({left_, top + 14}, views_title(), {.bold = true});
     double x = kRight;
     const double y = top + 14 + (two_rows() ? kLegendRow : 0);
     for (const Entry& entry : legend()) {
       x -= text_width(entry.name, 13);
-      svg.text({x, y}, entry.name);
+      canvas.text({x, y}, entry.name);
       x -= entry.symbol;
-      entry.draw(svg, {x, y - 4.5});
+      entry.draw(canvas, {x, y - 4.5});
       x -= entry.gap;
     }
   }
 
-  void axis(Svg& svg, double bottom) const {
-    svg.line({left_, bottom}, {kRight, bottom}, kAxisLine);
+  void axis(Canvas& canvas, double bottom) const {
+    canvas.line({left_, bottom}, {kRight, bottom}, kAxisLine);
     for (const double x : ticks_.values()) {
-      svg.line({x_(x), bottom}, {x_(x), bottom + 5}, kAxisLine);
-      svg.text({x_(x), bottom + 20}, ticks_.label(x), {.anchor = Anchor::middle});
+      canvas.line({x_(x), bottom}, {x_(x), bottom + 5}, kAxisLine);
+      canvas.text({x_(x), bottom + 20}, ticks_.label(x), {.anchor = Anchor::middle});
     }
-    svg.text({(left_ + kRight) / 2, bottom + 40}, input_.views_axis, {.anchor = Anchor::middle});
+    canvas.text({(left_ + kRight) / 2, bottom + 40}, input_.views_axis, {.anchor = Anchor::middle});
   }
 
   static bool shows(const View& view, Role role) {
@@ -222,6 +222,6 @@ class Views {
 
 double views_height(const FigureInput& input) { return Views(input).height(); }
 
-void draw_views(Svg& svg, const FigureInput& input, double top) { Views(input).draw(svg, top); }
+void draw_views(Canvas& canvas, const FigureInput& input, double top) { Views(input).draw(canvas, top); }
 
 }  // namespace gaitlab::report

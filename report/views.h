@@ -12,6 +12,6 @@ inline double left_edge(const FigureInput& input) { return input.footfalls.empty
 
 /// px, legend and axis included.
 double views_height(const FigureInput& input);
-void draw_views(Svg& svg, const FigureInput& input, double top);
+void draw_views(Canvas& canvas, const FigureInput& input, double top);
 
 }  // namespace gaitlab::report
