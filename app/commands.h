@@ -40,6 +40,7 @@ std::string not_empty(const std::string& text);
 /// In the order of the help.
 void add_run(Commands& commands);
 void add_report(Commands& commands);
+void add_figure(Commands& commands);
 void add_check(Commands& commands);
 void add_manuals(Commands& commands);
 void add_converge(Commands& commands);

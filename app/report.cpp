@@ -47,14 +47,6 @@ double wall_time(const fs::path& folder) {
   return std::isfinite(seconds) && seconds >= 0 ? seconds : 0;
 }
 
-/// The scenario that the recording holds; where it holds none, as a CSV file alone, the resolved one of the folder.
-StoredScenario scenario_of(const std::string& run, const StoredRecording& read) {
-  if (read.origin.scenario.empty()) return stored_scenario(run);
-  const fs::path trace = trace_file(run);
-  const fs::path holds = trace.extension() == ".csv" ? trace.parent_path() / kBesideCsv : trace;
-  return {"", holds.string() + " (its scenario)", read.origin.scenario};
-}
-
 /// InputError where the recording cannot be one of the scenario: only of files that somebody made up.
 void check_fit(const std::string& run, const Scenario& scenario, const Recording& recording) {
   const auto refuse = [&](const std::string& what) {

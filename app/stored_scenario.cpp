@@ -113,4 +113,11 @@ Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugin
   return stored.file.empty() ? read_inside(stored, sets, catalog) : read_scenario(stored.file, sets, catalog);
 }
 
+StoredScenario scenario_of(const std::string& run, const StoredRecording& read) {
+  if (read.origin.scenario.empty()) return stored_scenario(run);
+  const fs::path trace = trace_file(run);
+  const fs::path holds = trace.extension() == ".csv" ? trace.parent_path() / kBesideCsv : trace;
+  return {"", holds.string() + " (its scenario)", read.origin.scenario};
+}
+
 }  // namespace gaitlab::app

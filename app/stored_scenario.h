@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/recording/recording_file.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab::app {
@@ -16,6 +17,9 @@ struct StoredScenario {
 /// scenario.resolved.yaml of a run folder, or else the text inside its trace.h5 (`run` may be such a file). InputError:
 /// neither.
 StoredScenario stored_scenario(const std::string& run);
+
+/// The scenario that the recording of a run holds; where it holds none, as a CSV file alone, stored_scenario.
+StoredScenario scenario_of(const std::string& run, const StoredRecording& read);
 
 /// A plugin library that is not the file it was.
 struct PluginChange {

@@ -8,8 +8,8 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kNoteHeight = 30, kRow = 24, kBar = 12, kAxisHeight = 26;  // px
-constexpr double kGapSeen = 0.6;  // px: a foot that bounces within it looks as if it stood, and the file stays small
+constexpr double kRow = 24, kBar = 12;  // px
+constexpr double kGapSeen = 0.6;        // px: a foot that bounces within it looks as if it stood, and the file stays small
 
 std::string place_on_side(std::size_t rank, std::size_t count) {
   if (rank == 0) return "front";
@@ -69,18 +69,18 @@ std::vector<std::string> leg_names(const std::vector<Leg>& legs) {
   return names;
 }
 
-double footfall_height(std::size_t rows) { return kNoteHeight + kRow * static_cast<double>(rows) + kAxisHeight; }
+double footfall_height(std::size_t rows) { return kFootfallHead + kRow * static_cast<double>(rows) + kFootfallFoot; }
 
-void draw_footfalls(Canvas& canvas, const std::vector<Footfall>& rows, const std::string& note, const Ticks& time,
-                    const Scale& x, double top) {
-  const double first = top + kNoteHeight;
+void draw_footfalls(Canvas& canvas, const FootfallDiagram& diagram, const Ticks& time, const Scale& x, double top) {
+  const std::vector<Footfall>& rows = diagram.rows;
+  const double first = top + kFootfallHead;
   const double bottom = first + kRow * static_cast<double>(rows.size());
-  canvas.text({x.from, top + 18}, "footfall", {.bold = true});
-  canvas.text({x.to + 8 + text_width("0.00", 13), top + 18}, note, {.anchor = Anchor::end});
+  if (!diagram.title.empty()) canvas.text({x.from, top + 18}, diagram.title, {.bold = true});
+  if (!diagram.note.empty()) canvas.text({x.to + 8 + text_width("0.00", 13), top + 18}, diagram.note, {.anchor = Anchor::end});
   for (const double t : time.values()) canvas.line({x(t), first}, {x(t), bottom}, kGridLine);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double y = first + kRow * (static_cast<double>(i) + 0.5);
-    canvas.text({x.from - 8, y + 4.5}, rows[i].name, {.size = 12, .anchor = Anchor::end});
+    canvas.text({x.from - 8, y + 4.5}, rows[i].name, {.size = diagram.name_size, .anchor = Anchor::end});
     draw_bars(canvas, rows[i], x, y);
     canvas.text({x.to + 8, y + 4.5}, fmt::format("{:.2f}", rows[i].duty_factor));
   }

@@ -22,6 +22,15 @@ std::string with_minus(std::string text) {
   return text;
 }
 
+void draw_axis_below(Canvas& canvas, const PlotArea& area, const Ticks& ticks, std::string_view title, bool minus) {
+  const Scale x{ticks.lo, ticks.hi, area.left, area.right};
+  for (const double value : ticks.values()) {
+    const std::string label = minus ? with_minus(ticks.label(value)) : ticks.label(value);
+    canvas.text({x(value), area.bottom + 18}, label, {.anchor = Anchor::middle});
+  }
+  canvas.text({(area.left + area.right) / 2, area.bottom + 36}, title, {.anchor = Anchor::middle});
+}
+
 namespace {
 
 /// Where [a, b] crosses a height.
@@ -94,10 +103,7 @@ void Panel::level(double value, const Style& style) { canvas_.line({area_.left, 
 
 void Panel::moment(double time, const Style& style) { canvas_.line({x_(time), area_.top}, {x_(time), area_.bottom}, style); }
 
-void Panel::axis_below(std::string_view title) {
-  for (const double t : time_.values()) canvas_.text({x_(t), area_.bottom + 18}, label(time_, t), {.anchor = Anchor::middle});
-  canvas_.text({(area_.left + area_.right) / 2, area_.bottom + 36}, title, {.anchor = Anchor::middle});
-}
+void Panel::axis_below(std::string_view title) { draw_axis_below(canvas_, area_, time_, title, look_.minus); }
 
 void Panel::side_title(std::string_view title, Side side, double away) {
   const double x = side == Side::left ? area_.left - away : area_.right + away;

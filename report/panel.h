@@ -67,6 +67,9 @@ class Panel {
   PanelLook look_;
 };
 
+/// Labels and a title below an area.
+void draw_axis_below(Canvas& canvas, const PlotArea& area, const Ticks& ticks, std::string_view title, bool minus);
+
 /// A number as it is printed: with a real minus sign.
 std::string with_minus(std::string text);
 

@@ -60,7 +60,7 @@ Polygon beside(const Polygon& polygon, double at, double sign) {
 
 class Views {
  public:
-  explicit Views(const FigureInput& input) : input_(input), left_(left_edge(input)) {
+  Views(const FigureInput& input, const Edges& edges) : input_(input), left_(edges.left), right_(edges.right) {
     Bounds x;
     for (const View& view : input.views) {
       const Extent seen = extent(view);
@@ -73,11 +73,11 @@ class Views {
     }
     if (x.empty()) x = {-0.5, 0.5};
     const double width = std::max(1.06 * (x.hi - x.lo), 1e-3);
-    per_metre_ = (kRight - left_) / width;
+    per_metre_ = (right_ - left_) / width;
     if (above_ + below_ > 0) per_metre_ = std::min(per_metre_, kViewMost / (above_ + below_));
-    const double half = 0.5 * (kRight - left_) / per_metre_;
+    const double half = 0.5 * (right_ - left_) / per_metre_;
     ticks_ = ticks_within(0.5 * (x.lo + x.hi) - half, 0.5 * (x.lo + x.hi) + half, 8);
-    x_ = {ticks_.lo, ticks_.hi, left_, kRight};
+    x_ = {ticks_.lo, ticks_.hi, left_, right_};
   }
 
   [[nodiscard]] double height() const { return head() + pitch() * static_cast<double>(input_.views.size()) + kFoot; }
@@ -101,14 +101,16 @@ class Views {
  private:
   static constexpr double kFoot = 48, kLegendRow = 22;  // px
 
-  [[nodiscard]] double head() const { return 34 + (two_rows() ? kLegendRow : 0); }
+  [[nodiscard]] double head() const {
+    return (input_.views_legend ? 34 : 20) + kLegendRow * static_cast<double>(rows_below_title());
+  }
   [[nodiscard]] double pitch() const { return std::max(30.0, (above_ + below_) * per_metre_) + kViewGap; }
 
   void draw_view(Canvas& canvas, const View& view, const Scale& z) const {
     const auto paper = [&](Point p) { return Point{x_(p.x), z(p.y)}; };
     if (input_.ground) {
-      canvas.rectangle({left_, z(0)}, kRight - left_, 5, {.fill = colour::kPale});
-      canvas.line({left_, z(0)}, {kRight, z(0)}, kAxisLine);
+      canvas.rectangle({left_, z(0)}, right_ - left_, 5, {.fill = colour::kPale});
+      canvas.line({left_, z(0)}, {right_, z(0)}, kAxisLine);
     }
     for (const Polygon& solid : input_.solids) {
       Polygon seen = beside(beside(solid, ticks_.lo, 1), ticks_.hi, -1);
@@ -144,6 +146,7 @@ class Views {
   /// From right to left.
   [[nodiscard]] std::vector<Entry> legend() const {
     std::vector<Entry> all;
+    if (!input_.views_legend) return all;
     if (any([](const View& view) { return view.com.has_value(); })) {
       all.push_back({"centre of mass", 12, 26, [](Canvas& canvas, Point m) {
                        canvas.polygons(std::vector<Polygon>{{{m.x, m.y - 4}, {m.x - 5, m.y + 4}, {m.x + 5, m.y + 4}}},
@@ -172,18 +175,31 @@ class Views {
     return any([](const View& view) { return view.joint.has_value(); }) ? "side view (arrow: joint above)" : "side view";
   }
 
-  /// Whether the legend has no room beside the title.
-  [[nodiscard]] bool two_rows() const {
-    double width = text_width(views_title(), 13) * 1.1 + 20;  // bold
-    for (const Entry& entry : legend()) width += text_width(entry.name, 13) + entry.symbol + entry.gap;
-    return width > kRight - left_;
+  [[nodiscard]] static double width(const Entry& entry) { return text_width(entry.name, 13) + entry.symbol + entry.gap; }
+
+  /// Of the legend: 0 where it has room beside the title.
+  [[nodiscard]] int rows_below_title() const {
+    double all = text_width(views_title(), 13) * 1.1 + 20;  // bold
+    for (const Entry& entry : legend()) all += width(entry);
+    if (all <= right_ - left_) return 0;
+    int rows = 1;
+    double x = right_;
+    for (const Entry& entry : legend()) {
+      rows += x < right_ && x - width(entry) < left_ ? 1 : 0;
+      x = (x < right_ && x - width(entry) < left_ ? right_ : x) - width(entry);
+    }
+    return rows;
   }
 
   void header(Canvas& canvas, double top) const {
-    canvas.text({left_, top + 14}, views_title(), {.bold = true});
-    double x = kRight;
-    const double y = top + 14 + (two_rows() ? kLegendRow : 0);
+    if (input_.views_legend) canvas.text({left_, top + 14}, views_title(), {.bold = true});
+    double x = right_;
+    double y = top + 14 + (rows_below_title() > 0 ? kLegendRow : 0);
     for (const Entry& entry : legend()) {
+      if (x < right_ && x - width(entry) < left_) {
+        x = right_;
+        y += kLegendRow;
+      }
       x -= text_width(entry.name, 13);
       canvas.text({x, y}, entry.name);
       x -= entry.symbol;
@@ -193,12 +209,12 @@ class Views {
   }
 
   void axis(Canvas& canvas, double bottom) const {
-    canvas.line({left_, bottom}, {kRight, bottom}, kAxisLine);
+    canvas.line({left_, bottom}, {right_, bottom}, kAxisLine);
     for (const double x : ticks_.values()) {
       canvas.line({x_(x), bottom}, {x_(x), bottom + 5}, kAxisLine);
       canvas.text({x_(x), bottom + 20}, ticks_.label(x), {.anchor = Anchor::middle});
     }
-    canvas.text({(left_ + kRight) / 2, bottom + 40}, input_.views_axis, {.anchor = Anchor::middle});
+    canvas.text({(left_ + right_) / 2, bottom + 40}, input_.views_axis, {.anchor = Anchor::middle});
   }
 
   static bool shows(const View& view, Role role) {
@@ -210,7 +226,7 @@ class Views {
   }
 
   const FigureInput& input_;
-  double left_;
+  double left_, right_;
   std::vector<double> floors_ = {};  // height drawn on the base line of each view, m
   double above_ = 0, below_ = 0;     // of the base line, m
   double per_metre_ = 1;
@@ -220,8 +236,10 @@ class Views {
 
 }  // namespace
 
-double views_height(const FigureInput& input) { return Views(input).height(); }
+double views_height(const FigureInput& input, const Edges& edges) { return Views(input, edges).height(); }
 
-void draw_views(Canvas& canvas, const FigureInput& input, double top) { Views(input).draw(canvas, top); }
+void draw_views(Canvas& canvas, const FigureInput& input, const Edges& edges, double top) {
+  Views(input, edges).draw(canvas, top);
+}
 
 }  // namespace gaitlab::report
