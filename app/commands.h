@@ -40,12 +40,12 @@ std::string not_empty(const std::string& text);
 /// In the order of the help.
 void add_run(Commands& commands);
 void add_report(Commands& commands);
-void add_figure(Commands& commands);
 void add_check(Commands& commands);
 void add_manuals(Commands& commands);
 void add_converge(Commands& commands);
 void add_swap(Commands& commands);
 void add_dynamics(Commands& commands);
+void add_figure(Commands& commands);
 void add_compare(Commands& commands);
 void add_rerun(Commands& commands);
 void add_export(Commands& commands);

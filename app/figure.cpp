@@ -10,6 +10,7 @@
 #include "core/recording/atomic_file.h"
 #include "core/recording/csv.h"
 #include "core/recording/recording_file.h"
+#include "core/recording/run_files.h"
 #include "core/scenario/wording.h"
 #include "report/paper_figure.h"
 #include "report/pdf.h"

@@ -63,7 +63,7 @@ std::string about(const std::string& kind, const std::string& name, const Catalo
     return first_line(entry.manual) + (entry.origin == kBuiltIn ? "" : fmt::format(" ({})", entry.origin));
   }
   if (kind == "engine") return first_line(catalog.engine(name)->manual);
-  if (kind == "figure") return report::about_panel(panel_kind(name));
+  if (kind == "figure") return first_line(report::about_panel(panel_kind(name)));
   return shipped_files(kind).at(name);
 }
 

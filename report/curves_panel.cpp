@@ -5,7 +5,6 @@
 
 #include "core/scenario/sections.h"
 #include "core/scenario/wording.h"
-#include "report/legend.h"
 #include "report/paper_panel.h"
 #include "report/run_footfalls.h"
 
@@ -92,7 +91,7 @@ class CurvesOfPanel final : public PaperPanel {
   }
   [[nodiscard]] double head(const Edges& edges) const override {
     const std::vector<LegendEntry> entries = legend();
-    return entries.empty() ? 8 : draw_legend(nullptr, entries, edges.left, edges.right, 13, paper_width) + 11;
+    return entries.empty() ? 8 : draw_legend(nullptr, entries, edges.left, edges.right, 13, kPrintLegend) + 11;
   }
   [[nodiscard]] double body(const Edges&) const override { return height_; }
 
@@ -113,7 +112,7 @@ class CurvesOfPanel final : public PaperPanel {
       if (has(side)) panel.side_title(title(side), side, side == Side::left ? labels : labels + kAscent);
     }
     const std::vector<LegendEntry> entries = legend();
-    draw_legend(&canvas, entries, area.left, area.right, area.top - head({area.left, area.right}) + 13, paper_width);
+    draw_legend(&canvas, entries, area.left, area.right, area.top - head({area.left, area.right}) + 13, kPrintLegend);
   }
 
   [[nodiscard]] Trace data() const override {

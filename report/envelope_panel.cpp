@@ -6,7 +6,6 @@
 
 #include "core/scenario/sections.h"
 #include "core/scenario/wording.h"
-#include "report/legend.h"
 #include "report/motors.h"
 #include "report/paper_panel.h"
 
@@ -19,6 +18,7 @@ constexpr std::size_t kSpeeds = 201;    // of an envelope
 constexpr std::size_t kNamed = 7;       // joints that have a line of their own
 constexpr double kApart = 0.25;         // px: a path keeps points as far apart
 constexpr double kFastest = 1e4;        // rad/s: a motor that still drives then has no idling speed
+constexpr double kPadding = 1.06;       // of the range, beside what is drawn
 constexpr std::string_view kAvailable = "#E8E8E8";
 
 /// What a motor has at every speed: rad/s, N m.
@@ -70,8 +70,8 @@ class EnvelopeOfPanel final : public PaperPanel {
       y.add(1.15 * rest(envelope.most));
       y.add(1.15 * rest(envelope.least));
     }
-    x_ = x.ticks(8);
-    y_ = y.ticks(6);
+    x_ = ticks_within(kPadding * x.lo, kPadding * x.hi, 8);
+    y_ = ticks_within(kPadding * y.lo, kPadding * y.hi, 6);
     for (const std::size_t j : joints) {
       if (!AvailableTorque(run.scenario).known(j))
         notes_.push_back(fmt::format("{}: the actuator states no largest command: no envelope is drawn", names[j]));
@@ -80,7 +80,7 @@ class EnvelopeOfPanel final : public PaperPanel {
 
   [[nodiscard]] Margins margins() const override { return {8 + label_width(y_) + 20, 12}; }
   [[nodiscard]] double head(const Edges& edges) const override {
-    return draw_legend(nullptr, legend(), edges.left, edges.right, 13, paper_width) + 11;
+    return draw_legend(nullptr, legend(), edges.left, edges.right, 13, kPrintLegend) + 11;
   }
   [[nodiscard]] double body(const Edges&) const override { return height_; }
 
@@ -112,7 +112,7 @@ class EnvelopeOfPanel final : public PaperPanel {
     }
     panel.axis_below("speed (rad/s)");
     panel.side_title("torque (N m)", Side::left, 8 + label_width(y_) + 8);
-    draw_legend(&canvas, legend(), area.left, area.right, area.top - head({area.left, area.right}) + 13, paper_width);
+    draw_legend(&canvas, legend(), area.left, area.right, area.top - head({area.left, area.right}) + 13, kPrintLegend);
   }
 
   [[nodiscard]] Trace data() const override {

@@ -76,7 +76,7 @@ class HeatOfPanel final : public PaperPanel {
   [[nodiscard]] Margins margins() const override {
     double names = 0;
     for (const std::string& name : names_) names = std::max(names, helvetica_width(name, 13));
-    return {8 + names, kBarGap + kBarWidth + 6 + helvetica_width("100", 13) + 20};
+    return {11 + names, kBarGap + kBarWidth + 6 + helvetica_width("100", 13) + 20};
   }
   [[nodiscard]] double head(const Edges&) const override { return 8; }
   [[nodiscard]] double body(const Edges&) const override { return height_; }

@@ -3,18 +3,17 @@
 namespace gaitlab::report {
 
 double draw_legend(Canvas* canvas, std::span<const LegendEntry> entries, double left, double right, double y,
-                   double (*width)(std::string_view, double)) {
-  constexpr double kSample = 38, kName = 46, kGap = 24;  // px: length of a line, start of its name, behind the name
+                   const LegendLook& look) {
   double x = left;
   for (const LegendEntry& entry : entries) {
-    const double needed = kName + width(entry.name, 13) + kGap;
+    const double needed = look.name + look.width(entry.name, 13) + look.gap;
     if (x > left && x + needed > right) {
       x = left;
       y += kLegendLine;
     }
     if (canvas != nullptr) {
-      canvas->line({x, y - 4.5}, {x + kSample, y - 4.5}, entry.style);
-      canvas->text({x + kName, y}, entry.name);
+      canvas->line({x, y - 4.5}, {x + look.sample, y - 4.5}, entry.style);
+      canvas->text({x + look.name, y}, entry.name);
     }
     x += needed;
   }

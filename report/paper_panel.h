@@ -7,6 +7,7 @@
 
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
+#include "report/legend.h"
 #include "report/panel.h"
 #include "report/recipe.h"
 #include "report/views.h"
@@ -92,7 +93,9 @@ std::string with_unit_after(const std::string& name, const std::string& unit);
 double label_width(const Ticks& ticks);
 /// About as many ticks as have room on a time axis.
 Ticks time_ticks(double from, double to);
-/// Of a text of 13 px; for legends.
+/// In Helvetica, px.
 double paper_width(std::string_view text, double size);
+/// Of legends in print: narrower than on the screen.
+inline constexpr LegendLook kPrintLegend{.sample = 28, .name = 34, .gap = 14, .width = paper_width};
 
 }  // namespace gaitlab::report

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <array>
 #include <charconv>
 #include <iterator>
 
 #include "core/errors.h"
 #include "core/recording/trace.h"
-#include "report/helvetica.h"
 
 namespace gaitlab::report {
 
@@ -60,8 +58,9 @@ std::string deflated(const std::string& text) {
   return packed;
 }
 
-std::string font(const char* name, bool win_ansi) {
-  return fmt::format("<< /Type /Font /Subtype /Type1 /BaseFont /{}{} >>", name, win_ansi ? " /Encoding /WinAnsiEncoding" : "");
+std::string font_object(Font font) {
+  const char* const names[] = {"Helvetica /Encoding /WinAnsiEncoding", "Helvetica-Bold /Encoding /WinAnsiEncoding", "Symbol"};
+  return fmt::format("<< /Type /Font /Subtype /Type1 /BaseFont /{} >>", names[static_cast<std::size_t>(font)]);
 }
 
 }  // namespace
@@ -84,11 +83,10 @@ void Pdf::paint(const std::string& path, const Style& style, bool round) {
     if (!style.dash.empty()) page_ += fmt::format("[{}] 0 d ", style.dash);
     if (round) page_ += "1 j ";
   }
-  const char* const both = style.stroke_below ? nullptr : "B";
-  if (strokes && fills && both == nullptr) {
+  if (strokes && fills && style.stroke_below) {
     page_ += path + "S\n" + path + "f Q\n";
   } else {
-    page_ += path + (strokes && fills ? both : strokes ? "S" : "f") + " Q\n";
+    page_ += path + (strokes && fills ? "B" : strokes ? "S" : "f") + " Q\n";
   }
 }
 
@@ -146,6 +144,7 @@ void Pdf::text(Point where, std::string_view content, const TextStyle& style) {
   // Letters stand upright although y is down.
   page_ += fmt::format("BT {}rg {} {} Tm", rgb(style.fill), style.upwards ? "0 -1 -1 0" : "1 0 0 -1", at(start));
   for (const TextRun& run : set.runs) {
+    fonts_.insert(run.font);
     page_ += fmt::format(" /F{} {} Tf {} Tj", static_cast<int>(run.font) + 1, coordinate(style.size), literal(run.bytes));
   }
   page_ += " ET\n";
@@ -154,18 +153,18 @@ void Pdf::text(Point where, std::string_view content, const TextStyle& style) {
 std::string Pdf::finish() const {
   const std::string packed = deflated(page_);
   const double scale = paper_.mm / kPoint;
-  const std::array<std::string, 8> objects{
-      "<< /Type /Catalog /Pages 2 0 R >>",
-      "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
-      fmt::format("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {} {}] /Contents 4 0 R\n"
-                  "/Resources << /Font << /F1 5 0 R /F2 6 0 R /F3 7 0 R >> >> >>",
-                  coordinate(paper_.width * scale), coordinate(paper_.height * scale)),
+  std::vector<std::string> objects{
+      "<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>", "",
       fmt::format("<< /Length {} /Filter /FlateDecode >>\nstream\n", packed.size()) + packed + "\nendstream",
-      font("Helvetica", true),
-      font("Helvetica-Bold", true),
-      font("Symbol", false),
-      "<< /Producer (gaitlab) >>",
-  };
+      "<< /Producer (gaitlab) >>"};
+  std::string fonts;
+  for (const Font font : fonts_) {
+    objects.push_back(font_object(font));
+    fonts += fmt::format(" /F{} {} 0 R", static_cast<int>(font) + 1, objects.size());
+  }
+  objects[2] =
+      fmt::format("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {} {}] /Contents 4 0 R\n/Resources << /Font <<{} >> >> >>",
+                  coordinate(paper_.width * scale), coordinate(paper_.height * scale), fonts);
   std::string file = "%PDF-1.4\n%\xE2\xE3\xCF\xD3\n";  // bytes above 127: not a text file
   std::string references = fmt::format("xref\n0 {}\n0000000000 65535 f \n", objects.size() + 1);
   for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -177,7 +176,7 @@ std::string Pdf::finish() const {
   const std::string id = hash(page_) + hash_words(page_);
   file += references;
   fmt::format_to(std::back_inserter(file),
-                 "trailer\n<< /Size {} /Root 1 0 R /Info 8 0 R /ID [<{}> <{}>] >>\nstartxref\n{}\n%%EOF\n", objects.size() + 1,
+                 "trailer\n<< /Size {} /Root 1 0 R /Info 5 0 R /ID [<{}> <{}>] >>\nstartxref\n{}\n%%EOF\n", objects.size() + 1,
                  id, id, start);
   return file;
 }

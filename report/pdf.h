@@ -1,9 +1,9 @@
 // A drawing as PDF 1.4: one page, vectors and text.
 #pragma once
-#include <cstdint>
 #include <set>
 
 #include "report/canvas.h"
+#include "report/helvetica.h"
 
 namespace gaitlab::report {
 
@@ -32,6 +32,7 @@ class Pdf final : public Canvas {
   Paper paper_;
   std::string page_;
   std::set<char32_t> missing_;
+  std::set<Font> fonts_;
 };
 
 }  // namespace gaitlab::report

@@ -100,8 +100,6 @@ void PanelRecipe::fields(Fields& f) {
     f.group("left", left, "Curves of the left axis.");
     f.group("right", right, "Curves of the right axis; the zeros of both meet where that wastes little paper.");
     f.text("stance", stance, "Leg whose stance is shaded, named as in the footfalls of figure.svg: m5 front left.");
-    if (left.columns.empty() && right.columns.empty())
-      f.problem("left", "nothing is drawn; expected left: {columns: [...]}, or right");
   } else {
     f.text("run", run, "Run that is drawn, by name; needed where there are several.");
   }
@@ -111,7 +109,6 @@ void PanelRecipe::fields(Fields& f) {
     f.numbers("times", times, {"s", 0, kLongestTime, "When the robot is drawn, from top to bottom."});
     f.text("joint", joint, "Joint that an arrow points out.");
     f.flag("legend", legend, "Whether a legend explains the colours of the bodies.");
-    if (times.empty()) f.problem("times", "missing key 'times'; expected a list of times in s");
     return;
   }
   f.number("from", from, {"s", 0, kLongestTime, "Start of what is drawn."});
@@ -163,9 +160,16 @@ Recipe read_recipe(const std::string& file) {
     problems.add(recipe.place({"runs"}), "runs is empty; expected NAME: FOLDER");
   if (recipe.root.find("panels") != nullptr && recipe.panels.empty() && problems.empty())
     problems.add(recipe.place({"panels"}), "panels is empty; nothing would be drawn");
+  // A panel of an unknown kind has been refused already: what it lacks is not known.
+  const bool whole = problems.empty();
   for (std::size_t i = 0; i < recipe.panels.size(); ++i) {
     const std::string item = std::to_string(i);
     const PanelRecipe& panel = recipe.panels[i];
+    const bool curves = panel.kind == PanelKind::curves;
+    if (whole && curves && panel.left.columns.empty() && panel.right.columns.empty())
+      problems.add(recipe.place({"panels", item}), "nothing is drawn; expected left: {columns: [...]}, or right");
+    if (whole && panel.kind == PanelKind::views && panel.times.empty())
+      problems.add(recipe.place({"panels", item}), "missing key 'times', a list of times in s");
     for (std::size_t k = 0; k < panel.runs.size(); ++k) check(panel.runs[k], {"panels", item, "runs", std::to_string(k)});
     if (!panel.run.empty()) check(panel.run, {"panels", item, "run"});
     if (panel.kind != PanelKind::curves && panel.run.empty() && names.size() > 1)

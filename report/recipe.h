@@ -54,7 +54,7 @@ struct Recipe {
 /// InputError with every finding at FILE:LINE:COL; the runs themselves are not looked at.
 Recipe read_recipe(const std::string& file);
 
-/// One sentence on a kind of panel.
+/// What a kind of panel shows; the first line is a sentence of its own.
 std::string about_panel(PanelKind kind);
 /// The manual of a kind of panel: `gaitlab explain figure KIND`.
 std::string explain_panel(PanelKind kind);

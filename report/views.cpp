@@ -212,7 +212,8 @@ class Views {
     canvas.line({left_, bottom}, {right_, bottom}, kAxisLine);
     for (const double x : ticks_.values()) {
       canvas.line({x_(x), bottom}, {x_(x), bottom + 5}, kAxisLine);
-      canvas.text({x_(x), bottom + 20}, ticks_.label(x), {.anchor = Anchor::middle});
+      canvas.text({x_(x), bottom + 20}, input_.minus ? with_minus(ticks_.label(x)) : ticks_.label(x),
+                  {.anchor = Anchor::middle});
     }
     canvas.text({(left_ + right_) / 2, bottom + 40}, input_.views_axis, {.anchor = Anchor::middle});
   }

@@ -43,7 +43,7 @@ class FootfallsOfPanel final : public PaperPanel {
   [[nodiscard]] Margins margins() const override {
     double names = 0;
     for (const Footfall& row : rows_) names = std::max(names, helvetica_width(row.name, 13));
-    return {8 + names, 8 + helvetica_width("0.00", 13) + 2};
+    return {11 + names, 8 + text_width("0.00", 13) + 1};  // as draw_footfalls measures it
   }
   [[nodiscard]] double head(const Edges&) const override { return kFootfallHead; }
   [[nodiscard]] double body(const Edges&) const override {
@@ -102,6 +102,7 @@ class ViewsOfPanel final : public PaperPanel {
     input_ = views_input(run.scenario, run.recording, from);
     input_.views_title = from.view;
     input_.views_legend = panel.legend;
+    input_.minus = true;
     for (std::size_t k = 0; k < panel.times.size(); ++k) {
       if (panel.times[k] > run.recording.simulated + 1e-9) {
         source.problem({"times", std::to_string(k)},

@@ -72,12 +72,16 @@ TEST_F(PaperFigure, RecipesAreReadStrictly) {
           "figure.yaml:2:36: error: no joint 'm0/activ'; did you mean 'm0/active'?");
   refused(kRuns + "panels: [{to: 2, left: {columns: [com.x]}}]\n",
           "figure.yaml:2:15: error: to is 2 s, beyond the end of the run at 0.5 s");
+  refused(kRuns + "panels: [{kind: curves}]\n",
+          "figure.yaml:2:10: error: nothing is drawn; expected left: {columns: [...]}, or right");
+  refused(kRuns + "panels: [{kind: views}]\n", "figure.yaml:2:10: error: missing key 'times', a list of times in s");
+  refused(kRuns + "panels: [{kind: heap}]\n", "figure.yaml:2:17: error: kind 'heap' is unknown; did you mean 'heat'?");
   refused(kRuns + "panels: [{kind: views, times: [0.1, 3]}]\n",
           "figure.yaml:2:37: error: 3 s is beyond the end of the run at 0.5 s");
   refused("runs: {a: run, b: run}\npanels: [{kind: heat}]\n",
           "figure.yaml:2:10: error: missing key 'run': there are several, a, b");
   refused("runs: {a: run}\npanels: [{kind: heat, run: b}]\n",
-          "figure.yaml:2:28: error: run 'b' is not one of `runs`; known runs: a");
+          "figure.yaml:2:28: error: run 'b' is not one of `runs`; did you mean 'a'?");
   refused("runs: {creep: walk}\npanels: [{left: {columns: [com.x]}}]\n",
           "figure.yaml:1:15: error: run 'creep': walk does not exist; simulate it first, or name its folder with --run "
           "creep=FOLDER");
