@@ -4,7 +4,7 @@
 
 #include "core/model/kinematics.h"
 #include "core/model/role.h"
-#include "report/svg.h"
+#include "report/canvas.h"
 
 namespace gaitlab::report {
 
