@@ -56,6 +56,22 @@ Foot unloaded(const Robot& robot, std::size_t body) {
   return foot;
 }
 
+/// Of a body that `loads` knows.
+Foot loaded(const Robot& robot, std::size_t body, const Trace& loads) {
+  Foot foot = unloaded(robot, body);
+  const auto take = [&](const char* quantity, std::vector<double>& into) {
+    const std::size_t column = loads.find(fmt::format("foot.{}.{}", foot.name, quantity));
+    if (column < loads.columns.size() && loads.rows() > 0) into = Series(loads, column).values();
+  };
+  take("fx", foot.fx);
+  take("fy", foot.fy);
+  take("fz", foot.fz);
+  take("x", foot.x);
+  take("y", foot.y);
+  take("z", foot.z);
+  return foot;
+}
+
 bool carries(const Foot& foot) {
   const auto loads = [](double force) { return force != 0 && std::isfinite(force); };
   return std::ranges::any_of(foot.fx, loads) || std::ranges::any_of(foot.fy, loads) || std::ranges::any_of(foot.fz, loads);
@@ -63,7 +79,7 @@ bool carries(const Foot& foot) {
 
 }  // namespace
 
-std::vector<Foot> feet(const Scenario& scenario, const Recording& r) {
+std::vector<Foot> feet(const Scenario& scenario, const Recording& r, const Trace& loads) {
   const Robot& robot = *scenario.robot;
   std::map<std::size_t, std::vector<Pressed>> of_body;
   std::map<std::size_t, std::size_t> first_of_module;
@@ -85,6 +101,8 @@ std::vector<Foot> feet(const Scenario& scenario, const Recording& r) {
       k.update(robot, states(row));
       for (Foot& foot : found) add_row(foot, scenario, of_body[foot.body], k, row);
     }
+  } else if (loads.rows() > 0) {
+    for (const auto& entry : of_body) found.push_back(loaded(robot, entry.first, loads));
   } else {
     for (const auto& entry : first_of_module) {
       found.push_back(unloaded(robot, entry.second));

@@ -16,9 +16,9 @@ struct Foot {
   std::vector<double> x, y, z;     ///< m, world: where the normal forces act; without any, the point before
 };
 
-/// Bodies with contact elements that ever carry load, by their numbers, from the columns contact.*. Without these modules with
-/// contact elements, each by the first of its bodies that has any: then fz alone is known, from load.*, as if the ground were
-/// level.
-std::vector<Foot> feet(const Scenario& scenario, const Recording& record);
+/// Bodies with contact elements that ever carry load, by their numbers: from the columns contact.*, or else from `loads`
+/// (loads_at_rows). Without either modules with contact elements, each by the first of its bodies that has any: then fz alone
+/// is known, from load.*, as if the ground were level.
+std::vector<Foot> feet(const Scenario& scenario, const Recording& record, const Trace& loads);
 
 }  // namespace gaitlab::report
