@@ -39,12 +39,9 @@ struct Window {
   const Trace& loads;
   std::size_t start = 0;
 
-  Window(const Recording& record, const Summary& summary) : loads(record.loads) {
-    // As judge() has it: the period is an estimate, which must not decide whether a tick belongs to the window.
-    const Judged& judged = summary.judged;
-    const double within = std::max(1e-9, judged.periods > 0 ? 1e-3 * summary.limit_cycle.period : 0.0);
-    while (start + 1 < loads.rows() && loads.at(start + 1, 0) <= judged.from + within) ++start;
-  }
+  /// Rows are those of Recording::ticks.
+  Window(const Recording& record, const Summary& summary)
+      : loads(record.loads), start(std::min(summary.judged.first_row, std::max<std::size_t>(record.loads.rows(), 1) - 1)) {}
   [[nodiscard]] Series series(const std::string& name) const {
     const std::size_t at = loads.find(name);
     return at < loads.columns.size() && loads.rows() > 0 ? Series(loads, at) : Series();
