@@ -143,7 +143,7 @@ TEST_F(OldFolder, IsReadAsFarAsItGoes) {
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("two-modules: 0.2 s simulated"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("distance      0.0"), std::string::npos) << result.out;
-  for (const char* unknown : {"most loaded", "\n  tracking", "energy", "transport", "stability"})
+  for (const char* unknown : {"most loaded", "\n  tracking", "energy", "transport", "\n  stability"})
     EXPECT_EQ(result.out.find(unknown), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("not judged: voltage, current"), std::string::npos) << result.out;
   EXPECT_NE(result.err.find(
