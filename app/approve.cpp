@@ -40,17 +40,19 @@ namespace fs = std::filesystem;
 
 constexpr int kEnsemble = 4;  // runs
 
-/// Blank where there is none.
+/// Blank where there is none, or where it is the option that was meant to come after it.
 std::string reason(const ApproveArguments& arguments) {
   std::string text = arguments.reason.value_or("");
-  return text.find_first_not_of(" \t\r\n") == std::string::npos ? "" : text;
+  return text.starts_with("--") || text.find_first_not_of(" \t\r\n") == std::string::npos ? "" : text;
 }
 
 InputError no_reason(const ApproveArguments& arguments) {
   return {SourceLocation{"--reason"},
           fmt::format("is {}; say in a sentence why these numbers are right: it is kept in the golden's "
                       "history. Nothing was written",
-                      arguments.reason ? "empty" : "missing")};
+                      !arguments.reason                     ? "missing"
+                      : arguments.reason->starts_with("--") ? fmt::format("'{}', which is an option", *arguments.reason)
+                                                            : "empty")};
 }
 
 /// Before minutes of runs: whether the golden can be written where it belongs.

@@ -55,6 +55,7 @@ void add_manuals(Commands& commands);
 void add_converge(Commands& commands);
 void add_swap(Commands& commands);
 void add_dynamics(Commands& commands);
+void add_figure(Commands& commands);
 void add_compare(Commands& commands);
 void add_rerun(Commands& commands);
 void add_export(Commands& commands);

@@ -3,28 +3,35 @@
 #include <filesystem>
 
 #include "app/commands.h"
+#include "app/stored_scenario.h"
 #include "core/errors.h"
 #include "core/recording/atomic_file.h"
 #include "core/recording/csv.h"
 #include "core/recording/run_files.h"
+#include "interchange/gltf.h"
 #include "interchange/mjcf.h"
 #include "interchange/urdf.h"
+#include "report/build_id.h"
+#include "report/views.h"
 
 namespace gaitlab::app {
 
 namespace {
 
 struct ExportArguments {
-  ScenarioArguments source;  ///< file: run folder or trace file (csv), scenario (mjcf, urdf)
-  std::string format;        ///< csv, mjcf, urdf
+  ScenarioArguments source;  ///< file: run folder or trace file (csv, gltf), scenario (mjcf, urdf, gltf)
+  std::string format;        ///< csv, gltf, mjcf, urdf
   std::string file;          ///< to write; must not exist
 };
 
-void export_run(const ExportArguments& arguments) {
-  if (!arguments.source.sets.empty()) {
-    throw InputError(SourceLocation{"--set " + arguments.source.sets.front()},
-                     "a recorded run cannot be changed; expected --to mjcf or urdf");
-  }
+void refuse_sets(const ExportArguments& arguments, const char* expected) {
+  if (arguments.source.sets.empty()) return;
+  throw InputError(SourceLocation{"--set " + arguments.source.sets.front()},
+                   fmt::format("a recorded run cannot be changed; expected {}", expected));
+}
+
+void export_trace(const ExportArguments& arguments) {
+  refuse_sets(arguments, "--to mjcf or urdf");
   const Trace trace = read_trace(arguments.source.file);
   write_csv(trace, arguments.file);
   fmt::print("{}: {} rows of {} columns\n", arguments.file, trace.rows(), trace.columns.size());
@@ -43,9 +50,57 @@ void export_robot(const ExportArguments& arguments) {
   fmt::print("{}: {} bodies, {} joints\n", arguments.file, scenario.robot->bodies.size(), scenario.robot->joints.size());
 }
 
+/// In the colours of the figures; the version without the commit, so that the bytes are those of what is shown.
+GltfLook look() {
+  const std::string build = report::build_id();
+  return {.generator = "gaitlab " + build.substr(0, build.find('+')),
+          .body = report::body_colour,
+          .ground = report::colour::kWhite,
+          .tile = report::colour::kPale,
+          .box = report::colour::kGrey,
+          .moving_box = report::colour::kGreen};
+}
+
+void write_gltf(const ExportArguments& arguments, const Scenario& scenario, const Recording* recording) {
+  const Gltf made = to_gltf(scenario, recording, look());
+  write_file(arguments.file, made.bytes);
+  fmt::print("{}: {} bodies, {} joints, {}\n", arguments.file, scenario.robot->bodies.size(), scenario.robot->joints.size(),
+             made.frames > 1 ? fmt::format("{} frames", made.frames) : "standing");
+  if (const auto hidden = bodies_without_shape(*scenario.robot); !hidden.empty()) {
+    fmt::print(stderr, "{}: note: bodies without a shape, which are not drawn: {}\n", arguments.source.file,
+               fmt::join(hidden, ", "));
+  }
+}
+
+void export_gltf(const ExportArguments& arguments) {
+  const std::string& source = arguments.source.file;
+  const std::filesystem::path path = source;
+  Catalog catalog = standard_catalog();
+  std::error_code none;
+  if (!std::filesystem::is_directory(path, none) && path.extension() != ".h5" && path.extension() != ".csv") {
+    write_gltf(arguments, read(arguments.source, catalog), nullptr);
+    return;
+  }
+  refuse_sets(arguments, "a scenario in place of the run");
+  const auto [stored, scenario] = read_run(source, catalog);
+  const Recording& recording = stored.recording;
+  if (!recording.has_states(*scenario.robot)) {
+    throw InputError(
+        SourceLocation{source},
+        fmt::format("does not say how the robot moved: {}; simulate it again: gaitlab rerun {}",
+                    stored.missing.empty() ? "it has no rows" : fmt::format("{}", fmt::join(stored.missing, "; ")), source));
+  }
+  write_gltf(arguments, scenario, &recording);
+  for (const std::size_t box : boxes_without_way(scenario, recording)) {
+    fmt::print(stderr, "{}: note: ground.boxes[{}] stands as it started: its columns box.{}.* are not recorded\n", source, box,
+               box);
+  }
+}
+
 int export_to(const ExportArguments& arguments) {
   check_new(arguments.file);
-  (arguments.format == "csv" ? export_run : export_robot)(arguments);
+  const auto& make = arguments.format == "csv" ? export_trace : arguments.format == "gltf" ? export_gltf : export_robot;
+  make(arguments);
   return 0;
 }
 
@@ -53,13 +108,20 @@ int export_to(const ExportArguments& arguments) {
 
 void add_export(Commands& commands) {
   add_command<ExportArguments>(
-      commands, "export", "Write the trace of a run, or the robot of a scenario, in another format.", export_to,
+      commands, "export", "Write the trace of a run, the robot of a scenario, or how it moved, in another format.", export_to,
       [](CLI::App& command, ExportArguments& arguments) {
-        command.add_option("SOURCE", arguments.source.file, "csv: run folder or trace file; mjcf, urdf: scenario file")
+        command
+            .add_option("SOURCE", arguments.source.file,
+                        "csv: run folder or trace file; gltf: the same, or a scenario file; mjcf, urdf: scenario file")
             ->required();
-        command.add_option("--to", arguments.format, "csv; mjcf (MuJoCo), urdf")
+        command
+            .add_option(
+                "--to", arguments.format,
+                fmt::format("csv; gltf (a binary .glb file: the robot and its ground as they move, keyframes at rows of the "
+                            "trace, at most {} a second; of a scenario the robot as it starts); mjcf (MuJoCo), urdf",
+                            kGltfRate))
             ->required()
-            ->check(CLI::IsMember({"csv", "mjcf", "urdf"}));
+            ->check(CLI::IsMember({"csv", "gltf", "mjcf", "urdf"}));
         command.add_option("FILE", arguments.file, "file to write; must not exist")->required();
         command.add_option("--set", arguments.source.sets, "key.path=value in the scenario")
             ->expected(1)

@@ -9,6 +9,7 @@
 #include "core/scenario/schema.h"
 #include "core/scenario/text_file.h"
 #include "core/scenario/wording.h"
+#include "report/recipe.h"
 
 namespace gaitlab::app {
 
@@ -29,7 +30,7 @@ void add_plugins(CLI::App& command, ManualArguments& arguments) {
 std::vector<std::string> kinds() {
   std::vector<std::string> all;
   for (const PluginKind& plugin : kPluginKinds) all.emplace_back(plugin.section);
-  all.insert(all.end(), {"engine", "module", "robot"});
+  all.insert(all.end(), {"engine", "module", "robot", "figure"});
   return all;
 }
 
@@ -44,9 +45,14 @@ std::vector<std::string> kinds() {
 std::vector<std::string> names(const std::string& kind, const Catalog& catalog) {
   if (const PluginKind* plugin = find_kind(kind)) return catalog.names(plugin->kind);
   if (kind == "engine") return catalog.engines();
+  if (kind == "figure") return to_strings(report::kPanelKinds);
   std::vector<std::string> found;
   for (const auto& [name, path] : shipped_files(kind)) found.push_back(name);
   return found;
+}
+
+report::PanelKind panel_kind(const std::string& name) {
+  return static_cast<report::PanelKind>(std::ranges::find(report::kPanelKinds, name) - report::kPanelKinds.begin());
 }
 
 std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
@@ -57,6 +63,7 @@ std::string about(const std::string& kind, const std::string& name, const Catalo
     return first_line(entry.manual) + (entry.origin == kBuiltIn ? "" : fmt::format(" ({})", entry.origin));
   }
   if (kind == "engine") return first_line(catalog.engine(name)->manual);
+  if (kind == "figure") return first_line(report::about_panel(panel_kind(name)));
   return shipped_files(kind).at(name);
 }
 
@@ -93,6 +100,7 @@ int explain(const ManualArguments& arguments) {
                wrapped(fmt::format("integrators: {} (default {}); default step {}", fmt::join(engine.integrator_names(), ", "),
                                    engine.integrators.front().name, default_step(engine))));
   }
+  if (kind == "figure") fmt::print("{}", report::explain_panel(panel_kind(name)));
   if (kind == "module" || kind == "robot") fmt::print("{}", read_text(shipped_files(kind).at(name)));
   return 0;
 }
@@ -104,22 +112,25 @@ int schema(const ManualArguments& arguments) {
 
 int reference(const ManualArguments& arguments) {
   const Catalog catalog = standard_catalog();
-  fmt::print("{}", arguments.kind == "scenario" ? scenario_page(catalog) : plugins_page(catalog));
+  fmt::print("{}", arguments.kind == "scenario" ? scenario_page(catalog)
+                   : arguments.kind == "figure" ? report::recipe_page()
+                                                : plugins_page(catalog));
   return 0;
 }
 
 }  // namespace
 
 void add_manuals(Commands& commands) {
-  add_command<ManualArguments>(commands, "list", "List what is registered: cpg, controller, actuator, engine, module, robot.",
-                               list, [](CLI::App& command, ManualArguments& arguments) {
+  add_command<ManualArguments>(commands, "list",
+                               "List what is registered: cpg, controller, actuator, engine, module, robot, figure.", list,
+                               [](CLI::App& command, ManualArguments& arguments) {
                                  command.add_option("KIND", arguments.kind, "one of these kinds alone");
                                  add_plugins(command, arguments);
                                });
   add_command<ManualArguments>(commands, "explain", "Print the manual of KIND NAME; without them, that of the scenario file.",
                                explain, [](CLI::App& command, ManualArguments& arguments) {
-                                 CLI::Option* kind = command.add_option("KIND", arguments.kind,
-                                                                        "cpg, controller, actuator, engine, module, robot");
+                                 CLI::Option* kind = command.add_option(
+                                     "KIND", arguments.kind, "cpg, controller, actuator, engine, module, robot, figure");
                                  kind->needs(command.add_option("NAME", arguments.name, "name as `gaitlab list` prints it"));
                                  add_plugins(command, arguments);
                                });
@@ -128,9 +139,9 @@ void add_manuals(Commands& commands) {
   add_command<ManualArguments>(commands, "reference", "Print a page of docs/reference.", reference,
                                [](CLI::App& command, ManualArguments& arguments) {
                                  command.group("");  // not in the help
-                                 command.add_option("PAGE", arguments.kind, "scenario or plugins")
+                                 command.add_option("PAGE", arguments.kind, "scenario, plugins or figure")
                                      ->required()
-                                     ->check(CLI::IsMember({"scenario", "plugins"}));
+                                     ->check(CLI::IsMember({"scenario", "plugins", "figure"}));
                                });
 }
 

@@ -40,8 +40,8 @@ int program(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", [] { return version(); });
   Commands commands{app};
-  for (const auto add : {add_run, add_report, add_check, add_manuals, add_converge, add_swap, add_dynamics, add_compare,
-                         add_rerun, add_export, add_approve, add_test, add_new}) {
+  for (const auto add : {add_run, add_report, add_check, add_manuals, add_converge, add_swap, add_dynamics, add_figure,
+                         add_compare, add_rerun, add_export, add_approve, add_test, add_new}) {
     add(commands);
   }
   if (!read_command_line(app, {argv + std::min(argc, 1), argv + argc})) return 0;

@@ -9,7 +9,6 @@
 #include "app/stored_scenario.h"
 #include "core/errors.h"
 #include "core/recording/atomic_file.h"
-#include "core/recording/recording_file.h"
 #include "core/recording/run_files.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
@@ -51,14 +50,6 @@ double wall_time(const fs::path& folder) {
   return std::isfinite(seconds) && seconds >= 0 ? seconds : 0;
 }
 
-/// The scenario that the recording holds; where it holds none, as a CSV file alone, the resolved one of the folder.
-StoredScenario scenario_of(const std::string& run, const StoredRecording& read) {
-  if (read.origin.scenario.empty()) return stored_scenario(run);
-  const fs::path trace = trace_file(run);
-  const fs::path holds = trace.extension() == ".csv" ? trace.parent_path() / kBesideCsv : trace;
-  return {"", holds.string() + " (its scenario)", read.origin.scenario};
-}
-
 /// What a folder does not hold, told without naming it.
 std::vector<std::string> told_missing(std::vector<std::string> missing, const fs::path& trace) {
   for (std::string& sentence : missing) {
@@ -67,37 +58,14 @@ std::vector<std::string> told_missing(std::vector<std::string> missing, const fs
   return missing;
 }
 
-/// InputError where the recording cannot be one of the scenario: only of files that somebody made up.
-void check_fit(const std::string& run, const Scenario& scenario, const Recording& recording) {
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(SourceLocation{run}, "its recording does not fit its scenario: " + what +
-                                              "; one of the two files is of another run: put it back, or simulate again");
-  };
-  const std::size_t joints = scenario.robot->joints.size();
-  if (recording.joints.size() != joints) refuse(fmt::format("{} joints, {} in the scenario", recording.joints.size(), joints));
-  const std::size_t places = recording.worst.source == Stability::Source::contact
-                                 ? contact_elements(*scenario.robot, scenario.contact.on).size()
-                                 : joints;
-  if (recording.worst.rate > 0 && recording.worst.index >= places) refuse("stability.index is beyond its joints and contacts");
-  bool whole = recording.has_states(*scenario.robot);
-  for (const char* column : {"com.x", "com.y", "com.z"}) whole = whole && !recording.series(column).empty();
-  for (std::size_t j = 0; j < joints && scenario.actuator.entry != nullptr; ++j) {
-    for (const char* quantity : {"setpoint", "torque"}) whole = whole && !recording.joint(j, quantity).empty();
-  }
-  if (!whole && recording.rows() > 0) refuse("columns that every recording has are not there");
-}
-
 int report(const ReportArguments& arguments) {
   const fs::path trace = trace_file(arguments.run);
   const fs::path folder = trace.parent_path();
   if (arguments.page) check_page(*arguments.page, folder / kPageFile);
-  StoredRecording read = read_recording(arguments.run);
-  Recording& recording = read.recording;
-  const StoredScenario stored = scenario_of(arguments.run, read);
   Catalog catalog = standard_catalog();
-  Scenario scenario = read_stored(stored, catalog, OtherPlugins::taken);
+  auto [read, scenario] = read_run(arguments.run, catalog);
+  Recording& recording = read.recording;
   draw_joints(scenario, arguments.joints);
-  if (read.missing.empty()) check_fit(arguments.run, scenario, recording);
   if (arguments.out && !read.missing.empty()) {
     throw InputError(
         SourceLocation{arguments.run},

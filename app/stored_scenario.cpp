@@ -113,4 +113,43 @@ Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugin
   return stored.file.empty() ? read_inside(stored, sets, catalog) : read_scenario(stored.file, sets, catalog);
 }
 
+namespace {
+
+/// The scenario that the recording holds; where it holds none, as a CSV file alone, the resolved one of the folder.
+StoredScenario scenario_of(const std::string& run, const StoredRecording& read) {
+  if (read.origin.scenario.empty()) return stored_scenario(run);
+  const fs::path trace = trace_file(run);
+  const fs::path holds = trace.extension() == ".csv" ? trace.parent_path() / kBesideCsv : trace;
+  return {"", holds.string() + " (its scenario)", read.origin.scenario};
+}
+
+/// InputError where the recording cannot be one of the scenario: only of files that somebody made up.
+void check_fit(const std::string& run, const Scenario& scenario, const Recording& recording) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(SourceLocation{run}, "its recording does not fit its scenario: " + what +
+                                              "; one of the two files is of another run: put it back, or simulate again");
+  };
+  const std::size_t joints = scenario.robot->joints.size();
+  if (recording.joints.size() != joints) refuse(fmt::format("{} joints, {} in the scenario", recording.joints.size(), joints));
+  const std::size_t places = recording.worst.source == Stability::Source::contact
+                                 ? contact_elements(*scenario.robot, scenario.contact.on).size()
+                                 : joints;
+  if (recording.worst.rate > 0 && recording.worst.index >= places) refuse("stability.index is beyond its joints and contacts");
+  bool whole = recording.has_states(*scenario.robot);
+  for (const char* column : {"com.x", "com.y", "com.z"}) whole = whole && !recording.series(column).empty();
+  for (std::size_t j = 0; j < joints && scenario.actuator.entry != nullptr; ++j) {
+    for (const char* quantity : {"setpoint", "torque"}) whole = whole && !recording.joint(j, quantity).empty();
+  }
+  if (!whole && recording.rows() > 0) refuse("columns that every recording has are not there");
+}
+
+}  // namespace
+
+StoredRun read_run(const std::string& run, Catalog& catalog) {
+  StoredRecording stored = read_recording(run);
+  Scenario scenario = read_stored(scenario_of(run, stored), catalog, OtherPlugins::taken);
+  if (stored.missing.empty()) check_fit(run, scenario, stored.recording);
+  return {std::move(stored), std::move(scenario)};
+}
+
 }  // namespace gaitlab::app

@@ -1,8 +1,9 @@
-// The scenario of a run, read back from its folder alone.
+// A run and its scenario, read back from its folder alone.
 #pragma once
 #include <string>
 #include <vector>
 
+#include "core/recording/recording_file.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab::app {
@@ -28,5 +29,15 @@ enum class OtherPlugins { refused, taken };
 
 /// Reads it. InputError with places in `shown`.
 Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugins others);
+
+/// A run as it lies in its folder.
+struct StoredRun {
+  StoredRecording stored;
+  Scenario scenario;  ///< of the recording; where that holds none, as a CSV file alone, the resolved one of the folder
+};
+
+/// Reads it, with whatever plugins are there now. InputError: see read_recording and read_stored; a recording that cannot be
+/// one of the scenario (where nothing of it is missing).
+StoredRun read_run(const std::string& run, Catalog& catalog);
 
 }  // namespace gaitlab::app

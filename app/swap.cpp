@@ -12,7 +12,8 @@
 #include "core/simulation/batch.h"
 #include "golden/report.h"
 #include "report/coincide.h"
-#include "report/swap_table.h"
+#include "report/page.h"
+#include "report/swap_page.h"
 
 namespace gaitlab::app {
 
@@ -22,6 +23,7 @@ struct SwapArguments : ScenarioArguments {
   std::string cpgs;                ///< types, with commas between
   std::optional<std::string> out;  ///< folder of figure and numbers
   int jobs = 1;                    ///< threads
+  bool report = false;             ///< also a page of every run, and one of all
 };
 
 constexpr double kShown = 8;  // s, of set point and torque: their last
@@ -32,6 +34,7 @@ struct Swapped {
   std::vector<std::string> notes = {};
   Recording record = {};
   report::Summary summary = {};
+  report::Verdict verdict = {};
 };
 
 /// The CPG that the scenario has, which keeps what --set says of its model.
@@ -110,6 +113,8 @@ void run_all(std::vector<Swapped>& all, int jobs) {
   run_batch(scenarios, {.threads = jobs}, [&](std::size_t i, Recording&& recording) {
     all[i].record = std::move(recording);
     all[i].summary = report::summarise(*all[i].scenario, all[i].record, 0);
+    all[i].verdict =
+        report::verdict(*all[i].scenario, all[i].record, all[i].summary, report::overlaps(*all[i].scenario, all[i].record));
   });
 }
 
@@ -159,6 +164,24 @@ report::CurvesInput figure(const std::vector<Swapped>& all) {
   return input;
 }
 
+void print_verdicts(const std::vector<Swapped>& all) {
+  for (const Swapped& one : all) {
+    const auto first = std::ranges::find(one.verdict.checks, report::CheckStatus::fail, &report::Check::status);
+    fmt::print("{}: {}{}\n", one.cpg, one.verdict.word, first == one.verdict.checks.end() ? "" : ": " + first->text);
+  }
+}
+
+/// A page of every run, CPG.html, and swap.html, which leads to them.
+void write_pages(const std::vector<Swapped>& all, const std::filesystem::path& folder) {
+  std::vector<report::SwapEntry> entries;
+  for (const Swapped& one : all) {
+    entries.push_back({{one.cpg, {*one.scenario, one.record, one.summary}}, one.verdict, one.cpg + ".html"});
+    write_file(folder / entries.back().page,
+               report::page(report::page_data(*one.scenario, one.record, one.summary, one.verdict, {})));
+  }
+  write_file(folder / "swap.html", report::swap_page(all.front().scenario->name, entries));
+}
+
 void print_coinciding(const std::vector<Swapped>& all, const report::CurvesInput& shown) {
   const Scenario& first = *all.front().scenario;
   for (const std::vector<std::size_t>& group : shown.coincide) {
@@ -177,13 +200,16 @@ int swap_cpgs(const SwapArguments& arguments) {
   const std::vector<report::NamedRun> runs = named_runs(all);
   const report::CurvesInput shown = figure(all);
   fmt::print("{}: {:g} s under each\n{}", first.name, first.duration, report::swap_table(runs));
+  print_verdicts(all);
   print_coinciding(all, shown);
   write_file(folder.path() / "overlay.svg", report::curves_svg(shown));
   write_file(folder.path() / "swap.csv", report::swap_csv(runs));
   write_file(folder.path() / "swap.json", report::swap_json(runs));
+  if (arguments.report) write_pages(all, folder.path());
   folder.keep();
   fmt::print("figure: {}\n", (folder.path() / "overlay.svg").string());
   fmt::print("numbers: {}, swap.json\n", (folder.path() / "swap.csv").string());
+  if (arguments.report) fmt::print("pages: {}, and one per CPG\n", (folder.path() / "swap.html").string());
   const bool broke_off = std::any_of(all.begin(), all.end(), [](const Swapped& s) { return s.summary.outcome != "done"; });
   return broke_off ? 1 : 0;
 }
@@ -200,6 +226,8 @@ void add_swap(Commands& commands) {
                         "types of the CPGs, separated by commas; their common keys are kept, `model` gets its defaults")
             ->required();
         command.add_option("--out", arguments.out, "folder of figure and numbers (default runs/swap-NAME); new or empty");
+        command.add_flag("--report", arguments.report,
+                         "also write a page per CPG, and swap.html, which shows them side by side");
         command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));
       });
 }

@@ -6,6 +6,7 @@
 
 #include "bench/results.h"
 #include "report/axes.h"
+#include "report/svg.h"
 
 namespace gaitlab::versus {
 

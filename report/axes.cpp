@@ -99,17 +99,17 @@ TwinTicks twin_ticks(double a_lo, double a_hi, double b_lo, double b_hi) {
   return least_waste > kMostWaste ? own : best;
 }
 
-std::vector<Point> thinned(const std::vector<Point>& points) {
+std::vector<Point> thinned(const std::vector<Point>& points, double cell) {
   if (points.size() < 4) return points;
-  if (static_cast<double>(points.size()) <= 2 * (points.back().x - points.front().x)) return points;
+  if (static_cast<double>(points.size()) <= 2 * (points.back().x - points.front().x) / cell) return points;
   std::vector<Point> kept;
   for (std::size_t first = 0; first < points.size();) {
-    const double pixel = std::floor(points[first].x);
+    const double pixel = std::floor(points[first].x / cell);
     std::size_t low = first;
     std::size_t high = first;
     std::size_t next = first;
     // A point that is not finite ends its pixel and is kept: the line is broken there.
-    for (; next < points.size() && std::floor(points[next].x) == pixel && std::isfinite(points[next].y); ++next) {
+    for (; next < points.size() && std::floor(points[next].x / cell) == pixel && std::isfinite(points[next].y); ++next) {
       if (points[next].y < points[low].y) low = next;
       if (points[next].y > points[high].y) high = next;
     }

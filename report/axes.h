@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "report/svg.h"
+#include "report/canvas.h"
 
 namespace gaitlab::report {
 
@@ -45,8 +45,8 @@ struct Scale {
   [[nodiscard]] double operator()(double value) const { return from + (value - lo) / (hi - lo) * (to - from); }
 };
 
-/// At most two points a px of width: the lowest and highest of each px, in their order, so that peaks survive. `points` in px,
-/// by rising x.
-std::vector<Point> thinned(const std::vector<Point>& points);
+/// At most two points per `cell` of width (px): the lowest and highest of each, in their order, so that peaks survive. `points`
+/// in px, by rising x.
+std::vector<Point> thinned(const std::vector<Point>& points, double cell = 1);
 
 }  // namespace gaitlab::report

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "report/envelope.h"
 #include "report/fall.h"
 #include "report/motors.h"
 #include "report/verdict.h"
@@ -16,14 +17,14 @@ struct CheckedRun {
   const Recording& record;
   const Summary& summary;
   const Overlaps& overlaps;
-  std::vector<Drive> drives = report::drives(scenario);
+  Motors motors = report::motors(scenario, 0);
   bool has_dc_motors = report::dc_motors(scenario);
   std::string motor_source = report::motor_source(scenario);
   std::optional<Fall> fall = report::fall(scenario, record);
 
   [[nodiscard]] const std::string& joint(std::size_t j) const { return scenario.robot->joints[j].name; }
   [[nodiscard]] const Limits& limits() const { return scenario.limits; }
-  [[nodiscard]] bool driven() const { return !drives.empty() && !record.joints.empty(); }
+  [[nodiscard]] bool driven() const { return !motors.of_joint.empty() && !record.joints.empty(); }
   /// Why what all steps did cannot be judged; empty: it can.
   [[nodiscard]] std::string no_steps() const;
 };

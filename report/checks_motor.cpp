@@ -52,7 +52,7 @@ Span longest_span(const Recording& record, std::size_t joint, TickColumn limited
 std::string unstated(const CheckedRun& run, MotorLimit limit, double share) {
   if (share > 0 || run.has_dc_motors) return "";
   if (limit == MotorLimit::voltage) return "the actuator is not made of DC motors, and states no voltage";
-  const bool limited = std::ranges::all_of(run.drives, [](const Drive& drive) { return std::isfinite(drive.rest); });
+  const bool limited = std::ranges::all_of(run.motors.kinds, [](const Envelope& motor) { return motor.command.has_value(); });
   return limited ? "" : "the actuator states no limit";
 }
 
@@ -146,7 +146,7 @@ void current(const CheckedRun& run, Check& made) {
 void envelope(const CheckedRun& run, Check& made) {
   rated(run, made, "the actuator states no limit", run.limits().margin, kNever, [&](std::size_t j) {
     const JudgedJoint& joint = run.summary.judged.joints[j];
-    return Rated{joint.envelope_peak, std::isfinite(run.drives[j].rest) ? 1.0 : 0.0, joint.envelope_peak_time};
+    return Rated{joint.envelope_peak, run.motors.joint(j).command ? 1.0 : 0.0, joint.envelope_peak_time};
   });
   if (made.status == CheckStatus::not_judged) return;
   made.limit = run.limits().margin;
@@ -156,8 +156,8 @@ void envelope(const CheckedRun& run, Check& made) {
 
 void speed(const CheckedRun& run, Check& made) {
   const auto limit = [&](std::size_t j) {
-    const double stated = run.drives[j].ratings.speed;
-    return stated > 0 ? std::min(stated, run.drives[j].no_load) : run.drives[j].no_load;
+    const Envelope& motor = run.motors.joint(j);
+    return std::min(motor.speed_max.value_or(kNever), motor.no_load.value_or(kNever));
   };
   rated(run, made, "the actuator has torque at any speed, and nobody states the largest one", run.limits().margin, 1,
         [&](std::size_t j) {
@@ -172,7 +172,7 @@ void speed(const CheckedRun& run, Check& made) {
 void heat(const CheckedRun& run, Check& made) {
   rated(run, made, "nobody states the continuous current of the motors (actuator.i_continuous)", run.limits().margin, 1,
         [&](std::size_t j) {
-          return Rated{run.summary.judged.joints[j].current_rms, run.drives[j].ratings.current_continuous, kNoTime};
+          return Rated{run.summary.judged.joints[j].current_rms, run.motors.joint(j).continuous.value_or(0), kNoTime};
         });
   if (made.status == CheckStatus::not_judged) return;
   made.text = fmt::format("the motor of joint {} takes {:.3g} A RMS, {} of what it bears for good", made.joint, made.value,
@@ -183,7 +183,7 @@ void gear_peak(const CheckedRun& run, Check& made) {
   rated(run, made, "nobody states the largest torque of the gears (actuator.gear_torque_peak)", run.limits().margin, 1,
         [&](std::size_t j) {
           const JudgedJoint& joint = run.summary.judged.joints[j];
-          return Rated{joint.torque_peak, run.drives[j].ratings.torque_peak, joint.torque_peak_time};
+          return Rated{joint.torque_peak, run.motors.joint(j).gear_peak.value_or(0), joint.torque_peak_time};
         });
   if (made.status == CheckStatus::not_judged) return;
   made.text = fmt::format("the gear of joint {} takes up to {:.3g} N m of {:.3g} N m", made.joint, made.value, made.limit);
@@ -192,7 +192,7 @@ void gear_peak(const CheckedRun& run, Check& made) {
 void gear_continuous(const CheckedRun& run, Check& made) {
   rated(run, made, "nobody states the continuous torque of the gears (actuator.gear_torque_continuous)", run.limits().margin, 1,
         [&](std::size_t j) {
-          return Rated{run.summary.judged.joints[j].torque_rms, run.drives[j].ratings.torque_continuous, kNoTime};
+          return Rated{run.summary.judged.joints[j].torque_rms, run.motors.joint(j).gear_continuous.value_or(0), kNoTime};
         });
   if (made.status == CheckStatus::not_judged) return;
   made.text = fmt::format("the gear of joint {} takes {:.3g} N m RMS of {:.3g} N m", made.joint, made.value, made.limit);

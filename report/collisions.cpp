@@ -7,6 +7,7 @@
 
 #include "core/model/kinematics.h"
 #include "report/convex.h"
+#include "report/states.h"
 
 namespace gaitlab::report {
 
@@ -169,9 +170,10 @@ Overlaps overlaps(const Scenario& scenario, const Recording& r) {
   Search search(robot, pieces, scenario.limits);
   Kinematics k(robot);
   Row there(pieces);
+  const States states(r, robot);
   for (std::size_t row = 0; row < r.rows(); ++row) {
     const double time = std::min(static_cast<double>(row) * scenario.trace.period, r.simulated);
-    k.update(robot, r.state(robot, row));
+    k.update(robot, states(row));
     there.set(k);
     search.collide(there, time);
     if (scenario.ground.kind == Ground::Kind::plane) search.sink(there, time);

@@ -6,14 +6,16 @@
 #include <array>
 
 #include "report/coincide.h"
+#include "report/legend.h"
 #include "report/panel.h"
+#include "report/svg.h"
 
 namespace gaitlab::report {
 
 namespace {
 
 constexpr double kLeft = 90, kRight = 970;  // px
-constexpr double kLegendLine = 24, kHead = 30, kHeight = 190, kFoot = 52;
+constexpr double kHead = 30, kHeight = 190, kFoot = 52;
 
 struct CurveStyle {
   std::string_view colour;
@@ -48,20 +50,9 @@ double end_of(const CurvesInput& input) {
 
 /// Draws the legend, or only measures it: the y below it.
 double legend(Svg* svg, const CurvesInput& input, const std::vector<CurveStyle>& styles) {
-  double x = kLeft;
-  double y = kTitleHeight + 10;
-  for (std::size_t run = 0; run < input.names.size(); ++run) {
-    const double width = 46 + text_width(input.names[run], 13) + 24;
-    if (x > kLeft && x + width > kRight) {
-      x = kLeft;
-      y += kLegendLine;
-    }
-    if (svg != nullptr) {
-      svg->line({x, y - 4.5}, {x + 38, y - 4.5}, styles[run].style());
-      svg->text({x + 46, y}, input.names[run]);
-    }
-    x += width;
-  }
+  std::vector<LegendEntry> entries;
+  for (std::size_t run = 0; run < input.names.size(); ++run) entries.push_back({input.names[run], styles[run].style()});
+  double y = draw_legend(svg, entries, kLeft, kRight, kTitleHeight + 10);
   for (const std::vector<std::size_t>& group : input.coincide) {
     y += kLegendLine;
     if (svg != nullptr) svg->text({kLeft, y}, "coincide: " + run_names(group, input.names));

@@ -54,6 +54,8 @@ class FullCommand {
   std::vector<double> limit_, torque_;
 };
 
+std::optional<double> stated(double rating) { return rating > 0 ? std::optional(rating) : std::nullopt; }
+
 std::optional<double> finite(double value) { return std::isfinite(value) ? std::optional(value) : std::nullopt; }
 
 /// rad/s, of every joint: where the torque along + comes down to 0. None: it does not.
@@ -96,8 +98,15 @@ Motors motors(const Scenario& scenario, double fastest) {
   const std::vector<std::optional<double>> no_load = no_load_speeds(full, joints);
   std::vector<Envelope> of_joint(joints);
   const std::vector<double> rest = full.torques(1, std::vector<double>(joints, 0.0));
+  const std::span<const DriveRatings> ratings = actuator->ratings();
   for (std::size_t j = 0; j < joints; ++j) {
     of_joint[j].unit = actuator->command_unit();
+    if (!ratings.empty()) {
+      of_joint[j].continuous = stated(ratings[j].current_continuous);
+      of_joint[j].gear_peak = stated(ratings[j].torque_peak);
+      of_joint[j].gear_continuous = stated(ratings[j].torque_continuous);
+      of_joint[j].speed_max = stated(ratings[j].speed);
+    }
     if (!std::isfinite(full.limit(j))) continue;
     of_joint[j].command = full.limit(j);
     of_joint[j].rest = finite(rest[j]);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "core/model/kinematics.h"
+#include "report/states.h"
 
 namespace gaitlab::report {
 
@@ -17,41 +19,56 @@ struct Pressed {
   Series fn, fx, fy, fz;
 };
 
-/// Where the ground meets an element: its deepest point. Boxes may have moved, and are looked for nowhere.
+/// Where the ground meets an element: its deepest point. Boxes that move are asked nowhere.
 Vec3 meeting_point(const Scenario& scenario, const ContactElement& element, const Vec3& centre) {
   if (scenario.ground.kind == Ground::Kind::none || scenario.contact.moves_boxes())
     return centre - element.radius * Vec3::UnitZ();
   return scenario.ground.query(centre, element.radius).point;
 }
 
-Foot foot_of(const Scenario& scenario, const Recording& r, std::size_t body, const std::vector<Pressed>& elements,
-             Kinematics& k) {
-  const Robot& robot = *scenario.robot;
-  Foot foot{robot.bodies[body].name, robot.bodies[body].module, body, {}, {}, {}, {}, {}, {}};
-  Vec3 centre = Vec3::Zero();
-  for (std::size_t row = 0; row < r.rows(); ++row) {
-    Vec3 force = Vec3::Zero();
-    double normal = 0;
-    for (const Pressed& one : elements) {
-      force += Vec3(one.fx[row], one.fy[row], one.fz[row]);
-      normal += one.fn[row];
-    }
-    if (normal > 0 || row == 0) {
-      k.update(robot, r.state(robot, row));
-      centre = normal > 0 ? Vec3(Vec3::Zero()) : k.point(robot.bodies[body].link, robot.bodies[body].in_link.p);
-      for (const Pressed& one : elements) {
-        const ContactElement& element = one.element;
-        if (!(one.fn[row] > 0)) continue;
-        centre += one.fn[row] / normal * meeting_point(scenario, element, k.point(element.link, element.centre));
-      }
-    }
-    foot.fx.push_back(force.x());
-    foot.fy.push_back(force.y());
-    foot.fz.push_back(force.z());
-    foot.x.push_back(centre.x());
-    foot.y.push_back(centre.y());
-    foot.z.push_back(centre.z());
+void add_row(Foot& foot, const Scenario& scenario, const std::vector<Pressed>& elements, const Kinematics& k, std::size_t row) {
+  Vec3 force = Vec3::Zero();
+  Vec3 moment = Vec3::Zero();
+  double normal = 0;
+  for (const Pressed& one : elements) {
+    force += Vec3(one.fx[row], one.fy[row], one.fz[row]);
+    if (!(one.fn[row] > 0)) continue;
+    normal += one.fn[row];
+    moment += one.fn[row] * meeting_point(scenario, one.element, k.point(one.element.link, one.element.centre));
   }
+  const Body& body = scenario.robot->bodies[foot.body];
+  Vec3 point = k.point(body.link, body.in_link.p);
+  if (row > 0) point = {foot.x.back(), foot.y.back(), foot.z.back()};
+  if (normal > 0) point = moment / normal;
+  foot.fx.push_back(force.x());
+  foot.fy.push_back(force.y());
+  foot.fz.push_back(force.z());
+  foot.x.push_back(point.x());
+  foot.y.push_back(point.y());
+  foot.z.push_back(point.z());
+}
+
+Foot unloaded(const Robot& robot, std::size_t body) {
+  Foot foot;
+  foot.name = robot.bodies[body].name;
+  foot.module = robot.bodies[body].module;
+  foot.body = body;
+  return foot;
+}
+
+/// Of a body that `loads` knows.
+Foot loaded(const Robot& robot, std::size_t body, const Trace& loads) {
+  Foot foot = unloaded(robot, body);
+  const auto take = [&](const char* quantity, std::vector<double>& into) {
+    const std::size_t column = loads.find(fmt::format("foot.{}.{}", foot.name, quantity));
+    if (column < loads.columns.size() && loads.rows() > 0) into = Series(loads, column).values();
+  };
+  take("fx", foot.fx);
+  take("fy", foot.fy);
+  take("fz", foot.fz);
+  take("x", foot.x);
+  take("y", foot.y);
+  take("z", foot.z);
   return foot;
 }
 
@@ -62,12 +79,12 @@ bool carries(const Foot& foot) {
 
 }  // namespace
 
-std::vector<Foot> feet(const Scenario& scenario, const Recording& r) {
+std::vector<Foot> feet(const Scenario& scenario, const Recording& r, const Trace& loads) {
   const Robot& robot = *scenario.robot;
   std::map<std::size_t, std::vector<Pressed>> of_body;
   std::map<std::size_t, std::size_t> first_of_module;
   const std::vector<ContactElement> elements = contact_elements(robot, scenario.contact.on);
-  bool whole = r.has_states(robot);
+  bool whole = !elements.empty() && r.has_states(robot);
   for (std::size_t c = 0; c < elements.size(); ++c) {
     const auto column = [&](const char* name) { return r.series(fmt::format("contact.{}.{}", c, name)); };
     const Pressed one{elements[c], column("fn"), column("fx"), column("fy"), column("fz")};
@@ -76,13 +93,21 @@ std::vector<Foot> feet(const Scenario& scenario, const Recording& r) {
     first_of_module.emplace(robot.bodies[elements[c].body].module, elements[c].body);
   }
   std::vector<Foot> found;
-  Kinematics k(robot);
-  for (const auto& [body, pressed] : of_body) {
-    if (whole) found.push_back(foot_of(scenario, r, body, pressed, k));
-  }
-  for (const auto& [module, body] : first_of_module) {
-    const Series load = r.series(fmt::format("load.{}", module));
-    if (!whole && !load.empty()) found.push_back({robot.bodies[body].name, module, body, {}, {}, load.values(), {}, {}, {}});
+  if (whole) {
+    for (const auto& entry : of_body) found.push_back(unloaded(robot, entry.first));
+    const States states(r, robot);
+    Kinematics k(robot);
+    for (std::size_t row = 0; row < r.rows(); ++row) {
+      k.update(robot, states(row));
+      for (Foot& foot : found) add_row(foot, scenario, of_body[foot.body], k, row);
+    }
+  } else if (loads.rows() > 0) {
+    for (const auto& entry : of_body) found.push_back(loaded(robot, entry.first, loads));
+  } else {
+    for (const auto& entry : first_of_module) {
+      found.push_back(unloaded(robot, entry.second));
+      found.back().fz = r.series(fmt::format("load.{}", entry.first)).values();
+    }
   }
   std::erase_if(found, [](const Foot& foot) { return !carries(foot); });
   return found;

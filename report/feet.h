@@ -8,18 +8,17 @@
 
 namespace gaitlab::report {
 
+/// A number for each row of the trace.
 struct Foot {
   std::string name;  ///< of the body
   std::size_t module = 0, body = 0;
-  /// N, of the ground on the robot, world axes, a number for each row. Without columns contact.* fz alone, of the normal forces
-  /// on all of the module's elements, as if the ground were level.
-  std::vector<double> fx, fy, fz;
-  /// m, world: where the sum of the normal forces acts; where there is none, the point before. Empty without columns contact.*.
-  std::vector<double> x, y, z;
+  std::vector<double> fx, fy, fz;  ///< N, of the ground on the robot, world axes
+  std::vector<double> x, y, z;     ///< m, world: where the normal forces act; without any, the point before
 };
 
-/// Those that ever carry load: bodies with contact elements, by their numbers; without columns contact.* modules, each by the
-/// first of its bodies that has any.
-std::vector<Foot> feet(const Scenario& scenario, const Recording& record);
+/// Bodies with contact elements that ever carry load, by their numbers: from the columns contact.*, or else from `loads`
+/// (loads_at_rows). Without either modules with contact elements, each by the first of its bodies that has any: then fz alone
+/// is known, from load.*, as if the ground were level.
+std::vector<Foot> feet(const Scenario& scenario, const Recording& record, const Trace& loads);
 
 }  // namespace gaitlab::report

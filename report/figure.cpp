@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "report/panel.h"
+#include "report/svg.h"
 #include "report/views.h"
 
 namespace gaitlab::report {
@@ -262,8 +263,9 @@ std::string figure_svg(const FigureInput& input) {
   constexpr double kChart = kChartTop + kChartHeight + kChartFoot;
   const bool footfalls = !input.footfalls.empty() && !input.time.empty();
   const double footfall_top = kTitleHeight + kChart * static_cast<double>(charts.size());
+  const Edges edges{left_edge(input), kRight};
   const double views_top = footfall_top + (footfalls ? footfall_height(input.footfalls.size()) : 0);
-  Svg svg(kWidth, views_top + (input.views.empty() ? 0 : views_height(input) + 8));
+  Svg svg(kWidth, views_top + (input.views.empty() ? 0 : views_height(input, edges) + 8));
   title(svg, input.title);
   for (std::size_t i = 0; i < charts.size(); ++i) {
     const double top = kTitleHeight + kChart * static_cast<double>(i) + kChartTop;
@@ -271,9 +273,10 @@ std::string figure_svg(const FigureInput& input) {
   }
   if (footfalls) {
     const Ticks time = shown_time(input.time);
-    draw_footfalls(svg, input.footfalls, input.footfall_note, time, {time.lo, time.hi, kLeftOfNames, kRight}, footfall_top);
+    draw_footfalls(svg, {input.footfalls, "footfall", input.footfall_note}, time, {time.lo, time.hi, kLeftOfNames, kRight},
+                   footfall_top);
   }
-  if (!input.views.empty()) draw_views(svg, input, views_top);
+  if (!input.views.empty()) draw_views(svg, input, edges, views_top);
   return svg.finish();
 }
 

@@ -39,6 +39,8 @@ struct FigureInput {
   std::vector<Polygon> solids = {};      ///< what stands on the ground, m, in the plane of the view; drawn within its x range
   bool ground = true;                    ///< a plane at height 0; without it every view is centred on the robot
   std::string views_title = {};          ///< instead of `side view (arrow: joint above)`
+  bool views_legend = true;
+  bool minus = false;  ///< real minus signs on the axis of the views
   std::string views_axis = "x (m), heights on the same scale";
 };
 

@@ -8,8 +8,8 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kNoteHeight = 30, kRow = 24, kBar = 12, kAxisHeight = 26;  // px
-constexpr double kGapSeen = 0.6;  // px: a foot that bounces within it looks as if it stood, and the file stays small
+constexpr double kRow = 24, kBar = 12;  // px
+constexpr double kGapSeen = 0.6;        // px: a foot that bounces within it looks as if it stood, and the file stays small
 
 std::string place_on_side(std::size_t rank, std::size_t count) {
   if (rank == 0) return "front";
@@ -18,9 +18,9 @@ std::string place_on_side(std::size_t rank, std::size_t count) {
   return fmt::format("{}{}", rank + 1, rank == 1 ? "nd" : rank == 2 ? "rd" : "th");
 }
 
-void draw_bars(Svg& svg, const Footfall& row, const Scale& x, double y) {
+void draw_bars(Canvas& canvas, const Footfall& row, const Scale& x, double y) {
   const auto bar = [&](double from, double to) {
-    if (to > from) svg.rectangle({from, y - kBar / 2}, to - from, kBar, {.fill = colour::kInk});
+    if (to > from) canvas.rectangle({from, y - kBar / 2}, to - from, kBar, {.fill = colour::kInk});
   };
   double from = x.from;
   double to = x.from;
@@ -69,22 +69,22 @@ std::vector<std::string> leg_names(const std::vector<Leg>& legs) {
   return names;
 }
 
-double footfall_height(std::size_t rows) { return kNoteHeight + kRow * static_cast<double>(rows) + kAxisHeight; }
+double footfall_height(std::size_t rows) { return kFootfallHead + kRow * static_cast<double>(rows) + kFootfallFoot; }
 
-void draw_footfalls(Svg& svg, const std::vector<Footfall>& rows, const std::string& note, const Ticks& time, const Scale& x,
-                    double top) {
-  const double first = top + kNoteHeight;
+void draw_footfalls(Canvas& canvas, const FootfallDiagram& diagram, const Ticks& time, const Scale& x, double top) {
+  const std::vector<Footfall>& rows = diagram.rows;
+  const double first = top + kFootfallHead;
   const double bottom = first + kRow * static_cast<double>(rows.size());
-  svg.text({x.from, top + 18}, "footfall", {.bold = true});
-  svg.text({x.to + 8 + text_width("0.00", 13), top + 18}, note, {.anchor = Anchor::end});
-  for (const double t : time.values()) svg.line({x(t), first}, {x(t), bottom}, kGridLine);
+  if (!diagram.title.empty()) canvas.text({x.from, top + 18}, diagram.title, {.bold = true});
+  if (!diagram.note.empty()) canvas.text({x.to + 8 + text_width("0.00", 13), top + 18}, diagram.note, {.anchor = Anchor::end});
+  for (const double t : time.values()) canvas.line({x(t), first}, {x(t), bottom}, kGridLine);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double y = first + kRow * (static_cast<double>(i) + 0.5);
-    svg.text({x.from - 8, y + 4.5}, rows[i].name, {.size = 12, .anchor = Anchor::end});
-    draw_bars(svg, rows[i], x, y);
-    svg.text({x.to + 8, y + 4.5}, fmt::format("{:.2f}", rows[i].duty_factor));
+    canvas.text({x.from - 8, y + 4.5}, rows[i].name, {.size = diagram.name_size, .anchor = Anchor::end});
+    draw_bars(canvas, rows[i], x, y);
+    canvas.text({x.to + 8, y + 4.5}, fmt::format("{:.2f}", rows[i].duty_factor));
   }
-  svg.rectangle({x.from, first}, x.to - x.from, bottom - first, kAxisLine);
+  canvas.rectangle({x.from, first}, x.to - x.from, bottom - first, kAxisLine);
 }
 
 }  // namespace gaitlab::report

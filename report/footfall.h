@@ -34,10 +34,16 @@ std::vector<std::string> leg_names(const std::vector<Leg>& legs);
 
 /// Of a diagram with so many rows, px.
 double footfall_height(std::size_t rows);
+inline constexpr double kFootfallHead = 30, kFootfallFoot = 26;  ///< px of it, above and below the rows
 
-/// Draws one row per leg below `top` (px): its name, a bar for each stance within `time`, its duty factor. `note` ends over the
-/// duty factors. `x` maps s to px; `time` has the lines of the panel above, whose axis serves both.
-void draw_footfalls(Svg& svg, const std::vector<Footfall>& rows, const std::string& note, const Ticks& time, const Scale& x,
-                    double top);
+struct FootfallDiagram {
+  const std::vector<Footfall>& rows;
+  std::string title = {}, note = {};  ///< above the rows, at the left and over the duty factors
+  double name_size = 12;              ///< px
+};
+
+/// Draws one row per leg below `top` (px): its name, a bar for each stance within `time`, its duty factor. `x` maps s to px;
+/// `time` has the lines of the panel above, whose axis serves both.
+void draw_footfalls(Canvas& canvas, const FootfallDiagram& diagram, const Ticks& time, const Scale& x, double top);
 
 }  // namespace gaitlab::report

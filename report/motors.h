@@ -1,20 +1,12 @@
-// What the drives of a robot have, whichever actuator holds them.
+// What the motors of a robot have at rest, and who says so. At every speed: envelope.h.
 #pragma once
+#include <memory>
 #include <vector>
 
+#include "core/plugin/actuator.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab::report {
-
-/// Of one joint, as its actuator answers.
-struct Drive {
-  double rest = 0;       ///< N m: the largest torque at rest; infinite: the actuator states no limit
-  double no_load = 0;    ///< rad/s: where that torque has come to 0; infinite: it never does
-  DriveRatings ratings;  ///< 0: not stated
-};
-
-/// Of every joint; empty where nothing drives joints.
-std::vector<Drive> drives(const Scenario& scenario);
 
 /// Whether the drives are DC motors, which have a voltage and a current.
 bool dc_motors(const Scenario& scenario);
@@ -29,5 +21,19 @@ std::string motor_source(const Scenario& scenario);
 
 /// Whether a source says that its figures are chosen, not a maker's.
 bool chosen(const std::string& source);
+
+/// What the motors have at a speed, asked of the actuator: its effort at plus and minus its largest useful command.
+class AvailableTorque {
+ public:
+  explicit AvailableTorque(const Scenario& scenario);
+  /// Whether the actuator states a largest command for the joint; else nothing is known of it.
+  [[nodiscard]] bool known(std::size_t joint) const;
+  /// N m of every joint, at its speed (rad/s): the most along its axis, and the least (so against it).
+  void at(In speed, Out most, Out least) const;
+
+ private:
+  std::unique_ptr<Actuator> actuator_;
+  std::vector<double> most_, least_;  // commands; 0 where there is no limit
+};
 
 }  // namespace gaitlab::report

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "report/panel.h"
+#include "report/svg.h"
 
 namespace gaitlab::report {
 

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/scenario/resolved.h"
 #include "report/envelope.h"
 #include "report/harmonic.h"
+#include "report/loads.h"
 #include "report/numbers.h"
 #include "report/page_ground.h"
 #include "report/robot_tree.h"
@@ -74,7 +76,7 @@ Json motors_json(const Motors& motors) {
     all.push_back({{"unit", motor.unit},
                    {"command", known(motor.command)},
                    {"current", known(motor.current)},
-                   {"continuous", Json()},  // no module type states one yet
+                   {"continuous", known(motor.continuous)},
                    {"rest", known(motor.rest)},
                    {"no_load", known(motor.no_load)},
                    {"speed", motor.speed},
@@ -134,8 +136,9 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   const Robot& robot = *scenario.robot;
   const RobotTree tree(robot);
   const Motors motors = report::motors(scenario, fastest_joint(r));
-  const std::vector<Foot> feet = report::feet(scenario, r);
-  const std::vector<Signal> signals = report::signals(r, feet);
+  const Trace loads = loads_at_rows(r);
+  const std::vector<Foot> feet = report::feet(scenario, r, loads);
+  const std::vector<Signal> signals = report::signals(r, loads, feet, motors.kinds.empty() ? "" : motors.kinds[0].unit);
   std::size_t stride = 1;
   Packing packing = packed(signals, r.rows(), stride);
   std::string data = packing.text();
@@ -143,8 +146,7 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
     stride *= 2;
     packing = packed(signals, r.rows(), stride);
   }
-  if (const std::vector<std::string> columns = left_out(scenario, r); r.rows() > 1 && !columns.empty())
-    missing.push_back(fmt::format("trace.columns leaves out {}", fmt::join(columns, ", ")));
+  if (r.rows() > 1) std::ranges::move(left_out(scenario, signals), std::back_inserter(missing));
   if (stride > 1) {
     missing.push_back(fmt::format("every {} row is shown, to keep the page small; verdict and numbers are of all steps",
                                   stride == 2 ? "second" : fmt::format("{}th", stride)));

@@ -22,13 +22,6 @@ std::vector<Vec3> world_vertices(const Shape& shape, const Pose& body, const Cam
   return points;
 }
 
-Role role_of(const ModuleType& type, std::size_t body) {
-  for (const FaceType& face : type.faces) {
-    if (face.body == body) return face.gender == Gender::active ? Role::active : Role::passive;
-  }
-  return Role::link;
-}
-
 // Bodies of a planar robot differ in depth by rounding only, and must not change places for it from picture to picture.
 double rounded_depth(double depth) { return std::round(depth * 1e4); }
 

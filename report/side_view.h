@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "core/model/kinematics.h"
-#include "report/svg.h"
+#include "core/model/role.h"
+#include "report/canvas.h"
 
 namespace gaitlab::report {
 
@@ -13,9 +14,6 @@ struct Camera {
   [[nodiscard]] Point operator()(const Vec3& p) const { return {right.dot(p), up.dot(p)}; }
 };
 
-/// What a body is to the eye: the block that carries the active or the passive faces, or the link between them.
-enum class Role { active, link, passive, other };
-
 /// One body: convex polygons, counter-clockwise, m, in the plane of the view.
 struct Outline {
   std::vector<Polygon> polygons;
@@ -24,8 +22,7 @@ struct Outline {
 };
 
 /// One outline per body that has shapes, far to near (by mean depth; at the same depth the body whose front is nearer comes
-/// later), so that drawing them in this order covers what is hidden. Role: the gender of the body's first face, link without
-/// faces.
+/// later), so that drawing them in this order covers what is hidden.
 std::vector<Outline> side_view(const Robot& robot, const Kinematics& kinematics, const Camera& camera = {});
 
 /// A box that belongs to no robot, from the same side.

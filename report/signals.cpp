@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <span>
 
 namespace gaitlab::report {
 
@@ -11,33 +14,34 @@ namespace {
 
 /// Columns that are rounded alike.
 struct Quantity {
-  const char* pattern;
-  double quantum;      ///< the largest
-  bool fine = false;   ///< less for small magnitudes
-  bool spare = false;  ///< left out where it is 0 all the time
+  const char *pattern, *unit;  ///< nullptr: of the command
+  double quantum;              ///< the largest
+  bool fine = false;           ///< less for small magnitudes
+  bool spare = false;          ///< left out where it is 0 all the time
 };
 
-constexpr Quantity kQuantities[] = {{"t", 1e-6},
-                                    {"base.?", 2e-5},
-                                    {"base.q?", 1e-5},
-                                    {"com.?", 2e-5},
-                                    {"joint.*.setpoint", 1e-4},
-                                    {"joint.*.angle", 1e-4},
-                                    {"joint.*.speed", 1e-3, true},
-                                    {"joint.*.torque", 1e-3, true},
-                                    {"joint.*.stop_torque", 1e-3, true, true},
-                                    {"joint.*.voltage_command", 2e-3, true},
-                                    {"joint.*.voltage", 2e-3, true},
-                                    {"joint.*.current", 1e-3, true},
-                                    {"joint.*.saturation", 1},
-                                    {"dock.*.tension", 0.01, true},
-                                    {"dock.*.shear", 0.01, true},
-                                    {"dock.*.bending", 1e-3, true},
-                                    {"dock.*.torsion", 1e-3, true},
-                                    {"stability", 5e-4},
-                                    {"energy.*", 1e-3, true},
-                                    {"box.*.?", 2e-5},
-                                    {"box.*.q?", 1e-5}};
+// Units, too: a CSV file holds none.
+constexpr Quantity kQuantities[] = {{"t", "s", 1e-6},
+                                    {"base.?", "m", 2e-5},
+                                    {"base.q?", "", 1e-5},
+                                    {"com.?", "m", 2e-5},
+                                    {"joint.*.setpoint", "rad", 1e-4},
+                                    {"joint.*.angle", "rad", 1e-4},
+                                    {"joint.*.speed", "rad/s", 1e-3, true},
+                                    {"joint.*.torque", "N m", 1e-3, true},
+                                    {"joint.*.stop_torque", "N m", 1e-3, true, true},
+                                    {"joint.*.voltage_command", nullptr, 2e-3, true},
+                                    {"joint.*.voltage", "V", 2e-3, true},
+                                    {"joint.*.current", "A", 1e-3, true},
+                                    {"joint.*.saturation", "", 1},
+                                    {"dock.*.tension", "N", 0.01, true},
+                                    {"dock.*.shear", "N", 0.01, true},
+                                    {"dock.*.bending", "N m", 1e-3, true},
+                                    {"dock.*.torsion", "N m", 1e-3, true},
+                                    {"stability", "m", 5e-4},
+                                    {"energy.*", "J", 1e-3, true},
+                                    {"box.*.?", "m", 2e-5},
+                                    {"box.*.q?", "", 1e-5}};
 constexpr double kForce = 0.02;  // N, of feet
 constexpr double kPlace = 5e-4;  // m, of feet
 
@@ -56,17 +60,29 @@ void set_quanta(std::span<Signal> group, std::size_t rows, const Quantity& quant
   for (Signal& signal : group) signal.quantum = quantum_of(largest, quantity.quantum);
 }
 
-void add_columns(const Recording& r, const Quantity& quantity, std::vector<Signal>& all) {
+/// `dock.3.shear` of module 3 is `dock.2.shear` of a page: the first module has no dock.
+std::string page_name(const std::string& column) {
+  constexpr std::string_view kDock = "dock.";
+  if (!column.starts_with(kDock)) return column;
+  std::size_t module = 0;
+  const auto [end, error] = std::from_chars(column.data() + kDock.size(), column.data() + column.size(), module);
+  return error == std::errc() && module > 0 ? fmt::format("{}{}{}", kDock, module - 1, end) : column;
+}
+
+void add_columns(std::span<const Trace* const> tables, const Quantity& quantity, const std::string& command_unit,
+                 std::vector<Signal>& all) {
   const std::size_t first = all.size();
-  for (const Trace* table : {&r.trace, &r.rest}) {
+  const std::size_t rows = tables.front()->rows();
+  for (const Trace* table : tables) {
     for (std::size_t i = 0; i < table->columns.size() && table->rows() > 0; ++i) {
-      const Column& column = table->columns[i];
-      if (!glob(quantity.pattern, column.name)) continue;
-      Signal signal{column.name, column.unit, 1, {*table, i}, {}};
-      if (!quantity.spare || magnitude(signal, r.rows()) > 0) all.push_back(std::move(signal));
+      const std::string& name = table->columns[i].name;
+      if (!glob(quantity.pattern, name)) continue;
+      if (table != tables.front() && name == "t") continue;  // the same in every table
+      Signal signal{page_name(name), quantity.unit == nullptr ? command_unit : quantity.unit, 1, {*table, i}, {}};
+      if (!quantity.spare || magnitude(signal, rows) > 0) all.push_back(std::move(signal));
     }
   }
-  set_quanta(std::span(all).subspan(first), r.rows(), quantity);
+  set_quanta(std::span(all).subspan(first), rows, quantity);
 }
 
 void add_feet(const std::vector<Foot>& feet, std::size_t rows, std::vector<Signal>& all) {
@@ -79,7 +95,7 @@ void add_feet(const std::vector<Foot>& feet, std::size_t rows, std::vector<Signa
   add("fx", "N", &Foot::fx);
   add("fy", "N", &Foot::fy);
   add("fz", "N", &Foot::fz);
-  set_quanta(std::span(all).subspan(first), rows, {"", kForce, true});
+  set_quanta(std::span(all).subspan(first), rows, {"", "N", kForce, true});
   add("x", "m", &Foot::x);
   add("y", "m", &Foot::y);
   add("z", "m", &Foot::z);
@@ -87,9 +103,10 @@ void add_feet(const std::vector<Foot>& feet, std::size_t rows, std::vector<Signa
 
 }  // namespace
 
-std::vector<Signal> signals(const Recording& r, const std::vector<Foot>& feet) {
+std::vector<Signal> signals(const Recording& r, const Trace& loads, const std::vector<Foot>& feet,
+                            const std::string& command_unit) {
   std::vector<Signal> all;
-  for (const Quantity& quantity : kQuantities) add_columns(r, quantity, all);
+  for (const Quantity& quantity : kQuantities) add_columns(std::array{&r.trace, &r.rest, &loads}, quantity, command_unit, all);
   add_feet(feet, r.rows(), all);
   return all;
 }
@@ -106,25 +123,24 @@ Packing packed(const std::vector<Signal>& signals, std::size_t rows, std::size_t
   return packing;
 }
 
-std::vector<std::string> left_out(const Scenario& scenario, const Recording& r) {
-  const bool driven = scenario.actuator.entry != nullptr;
-  std::vector<const char*> shown;
+std::vector<std::string> left_out(const Scenario& scenario, const std::vector<Signal>& signals) {
+  const auto has = [&](const char* pattern) {
+    return std::ranges::any_of(signals, [&](const Signal& signal) { return glob(pattern, signal.name); });
+  };
+  std::vector<const char*> shown{"energy.*"};
   if (!scenario.robot->joints.empty()) shown.push_back("joint.*.speed");
-  if (!scenario.robot->joints.empty() && driven)
+  if (!scenario.robot->joints.empty() && scenario.actuator.entry != nullptr)
     shown.insert(shown.end(),
                  {"joint.*.setpoint", "joint.*.torque", "joint.*.voltage", "joint.*.current", "joint.*.saturation"});
-  if (scenario.ground.kind != Ground::Kind::none && !contact_elements(*scenario.robot, scenario.contact.on).empty())
-    shown.push_back("contact.*");
-  if (scenario.robot->modules.size() > 1 && !scenario.contact.solver()) shown.push_back("reaction.*");
-  shown.push_back("energy.*");
-  const auto has = [&](const char* pattern) {
-    const auto covers = [&](const Column& column) { return glob(pattern, column.name); };
-    return std::ranges::any_of(r.trace.columns, covers) || std::ranges::any_of(r.rest.columns, covers);
-  };
+  std::erase_if(shown, has);
   std::vector<std::string> missing;
-  for (const char* pattern : shown) {
-    if (!has(pattern)) missing.emplace_back(pattern);
+  if (!shown.empty()) missing.push_back(fmt::format("trace.columns leaves out {}", fmt::join(shown, ", ")));
+  if (!has("dock.*") && scenario.robot->modules.size() > 1) {
+    missing.emplace_back(scenario.contact.solver() ? "the loads of docks are not known under contact.law: bullet"
+                                                   : "the loads of docks were not recorded: the folder is of an older format");
   }
+  if (has("foot.*") && !has("foot.*.fx"))
+    missing.emplace_back("of feet the vertical load on their modules is known alone: the folder is of an older format");
   return missing;
 }
 

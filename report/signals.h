@@ -20,9 +20,10 @@ struct Signal {
 
 /// Time, pose of the base, centre of mass, joints, loads of docks, stability, energies and boxes, as far as the recording has
 /// them, then the feet, `foot.N.fx`. Stops that are never reached are left out. Quanta are those of docs/report.md; where a
-/// quantity is small in all joints, feet or docks, a thousandth of its largest magnitude. `record` and `feet` outlive the
-/// result.
-std::vector<Signal> signals(const Recording& record, const std::vector<Foot>& feet);
+/// quantity is small in all joints, feet or docks, a thousandth of its largest magnitude. `loads`: loads_at_rows, where
+/// `dock.M` is of module M; here it is of the dock M - 1. `record` and `loads` outlive the result.
+std::vector<Signal> signals(const Recording& record, const Trace& loads, const std::vector<Foot>& feet,
+                            const std::string& command_unit);
 
 /// All signals, of every `stride`th row and the last one.
 Packing packed(const std::vector<Signal>& signals, std::size_t rows, std::size_t stride);
@@ -30,7 +31,7 @@ Packing packed(const std::vector<Signal>& signals, std::size_t rows, std::size_t
 /// How many rows that are.
 std::size_t thinned(std::size_t rows, std::size_t stride);
 
-/// Patterns of columns that a page can show and that the recording does not have: `joint.*.speed`.
-std::vector<std::string> left_out(const Scenario& scenario, const Recording& record);
+/// What a page could show of the scenario and these signals do not hold, a sentence each.
+std::vector<std::string> left_out(const Scenario& scenario, const std::vector<Signal>& signals);
 
 }  // namespace gaitlab::report

@@ -10,8 +10,16 @@ inline constexpr double kLeftOfNames = 120;        ///< px, where legs have thei
 /// px: where the panels of this figure begin.
 inline double left_edge(const FigureInput& input) { return input.footfalls.empty() ? kLeft : kLeftOfNames; }
 
+/// With which bodies are filled, `#RRGGBB`.
+std::string_view body_colour(Role role);
+
+/// px, from left to right, where something is drawn.
+struct Edges {
+  double left = kLeft, right = kRight;
+};
+
 /// px, legend and axis included.
-double views_height(const FigureInput& input);
-void draw_views(Svg& svg, const FigureInput& input, double top);
+double views_height(const FigureInput& input, const Edges& edges);
+void draw_views(Canvas& canvas, const FigureInput& input, const Edges& edges, double top);
 
 }  // namespace gaitlab::report

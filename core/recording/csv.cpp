@@ -143,12 +143,15 @@ void read_row(const CsvReader& reader, std::size_t columns, std::vector<double>&
 
 }  // namespace
 
-void write_csv(const Trace& trace, const std::filesystem::path& path) {
-  AtomicFile file(path);
+namespace {
+
+/// Gives pieces of the text to `put`, each larger than `piece` bytes but for the last.
+template <class Put>
+void put_csv(const Trace& trace, const std::filesystem::path& path, std::size_t piece, const Put& put) {
   fmt::memory_buffer buffer;
   const auto flush_above = [&](std::size_t size) {
     if (buffer.size() <= size) return;
-    file.write({buffer.data(), buffer.size()});
+    put(std::string_view(buffer.data(), buffer.size()));
     buffer.clear();
   };
   const char* separator = "";
@@ -163,10 +166,23 @@ void write_csv(const Trace& trace, const std::filesystem::path& path) {
       buffer.push_back(',');
     }
     buffer[buffer.size() - 1] = '\n';
-    flush_above(kPiece);
+    flush_above(piece);
   }
   flush_above(0);
+}
+
+}  // namespace
+
+void write_csv(const Trace& trace, const std::filesystem::path& path) {
+  AtomicFile file(path);
+  put_csv(trace, path, kPiece, [&](std::string_view text) { file.write(text); });
   file.commit();
+}
+
+std::string csv_text(const Trace& trace, const std::filesystem::path& path) {
+  std::string all;
+  put_csv(trace, path, kPiece, [&](std::string_view text) { all += text; });
+  return all;
 }
 
 Trace read_csv(const std::filesystem::path& path) {

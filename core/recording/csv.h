@@ -1,6 +1,7 @@
 // Traces as text: one header row, one line per row.
 #pragma once
 #include <filesystem>
+#include <string>
 
 #include "core/recording/trace.h"
 
@@ -10,6 +11,9 @@ namespace gaitlab {
 /// lines end in '\n'. Names that hold a comma or a quote are quoted (RFC 4180). The file appears whole or not at all. RunError:
 /// cannot be written (see AtomicFile), or a name that is empty or holds a line break.
 void write_csv(const Trace& trace, const std::filesystem::path& path);
+
+/// The same as a text; `path` is what an error calls it. All of it is in memory: for small tables.
+std::string csv_text(const Trace& trace, const std::filesystem::path& path);
 
 /// What write_csv wrote: names and values; units and definitions are not in the file and stay empty. nan and inf are numbers
 /// here. InputError at FILE:LINE:COL (columns count bytes): empty file, no header, empty or repeated column name, a row with

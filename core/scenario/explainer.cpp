@@ -170,10 +170,11 @@ void Explainer::on(const char* key, const char* about, const field::RuleOrList& 
 }
 
 void Explainer::on(const char* key, const char* about, const field::Group& field) {
-  row(std::string(key) + ":", "", "", "", about);
+  const bool in_list = prefix_.ends_with('.');
+  row(std::string(key) + (in_list ? "" : ":"), "", "", "", about);
   if (depth_ == 0) keys_.back() = key;
   const std::string before = prefix_;
-  prefix_ += "  ";
+  prefix_ += in_list ? std::string(key) + "." : "  ";
   ++depth_;
   field.visit(field.self, *this);
   --depth_;

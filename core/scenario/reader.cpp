@@ -31,6 +31,9 @@ std::string in_degrees(double value, const std::string& unit) {
   return fmt::format("; {:.6g} degrees are {:.4g} rad", value, value * std::numbers::pi / 180);
 }
 
+/// Of the map of a plugin, a ground or a panel: which other keys there are.
+bool decides(std::string_view key) { return key == "type" || key == "kind"; }
+
 Node empty_map(const SourceLocation& place) { return {Node::Kind::map, place}; }
 
 std::string element(const std::string& key, std::size_t index) { return fmt::format("{}[{}]", key, index); }
@@ -186,7 +189,7 @@ void Reader::on(const char* key, const field::OneOf& field) {
     return;
   }
   // The other keys of a map depend on its type: without it, nothing can be said about them.
-  tolerant_ = tolerant_ || std::string_view(key) == "type";
+  tolerant_ = tolerant_ || decides(key);
   if (node->kind == Node::Kind::scalar) {
     problems_.add(node->place,
                   fmt::format("{} {} is unknown{}", key, in_quotes(node->text), offer(node->text, known, "names")));
@@ -309,7 +312,7 @@ void Reader::visit(const Field& field) {
 }
 
 void Reader::problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) {
-  tolerant_ = tolerant_ || std::string_view(key) == "type";  // as for a type that is unknown
+  tolerant_ = tolerant_ || decides(key);  // as for a type that is unknown
   const Node* node = map_->find(key);
   if (node == nullptr) {
     problems_.add(map_->place, std::string(what));

@@ -261,7 +261,8 @@ void Probes::select(const Scenario& scenario) {
       if (!glob(pattern, columns_[i].name)) continue;
       wanted[i] = found = true;
     }
-    if (found) continue;
+    const bool of_no_joint = scenario.robot->joints.empty() && pattern.starts_with("joint.");  // as by default
+    if (found || of_no_joint) continue;
     std::vector<std::string> names;
     for (const Column& column : columns_) names.push_back(column.name);
     const std::string near = nearest(pattern, names);

@@ -23,6 +23,9 @@ TEST_F(ApproveCommand, ApproveShowsTheChangeAndWantsAReason) {
   EXPECT_EQ(result.code, 2);
   expect_contains(result.out, "\n  joint.3.torque ");
   EXPECT_EQ(result.err, "--reason: error: is empty" + wanted);
+  result = call("approve good.yaml --reason --quiet");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "--reason: error: is '--quiet', which is an option" + wanted);
   EXPECT_EQ(bytes("good.golden"), before);
   folder.write("new.yaml", kCaterpillar);
   expect_refused("approve new.yaml", "--reason: error: is missing" + wanted.substr(0, wanted.size() - 1));

@@ -50,7 +50,7 @@ TEST_F(Messages, WhatIsMissing) {
   refused("run", "gaitlab run: error: SCENARIO is missing: scenario file (YAML); expected gaitlab run SCENARIO");
   refused("export ok.yaml --to csv",
           "gaitlab export: error: FILE is missing: file to write; must not exist; expected gaitlab export SOURCE --to "
-          "csv|mjcf|urdf FILE");
+          "csv|gltf|mjcf|urdf FILE");
   refused("explain cpg",
           "gaitlab explain: error: NAME is missing: name as `gaitlab list` prints it; expected gaitlab explain [KIND] [NAME]");
   refused("new", "gaitlab new: error: a command is missing; expected gaitlab new and one of: plugin");
@@ -149,6 +149,30 @@ TEST_F(Messages, AJointOfTheFigure) {
   EXPECT_EQ(call("report run --out again --joint m1/passive").code, 0);
   EXPECT_TRUE(contains(read(folder_.path() / "again/figure.svg"), "joint 3 (m1/passive)"));
   EXPECT_FALSE(contains(read(folder_.path() / "again/figure.svg"), "m1/active"));
+}
+
+TEST_F(Messages, WhereAPageIsWritten) {
+  const std::string where = "  page          ";
+  ASSERT_EQ(call("run ok.yaml --out run --no-report").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "run/report.html"));
+  refused("report run --page ok.yaml", "ok.yaml: error: exists; nothing was written");
+  refused("report run --page run", "run: error: exists; nothing was written");
+  refused("report run --page none/p.html", "none/p.html: error: cannot be written: its folder does not exist");
+  refused("report run --page ''",
+          "gaitlab report: error: --page is empty; expected file for the page alone; new, or the run's report.html");
+  refused("check ok.yaml --page ok.yaml", "ok.yaml: error: exists; nothing was written");
+  refused("run ok.yaml --no-reports", "gaitlab run: error: unknown option '--no-reports'; did you mean '--no-report'?");
+  EXPECT_TRUE(call("report run --page p.html").out.ends_with(where + "p.html, opens in a browser\n"));
+  EXPECT_TRUE(call("check ok.yaml --page c.html").out.ends_with(where + "c.html, opens in a browser\n"));
+  EXPECT_TRUE(contains(read(folder_ / "c.html"), "\"outcome\":\"not run\""));
+  // The run's own page may be made anew, and is the same.
+  folder_.write("run/report.html", "old");
+  EXPECT_EQ(call("report run --page run/../run/report.html").code, 0);
+  EXPECT_TRUE(read(folder_ / "run/report.html") == read(folder_ / "p.html"));
+  ASSERT_EQ(call("run ok.yaml --out again").code, 0);
+  EXPECT_TRUE(read(folder_ / "again/report.html") == read(folder_ / "p.html"));
+  EXPECT_EQ(call("rerun again --out third --quiet").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "third/report.html")) << "asked for with gaitlab report";
 }
 
 TEST_F(Messages, AnItemOfAList) {

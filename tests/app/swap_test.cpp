@@ -124,6 +124,24 @@ TEST_F(Swap, OneThatDivergesKeepsItsRow) {
     EXPECT_EQ(table[1][column], table[0][column] == "outcome" ? outcome : "") << table[0][column];
 }
 
+TEST_F(Swap, PagesAreWrittenWhereTheyAreAskedFor) {
+  EXPECT_EQ(call("--cpg phase_oscillator,sine --out plain").code, 0);
+  EXPECT_FALSE(fs::exists(folder / "plain/swap.html"));
+  const Result result = call("--cpg phase_oscillator,sine --report --out one");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("\npages: one/swap.html, and one per CPG\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\nsine: feasible\n"), std::string::npos) << result.out;
+  const std::string page = read(folder / "one/swap.html");
+  for (const char* part :
+       {"<a href=\"sine.html\">sine</a>", "<a href=\"phase_oscillator.html\">", "✓ feasible", "data:image/png;base64,"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_NE(read(folder / "one/sine.html").find("id=\"meta\""), std::string::npos);
+  EXPECT_EQ(call("--cpg phase_oscillator,sine --report --out two -j 2").code, 0);
+  for (const char* file : {"swap.html", "sine.html", "phase_oscillator.html"})
+    EXPECT_EQ(read(folder.path() / "one" / file), read(folder.path() / "two" / file)) << file;
+}
+
 TEST_F(Swap, CsvAndJsonHoldTheNumbersOfARun) {
   const Result result = call("--cpg phase_oscillator,sine --out two");
   ASSERT_EQ(result.code, 0) << result.err;

@@ -29,6 +29,7 @@ TEST_P(ReadBack, GivesTheSameSummaryAndFigure) {
   ASSERT_FALSE(summary.empty()) << ran.err;
   EXPECT_EQ(read(folder / "again/summary.json"), summary);
   EXPECT_EQ(read(folder / "again/figure.svg"), read(folder / "run/figure.svg"));
+  EXPECT_TRUE(read(folder / "again/report.html") == read(folder / "run/report.html"));
   // The terminal, but for the line with the files.
   const auto text = [](const std::string& out) { return out.substr(0, out.find("  files ")); };
   EXPECT_EQ(text(again.out), text(ran.out));
@@ -65,6 +66,7 @@ TEST(ReadBackEarly, SaysWhyTheRunEnded) {
   EXPECT_TRUE(again.err.starts_with("run: note: this run ended early: diverged at step ")) << again.err;
   EXPECT_EQ(read(folder / "again/summary.json"), read(folder / "run/summary.json"));
   EXPECT_EQ(read(folder / "again/figure.svg"), read(folder / "run/figure.svg"));
+  EXPECT_TRUE(read(folder / "again/report.html") == read(folder / "run/report.html"));
 }
 
 /// The numbers of all steps do not depend on which rows there are.
@@ -141,7 +143,7 @@ TEST_F(OldFolder, IsReadAsFarAsItGoes) {
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("two-modules: 0.2 s simulated"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("distance      0.0"), std::string::npos) << result.out;
-  for (const char* unknown : {"most loaded", "\n  tracking", "energy", "transport", "stability"})
+  for (const char* unknown : {"most loaded", "\n  tracking", "energy", "transport", "\n  stability"})
     EXPECT_EQ(result.out.find(unknown), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("not judged: voltage, current"), std::string::npos) << result.out;
   EXPECT_NE(result.err.find(
@@ -157,12 +159,21 @@ TEST_F(OldFolder, IsReadAsFarAsItGoes) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "new"));
 }
 
+TEST_F(OldFolder, HasAPageThatSaysWhatIsMissing) {
+  const Result result = gaitlab("report old --page old/report.html", folder_.path());
+  EXPECT_EQ(result.code, 0) << result.err;
+  const std::string page = read(folder_ / "old/report.html");
+  EXPECT_NE(page.find("\"missing\":[\"trace.h5 holds rows only: peaks"), std::string::npos);
+  EXPECT_NE(page.find("\"joint.0.angle\""), std::string::npos);
+  EXPECT_EQ(page.find(folder_.path().string()), std::string::npos);
+}
+
 TEST_F(OldFolder, WithoutPosesSaysNothingOfThem) {
   const StoredTrace stored = read_h5(folder_ / "old/trace.h5");
   Trace bare{{stored.trace.columns[0]}, {}};
   for (std::size_t row = 0; row < stored.trace.rows(); ++row) bare.values.push_back(stored.trace.at(row, 0));
   write_h5(bare, stored.origin, folder_ / "old/trace.h5");
-  const Result result = gaitlab("report old", folder_.path());
+  const Result result = gaitlab("report old --page bare.html", folder_.path());
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.out.find("distance"), std::string::npos) << result.out;
   EXPECT_NE(result.err.find("the trace has no column joint.*.setpoint, joint.*.angle, joint.*.torque, joint.*.saturation, "

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "report/run_figure.h"
+#include "report/svg.h"
 #include "tests/program/fixture.h"
 #include "tests/report/sample.h"
 
@@ -66,7 +67,8 @@ TEST(Footfall, DrawsABarAStanceAndJoinsWhatNobodySees) {
   const Ticks time = ticks_within(10, 18, 8);
   // Before the panel, over its edge, two that 1 ms parts, one to the end.
   const Footfall row{"m9 front left", {{8, 9}, {9.5, 11}, {12, 13}, {13.001, 14}, {17, 19}}, 0.625};
-  draw_footfalls(svg, {row}, "note", time, {10, 18, 120, 920}, 0);
+  const std::vector<Footfall> rows{row};
+  draw_footfalls(svg, {rows, "footfall", "note"}, time, {10, 18, 120, 920}, 0);
   const std::string text = svg.finish();
   EXPECT_EQ(count(text, "height=\"12\""), 3U);
   EXPECT_NE(text.find("width=\"100\" height=\"12\""), std::string::npos);  // 10 to 11 s, 17 to 18 s

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/scenario/resolved.h"
+#include "report/envelope.h"
 #include "report/motors.h"
 #include "tests/program/fixture.h"
 
@@ -124,7 +125,7 @@ TEST(Verdict, JudgesSpeedsByTheOneWithoutTorque) {
   EXPECT_EQ(with(1.01 * no_load).status, CheckStatus::fail);
   EXPECT_EQ(with(1.01 * no_load).joint, "m3/passive");
   const Scenario rated = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated", "actuator.speed_max=1.2"});
-  EXPECT_EQ(drives(rated).at(0).ratings.speed, 1.2);
+  EXPECT_EQ(motors(rated, 0).joint(0).speed_max, 1.2);
 }
 
 /// What a maker states is held against the run: RMS over the window for what lasts, the largest for peaks.
@@ -344,7 +345,7 @@ TEST(Verdict, IsAFileALineAndAnExitCode) {
   EXPECT_TRUE(contains(bad.out, "\n  verdict       infeasible: ")) << bad.out;
   const auto json = nlohmann::json::parse(read(folder.path() / "bad/verdict.json"));
   EXPECT_EQ(json.at("verdict"), "infeasible");
-  EXPECT_EQ(json.at("checks").size(), 17U);
+  EXPECT_EQ(json.at("checks").size(), 22U);
   EXPECT_EQ(gaitlab("run " + file + "--out good --fail-infeasible", folder.path()).code, 0);
   EXPECT_EQ(gaitlab("report bad --fail-infeasible", folder.path()).code, 3);
   EXPECT_EQ(gaitlab("report bad", folder.path()).code, 0);

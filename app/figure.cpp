@@ -1,0 +1,166 @@
+// `gaitlab figure`: a figure for a paper from run folders and a recipe, with the numbers that it shows.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "app/commands.h"
+#include "app/stored_scenario.h"
+#include "core/errors.h"
+#include "core/recording/atomic_file.h"
+#include "core/recording/csv.h"
+#include "core/recording/recording_file.h"
+#include "core/recording/run_files.h"
+#include "core/scenario/wording.h"
+#include "report/paper_figure.h"
+#include "report/pdf.h"
+#include "report/svg.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FigureArguments {
+  std::string recipe;
+  std::optional<std::string> out;
+  std::vector<std::string> runs;  ///< NAME=FOLDER
+};
+
+/// FIG.csv, or of several panels FIG-a.csv, FIG-b.csv ...
+fs::path data_file(const fs::path& figure, std::size_t panel, std::size_t panels) {
+  fs::path file = figure;
+  file.replace_extension();
+  if (panels > 1) file += fmt::format("-{:c}", static_cast<char>('a' + panel));
+  file += ".csv";
+  return file;
+}
+
+/// The folder of every run, those of --run instead of the recipe's.
+std::vector<Named> folders_of(const report::Recipe& recipe, const std::vector<std::string>& given) {
+  std::vector<Named> folders = recipe.runs;
+  std::vector<std::string> names;
+  for (Named& run : folders) {
+    names.push_back(run.name);
+    run.text = (fs::path(recipe.file).parent_path() / run.text).lexically_normal().string();
+  }
+  Problems problems;
+  for (const std::string& text : given) {
+    const std::size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    const auto run = std::ranges::find(folders, name, &Named::name);
+    if (equals == std::string::npos || equals + 1 == text.size()) {
+      problems.add(SourceLocation{"--run " + text}, "expected NAME=FOLDER");
+    } else if (run == folders.end()) {
+      problems.add(SourceLocation{"--run " + text},
+                   "run " + in_quotes(name) + " is not in the recipe" + offer(name, names, "runs"));
+    } else {
+      run->text = text.substr(equals + 1);
+    }
+  }
+  problems.raise();
+  return folders;
+}
+
+std::vector<report::PaperRun> read_runs(const report::Recipe& recipe, const std::vector<std::string>& given, Catalog& catalog) {
+  const std::vector<Named> folders = folders_of(recipe, given);
+  Problems problems;
+  for (const Named& run : folders) {
+    if (kind_of(run.text) == fs::file_type::not_found)
+      problems.add(recipe.place({"runs", run.name}),
+                   fmt::format("run {}: {} does not exist; simulate it first, or name its folder with --run {}=FOLDER",
+                               in_quotes(run.name), run.text, run.name));
+  }
+  problems.raise();
+  std::vector<report::PaperRun> runs;
+  for (const Named& run : folders) {
+    auto [stored, scenario] = read_run(run.text, catalog);
+    if (stored.recording.trace.columns.empty() || stored.recording.trace.columns.front().name != "t")
+      throw InputError(SourceLocation{run.text}, "its trace has no column t");
+    if (stored.recording.rows() > 0) stored.recording.simulated = stored.recording.trace.at(stored.recording.rows() - 1, 0);
+    runs.push_back({run.name, std::move(scenario), std::move(stored.recording)});
+  }
+  return runs;
+}
+
+/// A file beside the figure is the figure's own where the figure is there already, or holds what would be written; any other is
+/// somebody else's.
+void check_free(const fs::path& figure, const fs::path& file, const std::string& bytes) {
+  if (kind_of(figure) != fs::file_type::not_found || kind_of(file) == fs::file_type::not_found) return;
+  if (kind_of(file) == fs::file_type::regular && read_file(file) == bytes) return;
+  throw InputError(SourceLocation{file.string()},
+                   fmt::format("exists with other numbers, and {} does not exist; nothing was written", figure.string()));
+}
+
+std::string picture(const report::PaperFigure& figure, const fs::path& file) {
+  if (file.extension() == ".svg") {
+    report::Svg svg(figure.paper());
+    figure.draw(svg);
+    return svg.finish();
+  }
+  report::Pdf pdf(figure.paper());
+  figure.draw(pdf);
+  for (const char32_t code : pdf.missing()) {
+    fmt::print(stderr, "{}: note: U+{:04X} is in neither Helvetica nor Symbol; the PDF has a ? for it\n", file.string(),
+               static_cast<unsigned>(code));
+  }
+  return pdf.finish();
+}
+
+/// Where the figure is written: what -o names, or RECIPE.svg in the working folder, which must not exist.
+fs::path target(const FigureArguments& arguments) {
+  const fs::path file = arguments.out ? fs::path(*arguments.out) : fs::path(arguments.recipe).stem().replace_extension(".svg");
+  if (file.extension() != ".svg" && file.extension() != ".pdf")
+    throw InputError(SourceLocation{"-o " + file.string()}, "expected a file named .svg or .pdf");
+  if (!arguments.out && kind_of(file) != fs::file_type::not_found)
+    throw InputError(SourceLocation{file.string()}, "exists; name it with -o to replace it. Nothing was written");
+  if (kind_of(file) == fs::file_type::directory) throw InputError(SourceLocation{file.string()}, "is a folder");
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (kind_of(folder) != fs::file_type::directory)
+    throw InputError(SourceLocation{file.string()}, "cannot be written: its folder does not exist");
+  return file;
+}
+
+int figure(const FigureArguments& arguments) {
+  const report::Recipe recipe = report::read_recipe(arguments.recipe);
+  const fs::path file = target(arguments);
+  Catalog catalog = standard_catalog();
+  const std::vector<report::PaperRun> runs = read_runs(recipe, arguments.runs, catalog);
+  const report::PaperFigure figure(recipe, runs);
+  const std::vector<Trace> tables = figure.data();
+  std::vector<fs::path> files;
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    files.push_back(data_file(file, i, tables.size()));
+    texts.push_back(csv_text(tables[i], files.back()));
+    check_free(file, files.back(), texts.back());
+  }
+  const std::string drawn = picture(figure, file);
+  for (std::size_t i = 0; i < files.size(); ++i) write_file(files[i], texts[i]);
+  write_file(file, drawn);
+  for (const std::string& note : figure.notes()) fmt::print(stderr, "{}: note: {}\n", arguments.recipe, note);
+  const report::Paper& paper = figure.paper();
+  fmt::print("{}: {:.1f} x {:.1f} mm\n", file.string(), paper.width * paper.mm, paper.height * paper.mm);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    fmt::print("{}: {} rows of {} columns\n", files[i].string(), tables[i].rows(), tables[i].columns.size());
+  return 0;
+}
+
+}  // namespace
+
+void add_figure(Commands& commands) {
+  add_command<FigureArguments>(
+      commands, "figure", "Draw a figure for a paper from run folders, with the numbers that it shows as CSV.", figure,
+      [](CLI::App& command, FigureArguments& arguments) {
+        command.add_option("RECIPE", arguments.recipe, "recipe (YAML); its keys: gaitlab explain figure curves")->required();
+        command.add_option("-o,--out", arguments.out,
+                           "FIG.svg or FIG.pdf, replaced where it exists, with FIG.csv beside it (default: RECIPE.svg, new)");
+        command.add_option("--run", arguments.runs, "NAME=FOLDER: another folder for a run of the recipe; may be repeated")
+            ->expected(1)
+            ->allow_extra_args(false)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      });
+}
+
+}  // namespace gaitlab::app

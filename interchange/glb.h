@@ -1,0 +1,48 @@
+// A glTF 2.0 file under construction: its objects, and the numbers that they refer to.
+#pragma once
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interchange/mesh.h"
+
+namespace gaitlab::interchange {
+
+/// Objects (nodes, meshes ...) refer to one another by index. All numbers of the buffer are float32, rounded to nearest, or
+/// uint32, little-endian, each accessor in a view of its own.
+class Glb {
+ public:
+  Glb() = default;
+  ~Glb() = default;
+  Glb(const Glb&) = delete;
+  Glb& operator=(const Glb&) = delete;
+
+  /// Adds to one of the file's lists (`nodes`, `materials` ...); the index there.
+  std::size_t add(const char* list, nlohmann::json object);
+  /// An object added before.
+  nlohmann::json& at(const char* list, std::size_t index) { return json_[list][index]; }
+
+  /// Accessors of `width` numbers each (1, 3 or 4), with their least and largest; for vertices, where `drawn`.
+  std::size_t floats(const std::vector<float>& numbers, std::size_t width, bool drawn = false);
+  std::size_t vectors(const std::vector<Vec3>& vectors);
+  std::size_t indices(const Triangles& triangles);
+
+  [[nodiscard]] std::size_t size() const { return buffer_.size(); }  ///< bytes of numbers
+
+  /// The whole file: header, JSON with `generator`, numbers. The same calls, the same bytes.
+  [[nodiscard]] std::string finish(std::string_view generator);
+
+ private:
+  /// The view of what was added to the buffer since it had `from` bytes.
+  std::size_t accessor(std::size_t from, int component, const char* type, std::size_t count, int target);
+
+  nlohmann::json json_;
+  std::string buffer_;
+};
+
+/// `#RRGGBB` (sRGB) as a matt material.
+nlohmann::json material(const std::string& name, std::string_view colour);
+
+}  // namespace gaitlab::interchange

@@ -1,0 +1,73 @@
+// What figures are drawn on: shapes and text, whatever the file is.
+#pragma once
+#include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gaitlab::report {
+
+/// In a drawing: px, y down. In a side view: m, y stands for the world's z, up.
+struct Point {
+  double x = 0, y = 0;
+};
+using Polygon = std::vector<Point>;  ///< closed: the last point is joined to the first
+
+inline bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+
+/// Colours of Okabe and Ito, told apart with every kind of colour vision, and greys.
+namespace colour {
+inline constexpr std::string_view kBlue = "#0072B2", kVermillion = "#D55E00", kGreen = "#009E73", kOrange = "#E69F00",
+                                  kSky = "#56B4E9", kPurple = "#CC79A7", kYellow = "#F0E442", kBlack = "#000000",
+                                  kInk = "#333333", kGrey = "#999999", kPale = "#DDDDDD", kWhite = "#FFFFFF";
+}  // namespace colour
+
+struct Style {
+  std::string_view stroke = "none", fill = "none";  ///< `#RRGGBB`
+  double width = 1;                                 ///< of the stroke, px
+  std::string_view dash = {};                       ///< lengths of dashes and gaps, px, as SVG's stroke-dasharray: `8 3`
+  bool stroke_below = false;  ///< fill over stroke, so that overlapping polygons show their common outline only
+};
+
+enum class Anchor { start, middle, end };
+
+struct TextStyle {
+  double size = 13;  ///< px
+  Anchor anchor = Anchor::start;
+  std::string_view fill = colour::kInk;
+  bool bold = false;
+  bool upwards = false;  ///< turned a quarter, to be read from the right
+};
+
+/// A sheet of so many px; printed, a px is so many mm.
+struct Paper {
+  double width = 0, height = 0;  ///< px
+  double mm = 25.4 / 96;         ///< of a px
+};
+
+/// Points that are not finite are left out, and a polyline is broken there. No clock, no random ids: the same calls, the same
+/// bytes.
+class Canvas {
+ public:
+  virtual ~Canvas() = default;
+  virtual void line(Point a, Point b, const Style& style) = 0;
+  virtual void rectangle(Point corner, double width, double height, const Style& style) = 0;
+  virtual void circle(Point centre, double radius, const Style& style) = 0;
+  virtual void polyline(std::span<const Point> points, const Style& style) = 0;
+  /// One path; where polygons of the same sense overlap, their union is filled.
+  virtual void polygons(std::span<const Polygon> polygons, const Style& style) = 0;
+  /// Baseline at `at`; `content` is any text, invalid UTF-8 and control characters are replaced.
+  virtual void text(Point at, std::string_view content, const TextStyle& style) = 0;
+  void text(Point at, std::string_view content) { text(at, content, TextStyle()); }
+  /// The whole file.
+  [[nodiscard]] virtual std::string finish() const = 0;
+};
+
+/// A coordinate in a file: at most two decimals, no trailing zeros, no "-0".
+std::string coordinate(double value);
+
+/// A rough width of `text` in any sans-serif font of `size` px, for layouts.
+double text_width(std::string_view text, double size);
+
+}  // namespace gaitlab::report

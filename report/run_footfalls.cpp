@@ -1,0 +1,34 @@
+#include "report/run_footfalls.h"
+
+#include <fmt/format.h>
+
+#include "core/plugin/robot_info.h"
+
+namespace gaitlab::report {
+
+std::vector<Leg> legs_that_walk(const Scenario& s) {
+  if (s.ground.kind == Ground::Kind::none || s.contact.on == ContactSet::none) return {};
+  std::vector<Leg> legs = find_legs(info(*s.robot));
+  if (legs.size() < 4) legs.clear();
+  return legs;
+}
+
+std::vector<Footfall> footfalls(const Scenario& scenario, const Recording& r, const std::vector<Leg>& legs,
+                                std::span<const double> time, double from) {
+  const double weight = scenario.robot->mass * scenario.physics.gravity.norm();
+  const std::vector<std::string> names = leg_names(legs);
+  std::vector<Footfall> rows;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    std::vector<double> load(time.size(), 0.0);
+    for (const std::int64_t m : legs[i].modules) {
+      const Series of_module = r.series(fmt::format("load.{}", m));
+      for (std::size_t k = 0; k < of_module.size(); ++k) load[k] += of_module[k];
+    }
+    Footfall row{names[i], stances(time, load, kStands * weight)};
+    row.duty_factor = duty_factor(row.stances, from, time.back());
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace gaitlab::report

@@ -1,0 +1,320 @@
+// `gaitlab figure`: what it refuses, that its bytes repeat, and that it draws the numbers of the trace where they belong.
+#include <zlib.h>
+
+#include <cmath>
+#include <regex>
+
+#include "core/recording/csv.h"
+#include "core/recording/run_files.h"
+#include "report/recipe.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PaperFigure : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directory_symlink(kScenarios + "modules", folder / "modules");
+    folder.write(
+        "creep.yaml",
+        "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\nduration: 0.5\n"
+        "physics: {engine: articulated}\ncpg: {type: phase_oscillator, frequency: 1, amplitude: 0.4, phase_lag: 1.2}\n");
+    ASSERT_EQ(gaitlab("run creep.yaml --quiet --out run", folder / "").code, 0);
+  }
+  Result draw(const std::string& recipe, const std::string& options) {
+    folder.write("figure.yaml", recipe);
+    return gaitlab("figure figure.yaml " + options, folder / "");
+  }
+  /// Refused with this alone; nothing is written.
+  void refused(const std::string& recipe, const std::string& message) {
+    const Result result = draw(recipe, "-o f.svg");
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.err, message + "\n");
+    EXPECT_EQ(result.out, "");
+    EXPECT_FALSE(fs::exists(folder / "f.svg"));
+    EXPECT_FALSE(fs::exists(folder / "f.csv"));
+  }
+  Folder folder;
+};
+
+const std::string kRuns = "runs: {creep: run}\n";
+const std::string kTwin = kRuns +
+                          "panels:\n"
+                          "  - from: 0.1\n"
+                          "    left: {columns: [joint.1.angle]}\n"
+                          "    right: {columns: [joint.m0/passive.torque]}\n";
+
+TEST_F(PaperFigure, RecipesAreReadStrictly) {
+  refused(kTwin + "sise: ieee-column\n", "figure.yaml:6:1: error: unknown key 'sise'; did you mean 'size'?");
+  refused(
+      kTwin + "size: ieee-colum\n",
+      "figure.yaml:6:7: error: size is 'ieee-colum'; expected ieee-column, ieee-page or [width, height] in mm; did you mean "
+      "'ieee-column'?");
+  refused(kTwin + "size: [88.9, 5]\n", "figure.yaml:6:14: error: size[1], the height, is 5 mm; allowed are 20 to 500 mm");
+  refused(kTwin + "size: [88.9, 20]\n", "figure.yaml:6:14: error: a height of 20 mm is too small: the panels need 26 mm");
+  refused(kRuns + "panels: [{kind: curve, left: {columns: [com.x]}}]\n",
+          "figure.yaml:2:17: error: kind 'curve' is unknown; did you mean 'curves'?");
+  refused(kRuns + "panels: [{kind: heat, left: {columns: [com.x]}}]\n",
+          "figure.yaml:2:23: error: unknown key 'left'; known keys: kind, run, joints, from, to, height");
+  refused(kRuns + "panels: [{left: {columns: [joint.1.torqe]}}]\n",
+          "figure.yaml:2:28: error: no column 'joint.1.torqe' in run 'creep'; did you mean 'joint.1.torque'?");
+  refused(
+      kRuns + "panels: [{left: {columns: [joint.m0/pasive.torque]}}]\n",
+      "figure.yaml:2:28: error: no column 'joint.m0/pasive.torque' in run 'creep'; did you mean 'joint.m0/passive.torque'?");
+  refused(
+      kRuns + "panels: [{left: {columns: [joint.1.torque, joint.1.angle]}}]\n",
+      "figure.yaml:2:27: error: joint.1.torque is in N m, joint.1.angle in rad: an axis has one unit; draw one of them on the "
+      "other axis");
+  refused(kRuns + "panels: [{kind: envelope, joints: [m0/activ]}]\n",
+          "figure.yaml:2:36: error: no joint 'm0/activ'; did you mean 'm0/active'?");
+  refused(kRuns + "panels: [{to: 2, left: {columns: [com.x]}}]\n",
+          "figure.yaml:2:15: error: to is 2 s, beyond the end of the run at 0.5 s");
+  refused(kRuns + "panels: [{kind: curves}]\n",
+          "figure.yaml:2:10: error: nothing is drawn; expected left: {columns: [...]}, or right");
+  refused(kRuns + "panels: [{kind: views}]\n", "figure.yaml:2:10: error: missing key 'times', a list of times in s");
+  refused(kRuns + "panels: [{kind: heap}]\n", "figure.yaml:2:17: error: kind 'heap' is unknown; did you mean 'heat'?");
+  refused(kRuns + "panels: [{kind: views, times: [0.1, 3]}]\n",
+          "figure.yaml:2:37: error: 3 s is beyond the end of the run at 0.5 s");
+  refused("runs: {a: run, b: run}\npanels: [{kind: heat}]\n",
+          "figure.yaml:2:10: error: missing key 'run': there are several, a, b");
+  refused("runs: {a: run}\npanels: [{kind: heat, run: b}]\n",
+          "figure.yaml:2:28: error: run 'b' is not one of `runs`; did you mean 'a'?");
+  refused("runs: {creep: walk}\npanels: [{left: {columns: [com.x]}}]\n",
+          "figure.yaml:1:15: error: run 'creep': walk does not exist; simulate it first, or name its folder with --run "
+          "creep=FOLDER");
+}
+
+TEST_F(PaperFigure, SameBytesTwice) {
+  for (const std::string kind : {"svg", "pdf"}) {
+    ASSERT_EQ(draw(kTwin, "-o a." + kind).code, 0);
+    ASSERT_EQ(draw(kTwin, "-o b." + kind).code, 0);
+    EXPECT_EQ(read(folder / ("a." + kind)), read(folder / ("b." + kind)));
+  }
+  EXPECT_EQ(read(folder / "a.csv"), read(folder / "b.csv"));
+}
+
+TEST_F(PaperFigure, WhatExistsIsReplacedOnlyWhereItIsAskedFor) {
+  const Result first = draw(kTwin, "");
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_NE(first.out.find("figure.svg: 88.9 x "), std::string::npos) << first.out;
+  EXPECT_EQ(draw(kTwin, "").err, "figure.svg: error: exists; name it with -o to replace it. Nothing was written\n");
+  EXPECT_EQ(draw(kTwin, "-o figure.svg").code, 0);
+  EXPECT_EQ(draw(kTwin, "-o figure.pdf").code, 0);  // the same numbers beside it
+  folder.write("mine.csv", "t,x\n0,1\n");
+  EXPECT_EQ(draw(kTwin, "-o mine.pdf").err,
+            "mine.csv: error: exists with other numbers, and mine.pdf does not exist; nothing was written\n");
+  EXPECT_FALSE(fs::exists(folder / "mine.pdf"));
+  EXPECT_EQ(draw(kTwin, "-o f.png").err, "-o f.png: error: expected a file named .svg or .pdf\n");
+}
+
+TEST_F(PaperFigure, AnotherRunCanBeNamed) {
+  const std::string recipe = "runs: {creep: nowhere}\npanels: [{left: {columns: [com.x]}}]\n";
+  EXPECT_EQ(draw(recipe, "-o f.svg --run creep=run").code, 0);
+  EXPECT_EQ(draw(recipe, "-o f.svg --run crep=run").err,
+            "--run crep=run: error: run 'crep' is not in the recipe; did you mean 'creep'?\n");
+}
+
+TEST_F(PaperFigure, TheNumbersAreThoseOfTheTrace) {
+  ASSERT_EQ(draw(kTwin, "-o f.svg").code, 0);
+  const Trace drawn = read_csv(folder / "f.csv");
+  const Trace trace = read_trace(folder / "run");
+  ASSERT_EQ(drawn.columns.size(), 3U);
+  EXPECT_EQ(drawn.columns[0].name, "t [s]");
+  EXPECT_EQ(drawn.columns[1].name, "joint.1.angle [rad]");
+  EXPECT_EQ(drawn.columns[2].name, "joint.1.torque [N m]");
+  ASSERT_EQ(drawn.rows(), 81U);  // 0.1 to 0.5 s in steps of 5 ms
+  const std::size_t before = trace.rows() - drawn.rows();
+  for (std::size_t row = 0; row < drawn.rows(); ++row) {
+    EXPECT_EQ(drawn.at(row, 0), trace.at(row + before, 0));
+    EXPECT_EQ(drawn.at(row, 1), trace.at(row + before, trace.find("joint.1.angle")));
+    EXPECT_EQ(drawn.at(row, 2), trace.at(row + before, trace.find("joint.1.torque")));
+  }
+}
+
+struct At {
+  double x, y;
+};
+
+/// Pairs of numbers in a text.
+std::vector<At> points(const std::string& text) {
+  static const std::regex kNumber("-?[0-9.]+");
+  std::vector<double> numbers;
+  for (std::sregex_iterator it(text.begin(), text.end(), kNumber), end; it != end; ++it)
+    numbers.push_back(std::stod(it->str()));
+  std::vector<At> all;
+  for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) all.push_back({numbers[i], numbers[i + 1]});
+  return all;
+}
+
+double attribute(const std::string& svg, const std::string& name) {
+  return std::stod(svg.substr(svg.find(" " + name + "=\"") + name.size() + 3));
+}
+
+/// The line by which numbers become coordinates, from two labels of an axis and where they are written.
+struct Axis {
+  double value, at, per;
+  double operator()(double v) const { return at + per * (v - value); }
+};
+
+/// Labels written at one height (along x) or with one anchor (along y).
+Axis axis_from(const std::vector<std::pair<double, double>>& labels) {
+  const auto [v0, a0] = labels.front();
+  const auto [v1, a1] = labels.back();
+  return {v0, a0, (a1 - a0) / (v1 - v0)};
+}
+
+TEST_F(PaperFigure, SvgAndPdfHaveTheCurvesWhereTheirLabelsSay) {
+  ASSERT_EQ(draw(kTwin, "-o f.svg").code, 0);
+  ASSERT_EQ(draw(kTwin, "-o f.pdf").code, 0);
+  const std::string svg = read(folder / "f.svg");
+  // Labels: numbers below the frame, and at its left, 4.5 px below their height.
+  std::vector<std::pair<double, double>> below;
+  std::vector<std::pair<double, double>> left;
+  static const std::regex kText("<text x=\"([0-9.]+)\" y=\"([0-9.]+)\" [^>]*text-anchor=\"(middle|end)\"[^>]*>([^<]*)</text>");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), kText), end; it != end; ++it) {
+    std::string text = (*it)[4];
+    if (text.starts_with("\xE2\x88\x92")) text.replace(0, 3, "-");
+    char* rest = nullptr;
+    const double value = std::strtod(text.c_str(), &rest);
+    if (rest != text.c_str() + text.size()) continue;
+    if ((*it)[3] == "middle") below.emplace_back(value, std::stod((*it)[1]));
+    if ((*it)[3] == "end") left.emplace_back(value, std::stod((*it)[2]) - 4.5);
+  }
+  ASSERT_GE(below.size(), 3U);
+  ASSERT_GE(left.size(), 3U);
+  const Axis x = axis_from(below);
+  const Axis y = axis_from(left);
+  const std::size_t curve = svg.find("stroke=\"#0072B2\" stroke-width=\"1.6\" stroke-linejoin");
+  ASSERT_NE(curve, std::string::npos);
+  const std::size_t start = svg.rfind(" d=\"", curve);
+  const std::vector<At> drawn = points(svg.substr(start, svg.find('"', start + 4) - start));
+  const Trace data = read_csv(folder / "f.csv");
+  ASSERT_EQ(drawn.size(), data.rows());  // less than two rows per 0.25 px: none is left out
+  for (std::size_t row = 0; row < data.rows(); ++row) {
+    // Coordinates and places of labels have two decimals: three roundings of 0.005, the label's stretched over the axis.
+    EXPECT_NEAR(drawn[row].x, x(data.at(row, 0)), 0.03);
+    EXPECT_NEAR(drawn[row].y, y(data.at(row, 1)), 0.03);
+  }
+  // The PDF: the same path under its matrix; on paper both agree.
+  const std::string pdf = read(folder / "f.pdf");
+  const std::size_t stream = pdf.find("stream\n") + 7;
+  const std::string packed = pdf.substr(stream, std::stoul(pdf.substr(pdf.find("/Length ") + 8)));
+  std::string page(1 << 20, '\0');
+  uLongf size = page.size();
+  ASSERT_EQ(
+      uncompress(reinterpret_cast<Bytef*>(page.data()), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size()),
+      Z_OK);
+  page.resize(size);
+  const double scale = std::stod(page);
+  const std::size_t blue = page.find("0 0.447 0.698 RG 1.6 w 1 j ");
+  ASSERT_NE(blue, std::string::npos);
+  const std::vector<At> in_pdf = points(page.substr(blue + 27, page.find("S Q", blue) - blue - 27));
+  ASSERT_EQ(in_pdf.size(), drawn.size());
+  const double mm = attribute(svg, "width") / std::stod(svg.substr(svg.find("viewBox=\"0 0 ") + 13));
+  const double height = attribute(svg, "height");
+  const std::size_t box = pdf.find("/MediaBox [0 0 ");
+  const double top = points(pdf.substr(box + 15, 30)).front().y;
+  EXPECT_NEAR(attribute(svg, "width"), 88.9, 1e-9);
+  EXPECT_NEAR(top * 25.4 / 72, height, 0.01);  // two decimals of a point, of a mm
+  for (std::size_t row = 0; row < drawn.size(); row += 7) {
+    // mm from the left and the top edge of the paper; 1e-3: the viewBox has two decimals of about 400.
+    EXPECT_NEAR(in_pdf[row].x * scale * 25.4 / 72, drawn[row].x * mm, 2e-3);
+    EXPECT_NEAR(in_pdf[row].y * scale * 25.4 / 72, drawn[row].y * mm, 2e-3);
+  }
+}
+
+TEST_F(PaperFigure, TheEnvelopeIsThatOfEquations1And2) {
+  ASSERT_EQ(draw(kRuns + "panels: [{kind: envelope, joints: [m0/*]}]\n", "-o f.svg").code, 0);
+  const Trace data = read_csv(folder / "f.csv");
+  const auto column = [&](const char* name) { return data.find(name); };
+  ASSERT_LT(column("m0/active speed [rad/s]"), data.columns.size());
+  // Defaults of dc_motor.
+  constexpr double kR = 4.3, kKt = 0.00395, kGear = 594, kEta = 0.7, kU = 7.4, kI = 1.2;
+  std::size_t rows = 0;
+  for (std::size_t row = 0; row < data.rows(); ++row) {
+    const double w = data.at(row, column("envelope speed [rad/s]"));
+    if (std::isnan(w)) continue;
+    ++rows;
+    const double most = kEta * kKt * kGear * std::clamp((kU - kKt * kGear * w) / kR, -kI, kI);
+    const double least = kEta * kKt * kGear * std::clamp((-kU - kKt * kGear * w) / kR, -kI, kI);
+    EXPECT_NEAR(data.at(row, column("envelope most [N m]")), most, 1e-12);  // rounding of a few operations on numbers near 2
+    EXPECT_NEAR(data.at(row, column("envelope least [N m]")), least, 1e-12);
+  }
+  EXPECT_EQ(rows, 201U);
+  EXPECT_NEAR(data.at(200, column("envelope speed [rad/s]")), kU / (kKt * kGear), 1e-12);  // idling
+}
+
+TEST_F(PaperFigure, TheHeatMapIsTheShareOfTheTorqueAtThatSpeed) {
+  ASSERT_EQ(draw(kRuns + "panels: [{kind: heat, joints: ['1']}]\n", "-o f.svg").code, 0);
+  const Trace data = read_csv(folder / "f.csv");
+  const Trace trace = read_trace(folder / "run");
+  ASSERT_EQ(data.columns.size(), 2U);
+  double largest = 0;
+  for (std::size_t row = 0; row < trace.rows(); ++row) {
+    const double w = trace.at(row, trace.find("joint.1.speed"));
+    const double torque = trace.at(row, trace.find("joint.1.torque"));
+    const double sign = torque < 0 ? -1 : 1;
+    const double has = 0.7 * 0.00395 * 594 * std::min(1.2, (7.4 - sign * 0.00395 * 594 * w) / 4.3);
+    largest = std::max(largest, std::abs(torque) / has);
+  }
+  double shown = 0;
+  for (std::size_t row = 0; row < data.rows(); ++row) shown = std::max(shown, data.at(row, 1));
+  EXPECT_NEAR(shown, largest, 1e-12);
+}
+
+TEST_F(PaperFigure, EveryKindIsDrawn) {
+  const Result all = draw(kRuns +
+                              "size: ieee-page\npanels:\n"
+                              "  - left: {columns: [joint.*.angle], range: [-0.1, 0.1]}\n"
+                              "  - {kind: envelope}\n  - {kind: heat}\n  - {kind: views, times: [0, 0.5], joint: m0/active}\n",
+                          "-o f.pdf");
+  EXPECT_EQ(all.code, 0) << all.err;
+  EXPECT_EQ(all.err, "");
+  for (const char* file : {"f.pdf", "f-a.csv", "f-b.csv", "f-c.csv", "f-d.csv"}) EXPECT_TRUE(fs::exists(folder / file)) << file;
+  EXPECT_TRUE(contains(all.out, "f.pdf: 181.9 x ")) << all.out;
+  refused(kRuns + "panels: [{kind: footfalls}]\n",
+          "figure.yaml:2:17: error: footfalls need a robot that walks on four legs or more");
+}
+
+/// A range that the curves leave: they end at the frame.
+TEST_F(PaperFigure, CurvesEndAtTheFrame) {
+  ASSERT_EQ(draw(kRuns + "panels: [{left: {columns: [joint.1.angle], range: [-0.05, 0.05]}}]\n", "-o f.svg").code, 0);
+  const std::string svg = read(folder / "f.svg");
+  const std::size_t frame = svg.find("fill=\"none\" stroke=\"#333333\"");
+  const std::size_t rect = svg.rfind("<rect", frame);
+  const std::string box = svg.substr(rect, frame - rect);
+  const double top = attribute(box, "y");
+  const double bottom = top + attribute(box, "height");
+  const std::size_t curve = svg.find("stroke=\"#0072B2\" stroke-width=\"1.6\" stroke-linejoin");
+  const std::size_t start = svg.rfind(" d=\"", curve);
+  std::size_t at_edge = 0;
+  for (const At& p : points(svg.substr(start, curve - start))) {
+    EXPECT_GE(p.y, top - 0.01);
+    EXPECT_LE(p.y, bottom + 0.01);
+    at_edge += std::abs(p.y - top) < 0.02 || std::abs(p.y - bottom) < 0.02 ? 1 : 0;
+  }
+  EXPECT_GT(at_edge, 0U);
+}
+
+TEST(Recipe, TheShippedOnesAreRight) {
+  std::size_t recipes = 0;
+  for (const auto& entry : fs::directory_iterator(kScenarios + "figures")) {
+    EXPECT_NO_THROW(report::read_recipe(entry.path().string())) << entry.path();
+    ++recipes;
+  }
+  EXPECT_EQ(recipes, 6U);
+}
+
+TEST(Recipe, HasAManual) {
+  const Result curves = gaitlab("explain figure curves", ".");
+  EXPECT_EQ(curves.code, 0) << curves.err;
+  for (const char* key : {"panels[].left.columns", "panels[].stance", "size (mm)", "runs"})
+    EXPECT_TRUE(contains(curves.out, key)) << key;
+  EXPECT_TRUE(contains(gaitlab("explain figure views", ".").out, "panels[].times"));
+}
+
+}  // namespace
+}  // namespace gaitlab::test

@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# What `export --to gltf` writes, in the Khronos validator (npm's gltf-validator, pinned in gltf/package-lock.json): no error and no
+# warning, of walks, of every ground and shape, of boxes that move, of a robot at its start. A file that was damaged is found.
+# usage: gltf.sh PROGRAM     (exit code 77: no validator here; with CI=true that is a failure)
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
+program=$(readlink -f -- "$1")
+
+no_validator() {
+  [[ ${CI:-} != true ]] || fail "glTF files in the validator: $*"
+  skip "glTF files in the validator" "$*"
+  exit 77
+}
+
+for tool in node npm; do
+  command -v "$tool" >/dev/null || no_validator "no $tool (Debian: nodejs, npm)"
+done
+cp -r -- "$root/tests/gates/gltf" "$work/gltf"
+cd -- "$work/gltf"
+if ! npm ci --ignore-scripts --no-audit --no-fund >"$work/log" 2>&1; then
+  show_log
+  ! grep -qE 'ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|ETIMEDOUT|ENETUNREACH' "$work/log" || no_validator "npm reaches no registry"
+  fail "npm ci"
+fi
+
+# A ball, with a piece of every other shape, that rolls over hills and pushes a box.
+cat >ball.yaml <<'YAML'
+gaitlab_module: 1
+name: ball
+bodies:
+  ball:
+    mass: 1
+    com: [0, 0, 0]
+    inertia: [1e-3, 1e-3, 1e-3, 0, 0, 0]
+    shape:
+      - {sphere: 0.05}
+      - {box: [0.14, 0.02, 0.02]}
+      - {cylinder: [0.01, 0.14]}
+      - {half_cylinder: [0.02, 0.04], origin: [0.04, 0, 0]}
+    source: "chosen"
+hinges: []
+faces: []
+contacts: {feet: [], all: [{body: ball, sphere: [0, 0, 0], radius: 0.05}]}
+YAML
+head='gaitlab: 1
+robot: {modules: ball.yaml, position: [0, 0]}
+contact: {on: all}
+actuator: {type: none}
+initial: {base_velocity: [0.5, 0.1, 0]}
+trace: {columns: [base.*]}
+duration: 1'
+printf '%s\n' "$head" "ground: {type: heightfield, heightfield: {values: [[0, 0.02, 0, 0.03], [0, 0, 0.02, 0], [0, 0.01, 0, 0]], origin: [-0.1, -0.1, 0], spacing: 0.2}}" >hills.yaml
+printf '%s\n' "${head/on: all/on: all, law: bullet}" "ground: {type: boxes, boxes: [{center: [0.15, 0, 0.05], size: [0.1, 0.3, 0.1], mass: 0.1}, {center: [-0.3, 0, 0], size: [0.1, 0.1, 0.1]}]}" >push.yaml
+
+shipped=$root/scenarios
+for scenario in "$shipped/hexapod.yaml" "$shipped/caterpillar.yaml" "$shipped/rubble.yaml" "$shipped/pendulum.yaml" hills.yaml push.yaml; do
+  name=$(basename -- "$scenario" .yaml)
+  expect 0 "$program" run "$scenario" --set duration=1 --quiet --out "$name"
+  expect 0 "$program" export "$name" --to gltf "$name.glb"
+  expect 0 "$program" export "$scenario" --to gltf "$name-start.glb"
+done
+expect 0 node validate.mjs ./*.glb
+cat -- "$work/log"
+for name in hexapod caterpillar rubble pendulum hills push; do
+  said "/$name.glb: 0 errors, 0 warnings, 1 animations"
+  said "/$name-start.glb: 0 errors, 0 warnings, 0 animations"
+done
+ok "no error and no warning in 12 files"
+
+# A quaternion that is none, and a file that is cut off.
+sed '0,/"rotation":\[0.0,0.0,0.0,1.0\]/s//"rotation":[9.0,0.0,0.0,1.0]/' hexapod.glb >long.glb
+head -c 5000 hexapod.glb >cut.glb
+for damaged in long cut; do
+  expect 1 node validate.mjs "$damaged.glb"
+  said '1 errors'
+done
+ok "damaged files are found"

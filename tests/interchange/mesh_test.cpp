@@ -1,0 +1,140 @@
+// Meshes of shapes are closed, face outwards and hold what the shape holds; the ground's lie on the ground.
+#include "interchange/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+namespace gaitlab::interchange {
+namespace {
+
+constexpr double kRounding = 1e-15;  // m^3, m^2: some thousand triangles of 0.1 m by 1e-17 each
+
+struct Sums {
+  double volume = 0;
+  Vec3 area = Vec3::Zero();  ///< of all triangles, as vectors: 0 of a closed surface
+};
+
+/// Fails where a triangle faces away from a normal of its own by more than `bent` (cosine).
+Sums sums_of(const Mesh& mesh, double bent) {
+  Sums sums;
+  EXPECT_EQ(mesh.places.size(), mesh.normals.size());
+  for (const Vec3& n : mesh.normals) EXPECT_NEAR(n.norm(), 1, 1e-12);
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    const Vec3& a = mesh.places[mesh.triangles[i]];
+    const Vec3& b = mesh.places[mesh.triangles[i + 1]];
+    const Vec3& c = mesh.places[mesh.triangles[i + 2]];
+    const Vec3 area = 0.5 * (b - a).cross(c - a);
+    EXPECT_GT(area.norm(), 0) << "a triangle without area";
+    for (std::size_t k = i; k < i + 3; ++k) EXPECT_GT(area.normalized().dot(mesh.normals[mesh.triangles[k]]), bent);
+    sums.area += area;
+    sums.volume += a.dot(area) / 3;  // Gauss
+  }
+  return sums;
+}
+
+const Pose kAnywhere{rpy({0.3, -0.7, 1.9}), {0.2, -0.1, 0.4}};
+
+Mesh mesh_of(Shape::Kind kind, const Vec3& size) {
+  Mesh mesh;
+  add(mesh, {kind, kAnywhere, size});
+  return mesh;
+}
+
+TEST(Mesh, ShapesAreClosedFaceOutwardsAndHaveTheirVolumes) {
+  const double r = 0.1;
+  const double circle = 16 * r * r * std::sin(std::numbers::pi / 16);  // a polygon of 32 corners
+  const double flat = 1 - 1e-12;
+  const double side = std::cos(std::numbers::pi / 32) - 1e-12;  // half a side from the middle of its chord
+  const auto check = [](const Sums& sums, double volume) {
+    EXPECT_NEAR(sums.volume, volume, kRounding);
+    EXPECT_LT(sums.area.norm(), kRounding);
+  };
+  check(sums_of(mesh_of(Shape::Kind::box, {0.3, 0.2, 0.1}), flat), 0.006);
+  check(sums_of(mesh_of(Shape::Kind::cylinder, {r, 0.5, 0}), side), 0.5 * circle);
+  check(sums_of(mesh_of(Shape::Kind::half_cylinder, {r, 0.5, 0}), side), 0.25 * circle);
+  const Sums ball = sums_of(mesh_of(Shape::Kind::sphere, {r, 0, 0}), std::cos(std::numbers::pi / 16));
+  EXPECT_LT(ball.area.norm(), kRounding);
+  const double whole = 4.0 / 3 * std::numbers::pi * r * r * r;
+  EXPECT_LT(ball.volume, whole);
+  EXPECT_GT(ball.volume, 0.98 * whole) << "three facets of 0.5 % each";
+}
+
+TEST(Mesh, HalfCylindersBulgeTowardsX) {
+  Mesh mesh;
+  add(mesh, {Shape::Kind::half_cylinder, {}, {0.1, 0.4, 0}});
+  double largest = 0;
+  for (const Vec3& p : mesh.places) {
+    EXPECT_GE(p.x(), -kRounding);
+    EXPECT_NEAR(std::abs(p.y()), 0.2, kRounding);
+    largest = std::max(largest, p.x());
+  }
+  EXPECT_NEAR(largest, 0.1, kRounding);
+}
+
+/// Light and dark tiles; fails where one is not where the world says, wherever the area begins.
+std::array<Mesh, 2> both_kinds(const Tiles& made) {
+  std::array<Mesh, 2> both{made.light, made.light};
+  both[1].triangles = made.dark;
+  for (std::size_t kind = 0; kind < 2; ++kind) {
+    const Mesh& one = both[kind];
+    EXPECT_FALSE(one.triangles.empty());
+    for (std::size_t i = 0; i < one.triangles.size(); i += 3) {
+      Vec3 middle = Vec3::Zero();
+      for (std::size_t k = i; k < i + 3; ++k) middle += one.places[one.triangles[k]] / 3;
+      const double number = std::floor(middle.x() / made.edge) + std::floor(middle.y() / made.edge);
+      EXPECT_EQ(std::fmod(number, 2) != 0, kind == 1);
+    }
+  }
+  return both;
+}
+
+TEST(Mesh, TilesCoverTheAreaInStepsOfOneTwoOrFive) {
+  for (const Area& area : {Area{-1.3, 2.7, -0.4, 0.4}, Area{0, 0.01, 0, 0.01}, Area{-900, 1e5, 3, 4}}) {
+    const Tiles made = tiles(area);
+    const double digits = made.edge / std::pow(10.0, std::floor(std::log10(made.edge) + 1e-9));
+    EXPECT_LT(std::min({std::abs(digits - 1), std::abs(digits - 2), std::abs(digits - 5)}), 1e-9) << made.edge;
+    const double length = std::max(area.x_hi - area.x_lo, area.y_hi - area.y_lo);
+    EXPECT_LE(length / made.edge, 40);
+    EXPECT_GT(length / made.edge, 15);  // 40 / 2.5
+    Area covered{1e9, -1e9, 1e9, -1e9};
+    for (const Vec3& p : made.light.places) {
+      covered = {std::min(covered.x_lo, p.x()), std::max(covered.x_hi, p.x()), std::min(covered.y_lo, p.y()),
+                 std::max(covered.y_hi, p.y())};
+      EXPECT_EQ(p.z(), 0);
+    }
+    EXPECT_LE(covered.x_lo, area.x_lo);
+    EXPECT_GE(covered.x_hi, area.x_hi);
+    EXPECT_LE(covered.y_lo, area.y_lo);
+    EXPECT_GE(covered.y_hi, area.y_hi);
+    for (const Mesh& one : both_kinds(made)) sums_of(one, 1 - 1e-12);
+  }
+}
+
+TEST(Mesh, TilesLieOnTheHeightfieldAndReachOverTheArea) {
+  const Heightfield field{{0.1, -0.2, 0.05}, 0.1, 4, {0, 0.02, -0.01, 0.03, 0.01, 0, 0.02, 0.01, 0.02, 0.01, 0, 0.04}};
+  const Tiles made = tiles(field, {-1, 0.3, -0.1, 2});
+  EXPECT_DOUBLE_EQ(made.edge, 0.1) << "2.2 m";
+  std::set<double> xs;
+  std::set<double> ys;
+  for (const Vec3& p : made.light.places) {
+    EXPECT_EQ(p.z(), field.at(p.x(), p.y()).z);
+    xs.insert(p.x());
+    ys.insert(p.y());
+  }
+  EXPECT_EQ(xs.size(), 3 * 4 + 11 + 1U)
+      << "cells in four, of which every fourth line is a tile's, too; 1.1 m of tiles beside them";
+  EXPECT_EQ(ys.size(), 2 * 4 + 20 + 1U);
+  EXPECT_EQ(*xs.begin(), -1);
+  EXPECT_NEAR(*xs.rbegin(), 0.4, kRounding);
+  EXPECT_NEAR(*ys.begin(), -0.2, kRounding);
+  EXPECT_EQ(*ys.rbegin(), 2);
+  for (const Vec3& n : made.light.normals) EXPECT_GT(n.z(), std::cos(std::numbers::pi / 6));
+  for (const Mesh& one : both_kinds(made)) sums_of(one, 0.5);  // no normal is farther than twice 30 degrees from a triangle's
+}
+
+}  // namespace
+}  // namespace gaitlab::interchange

@@ -1,0 +1,302 @@
+// Loads of docks and feet against closed forms, against the reaction columns, and that they change nothing else.
+#include "report/loads.h"
+
+#include <cmath>
+
+#include "core/recording/recording_file.h"
+#include "tests/oracles/blocks.h"
+#include "tests/program/engines.h"
+#include "tests/program/random_scenario.h"
+
+namespace gaitlab::test {
+namespace {
+
+// Loads are recorded with the 24 bits of a float: half a unit of the last place is 6e-8 of the value.
+constexpr double kFloat = 1.2e-7;
+
+Recording run_with_loads(const Scenario& scenario) {
+  Simulation simulation({&scenario, 1}, Loads::recorded);
+  simulation.run();
+  return simulation.take_recording(0);
+}
+
+double load(const Recording& record, std::size_t row, const std::string& column) { return Table(record.loads).at(row, column); }
+double last_load(const Recording& record, const std::string& column) { return load(record, record.loads.rows() - 1, column); }
+
+class LoadsOf : public EveryEngine {
+ protected:
+  /// Rods of 0.5 kg, 0.2 m long, on one another's ends and sides, the first one held in the air.
+  [[nodiscard]] static Recording rods(const std::string& docks, double pitch) {
+    return run_with_loads(scenario(fmt::format(R"(
+gaitlab: 1
+robot:
+  base: fixed
+  position: [0, 0, 1]
+  orientation: [0, {:.17g}, 0]
+  docks: {}
+  modules:
+    name: rod
+    bodies: {{rod: {{mass: 0.5, inertia: [0.001, 0.001, 0.001, 0, 0, 0]}}}}
+    faces:
+      - {{id: 0, body: rod, gender: active, origin: [-0.1, 0, 0], normal: [-1, 0, 0], reference: [0, 1, 0]}}
+      - {{id: 1, body: rod, gender: passive, origin: [0.1, 0, 0], normal: [1, 0, 0], reference: [0, 1, 0]}}
+      - {{id: 2, body: rod, gender: passive, origin: [0, 0.03, 0], normal: [0, 1, 0], reference: [1, 0, 0]}}
+ground: {{type: none}}
+contact: {{on: none}}
+actuator: {{type: none}}
+physics: {{engine: {}}}
+duration: 0.03
+trace: {{columns: [base.*]}}
+)",
+                                               pitch, docks, GetParam())));
+  }
+  static void expect(const Recording& record, int module, double tension, double shear, double bending, double torsion) {
+    const auto at = [&](const char* quantity) { return last_load(record, fmt::format("dock.{}.{}", module, quantity)); };
+    constexpr double kTolerance = 1e-6;  // kFloat of 10 N
+    EXPECT_NEAR(at("tension"), tension, kTolerance);
+    EXPECT_NEAR(at("shear"), shear, kTolerance);
+    EXPECT_NEAR(at("bending"), bending, kTolerance);
+    EXPECT_NEAR(at("torsion"), torsion, kTolerance);
+  }
+  static constexpr double kWeight = 0.5 * 9.81;
+  static constexpr const char* kRow = "[[0, 1, 1, 0, 0], [0, 2, 1, 1, 0]]";
+};
+INSTANTIATE_TEST_SUITE_P(Of, LoadsOf, engines(), engine_name);
+
+TEST_P(LoadsOf, ARodThatHangsAndOneThatStands) {
+  const Recording hangs = rods(kRow, std::numbers::pi / 2);  // x downwards
+  expect(hangs, 1, 2 * kWeight, 0, 0, 0);
+  expect(hangs, 2, kWeight, 0, 0, 0);
+  const Recording stands = rods(kRow, -std::numbers::pi / 2);
+  expect(stands, 1, -2 * kWeight, 0, 0, 0);
+}
+
+TEST_P(LoadsOf, AnArmThatIsHeldOut) {
+  const Recording record = rods(kRow, 0);
+  expect(record, 1, 0, 2 * kWeight, kWeight * (0.1 + 0.3), 0);
+  expect(record, 2, 0, kWeight, kWeight * 0.1, 0);
+}
+
+/// The weight of a rod on the side of another, 0.13 m beside its axis, is held up by a turn about the outward x.
+TEST_P(LoadsOf, ATwistedDock) {
+  const Recording record = rods("[[0, 1, 1, 0, 0], [0, 2, 2, 1, 0]]", 0);
+  expect(record, 1, 0, 2 * kWeight, 2 * kWeight * 0.1, kWeight * 0.13);
+  expect(record, 2, 0, kWeight, kWeight * 0.1, 0);
+}
+
+/// 1 kg on four points.
+Scenario block(const std::string& engine, const std::string& rest, double height, double duration) {
+  return scenario(fmt::format(R"(
+gaitlab: 1
+robot:
+  position: [0, 0, {:.17g}]
+  modules:
+    name: block
+    bodies: {{block: {{mass: 1, inertia: [0.01, 0.01, 0.01, 0, 0, 0]}}}}
+    contacts:
+      feet:
+        - {{body: block, point: [0.1, 0.1, 0]}}
+        - {{body: block, point: [0.1, -0.1, 0]}}
+        - {{body: block, point: [-0.1, 0.1, 0]}}
+        - {{body: block, point: [-0.1, -0.1, 0]}}
+contact: {{on: feet}}
+actuator: {{type: none}}
+duration: {}
+physics: {{engine: {}, step: 5e-5}}
+trace: {{columns: [base.*]}}
+{}
+)",
+                              height, duration, engine, rest));
+}
+
+TEST_P(LoadsOf, ABlockThatSlidesToRest) {
+  const double sink = oracle::standing_sink(1, 9.81, 4, 1e4);
+  const Recording record = run_with_loads(block(GetParam(), "initial: {base_velocity: [0.6, 0.8, 0]}", -sink, 0.2));
+  const oracle::SlidingBlock law{0.8, 9.81, 0.01};
+  // Explicit methods of first order: h v / 2 of the way.
+  const double way = law.stops_after(1);
+  EXPECT_NEAR(last_load(record, "slip"), way, 3e-5);
+  EXPECT_NEAR(last_load(record, "foot.m0/block.slid"), way, 3e-5);
+  EXPECT_NEAR(last_load(record, "path"), way, 3e-5);
+  EXPECT_NEAR(last_load(record, "stability"), 0.1, 1e-7);
+  EXPECT_NEAR(last_load(record, "foot.m0/block.fz"), 9.81, 9.81 * kFloat);
+  EXPECT_NEAR(last_load(record, "foot.m0/block.x"), 0.6 * way, 3e-5);
+  EXPECT_NEAR(last_load(record, "foot.m0/block.y"), 0.8 * way, 3e-5);
+  EXPECT_NEAR(load(record, 1, "foot.m0/block.fx"), -0.6 * 0.8 * 9.81, 1e-5);  // f m g against the motion
+}
+
+TEST_P(LoadsOf, ABlockThatFlies) {
+  const Recording record = run_with_loads(block(GetParam(), "initial: {base_velocity: [1, 0, 0]}", 0.5, 0.2));
+  EXPECT_NEAR(last_load(record, "path"), 0.2, 1e-6);
+  EXPECT_EQ(last_load(record, "slip"), 0);
+  EXPECT_TRUE(std::isnan(last_load(record, "stability"))) << "it stands on nothing";
+  EXPECT_EQ(record.loads.find("foot.m0/block.fz"), record.loads.columns.size()) << "it never carried a load";
+}
+
+/// A foot on an arm that a fixed robot turns about the vertical, 0.3 m away.
+TEST_P(LoadsOf, ADraggedFoot) {
+  const Recording record = run_with_loads(scenario(fmt::format(R"(
+gaitlab: 1
+robot:
+  base: fixed
+  position: [0, 0, -1e-4]
+  modules:
+    name: arm
+    bodies:
+      hub: {{mass: 1, inertia: [0.01, 0.01, 0.01, 0, 0, 0]}}
+      arm: {{mass: 1, inertia: [0.02, 0.02, 0.03, 0, 0, 0]}}
+    hinges: [{{name: turn, parent: hub, child: arm, origin: [0, 0, 0], axis: [0, 0, 1], range: [-3, 3]}}]
+    contacts: {{feet: [{{body: arm, point: [0.3, 0, 0]}}]}}
+contact: {{on: feet}}
+initial: {{speeds: 2}}
+actuator: {{type: none}}
+duration: 0.6
+physics: {{engine: {}, step: 5e-5}}
+trace: {{columns: [joint.*]}}
+)",
+                                                               GetParam())));
+  const double turned = end(record, "joint.0.angle");
+  EXPECT_GT(turned, 0.1);
+  const double fn = last_load(record, "foot.m0/arm.fz");
+  EXPECT_NEAR(fn, 1e4 * 1e-4, 1e-6);  // Kn p
+  // Chords for an arc: (0.015 s * 2 rad/s)^2 / 24 of the way at most.
+  EXPECT_NEAR(last_load(record, "foot.m0/arm.slid"), 0.3 * turned, 4e-5 * 0.3 * turned);
+  EXPECT_NEAR(last_load(record, "slip"), 0.3 * turned * fn / (2 * 9.81), 5e-5 * 0.3 * turned * fn / (2 * 9.81));
+}
+
+/// Without motors nothing changes at a tick, so that a row of the trace and one of the loads are the same moment: the dock's
+/// wrench from the reaction columns, along and across the CHILD's face as the pose columns have it.
+TEST(Loads, AreTheReactionsInTheAxesOfTheFaces) {
+  double worst = 0;
+  double largest = 0;
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    RandomRobots random(seed);
+    Scenario s = random_run(random, seed % 2 == 0 ? Base::floating : Base::fixed, 5, 0.2);
+    s.actuator = s.controller = {};
+    s.trace.columns = {"body.*", "reaction.*", "contact.*"};
+    const Recording record = run_with_loads(s);
+    ASSERT_GE(record.loads.rows(), 2U);
+    const Robot& robot = *s.robot;
+    const Table table(record.trace);
+    for (std::size_t tick = 0; tick < record.loads.rows(); ++tick) {  // of these there are fewer
+      std::size_t row = 0;
+      while (row + 1 < record.trace.rows() && record.trace.at(row, 0) < record.loads.at(tick, 0)) ++row;
+      ASSERT_EQ(record.trace.at(row, 0), record.loads.at(tick, 0));
+      const auto vec = [&](const std::string& name) {
+        return Vec3(table.at(row, name + "x"), table.at(row, name + "y"), table.at(row, name + "z"));
+      };
+      for (std::size_t m = 1; m < robot.modules.size(); ++m) {
+        const Module& module = robot.modules[m];
+        const ModuleType& type = robot.types[module.type];
+        const auto face = std::ranges::find(type.faces, module.dock.child_face, &FaceType::id);
+        const std::string body = "body." + robot.bodies[module.first_body + face->body].name + ".q";
+        const Quat turn(table.at(row, body + "w"), table.at(row, body + "x"), table.at(row, body + "y"),
+                        table.at(row, body + "z"));
+        const Vec3 normal = turn * face->normal;  // out of the child, into the parent
+        const std::string dock = fmt::format("reaction.m{}/dock.", m);
+        const Vec3 f = vec(dock + "f");
+        const Vec3 moment = vec(dock + "m");
+        const auto compare = [&](const char* quantity, double by_hand) {
+          const double got = load(record, tick, fmt::format("dock.{}.{}", m, quantity));
+          worst = std::max(worst, std::abs(got - by_hand) / (1 + f.norm() + moment.norm()));
+          largest = std::max(largest, std::abs(by_hand));
+        };
+        compare("tension", f.dot(normal));
+        compare("shear", f.cross(normal).norm());
+        compare("bending", moment.cross(normal).norm());
+        compare("torsion", -moment.dot(normal));
+      }
+    }
+  }
+  EXPECT_GT(largest, 1);
+  EXPECT_LT(worst, 1e-6) << "a float's rounding, and Bullet's, 1e-10 of the contact forces";
+}
+
+TEST(Loads, OfFeetAreThoseOfTheirContactElements) {
+  Scenario s = shipped("hexapod.yaml", {"duration=0.6", "physics.engine=articulated", "trace.period=0.015"});
+  s.trace.columns = {"contact.*"};
+  const Recording record = run_with_loads(s);
+  ASSERT_EQ(record.loads.rows(), record.trace.rows());
+  const Trace& loads = record.loads;
+  for (std::size_t row = 0; row < loads.rows(); ++row) {
+    for (const char axis : {'x', 'y', 'z'}) {
+      double feet = 0;
+      double elements = 0;
+      for (std::size_t c = 0; c < loads.columns.size(); ++c) {
+        if (glob(std::string("foot.*.f") + axis, loads.columns[c].name)) feet += loads.at(row, c);
+      }
+      for (std::size_t c = 0; c < record.trace.columns.size(); ++c) {
+        if (glob(std::string("contact.*.f") + axis, record.trace.columns[c].name)) elements += record.trace.at(row, c);
+      }
+      EXPECT_NEAR(feet, elements, 1e-5);  // a float's rounding of six forces of up to 40 N
+    }
+  }
+}
+
+TEST(Loads, ChangeNothingElseAndDependOnNoRowsAndNoOtherLane) {
+  const auto walk = [](const char* period, const std::string& columns) {
+    return shipped("caterpillar.yaml", {"duration=0.4", "physics.engine=articulated", std::string("trace.period=") + period,
+                                        "trace.columns=" + columns});
+  };
+  const Scenario one = walk("0.005", "[joint.*]");
+  const Recording with = run_with_loads(one);
+  const Recording without = run(one);
+  EXPECT_EQ(hash(with.trace), hash(without.trace));
+  EXPECT_EQ(hash(with.rest), hash(without.rest));
+  EXPECT_EQ(hash(with.ticks), hash(without.ticks));
+  EXPECT_TRUE(without.loads.columns.empty());
+  EXPECT_EQ(with.loads.rows(), with.ticks.rows());
+  for (const char* const period : {"5e-4", "0.0137", "0.1"})
+    EXPECT_EQ(hash(run_with_loads(walk(period, "[t, reaction.*]")).loads), hash(with.loads)) << period;
+  std::vector<Scenario> lanes(4, one);
+  for (std::size_t l = 1; l < lanes.size(); ++l)
+    lanes[l] =
+        shipped("caterpillar.yaml", {"duration=0.2", "physics.engine=articulated", fmt::format("cpg.amplitude=0.{}", l)});
+  Simulation together(lanes, Loads::recorded);
+  together.run();
+  EXPECT_EQ(hash(together.take_recording(0).loads), hash(with.loads));
+  EXPECT_EQ(hash(together.take_recording(2).loads), hash(run_with_loads(lanes[2]).loads));
+}
+
+/// contact.law bullet: its forces are not all known, so docks are left out.
+TEST(Loads, OfTheSolverAreOfFeetAlone) {
+  const Scenario s = shipped("caterpillar.yaml", {"duration=0.1", "physics.engine=bullet", "contact.law=bullet"});
+  const Recording record = run_with_loads(s);
+  EXPECT_EQ(record.loads.find("dock.1.tension"), record.loads.columns.size());
+  double carried = 0;
+  for (const Column& column : record.loads.columns) {
+    if (glob("foot.*.fz", column.name)) carried += last_load(record, column.name);
+  }
+  EXPECT_GT(carried, 0);
+}
+
+TEST(Loads, LieInTheRunFolder) {
+  const Folder folder;
+  const Recording record = run_with_loads(shipped("caterpillar.yaml", {"duration=0.1", "physics.engine=articulated"}));
+  ASSERT_TRUE(std::isnan(load(record, 0, "stability"))) << "it starts above the ground: this one is kept, too";
+  write_recording(record, {"", 0, "", "done"}, "h5", folder.path());
+  EXPECT_EQ(hash(read_recording(folder.path()).recording.loads), hash(record.loads));
+}
+
+TEST(Loads, AreLinearBetweenTicks) {
+  Recording r;
+  r.trace.columns = {{"t", "s", ""}};
+  r.trace.values = {0, 0.5, 1, 1.75, 2};
+  r.loads.columns = {{"t", "s", ""}, {"slip", "m", ""}};
+  r.loads.values = {0, 10, 1, 20, 2, NAN};
+  const Trace rows = report::loads_at_rows(r);
+  ASSERT_EQ(rows.rows(), 5U);
+  EXPECT_EQ(rows.at(1, 0), 0.5);
+  EXPECT_EQ(rows.at(0, 1), 10);
+  EXPECT_EQ(rows.at(1, 1), 15);
+  EXPECT_EQ(rows.at(2, 1), 20) << "at a tick: no neighbour counts";
+  EXPECT_TRUE(std::isnan(rows.at(3, 1)));
+  halve_rows(r.loads);
+  EXPECT_EQ(r.loads.rows(), 2U);
+  EXPECT_EQ(r.loads.at(1, 0), 2);
+  r.loads = {};
+  EXPECT_EQ(report::loads_at_rows(r).rows(), 0U);
+}
+
+}  // namespace
+}  // namespace gaitlab::test

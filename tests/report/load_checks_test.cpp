@@ -1,0 +1,169 @@
+// Checks of docks, slip and stability on runs made for them.
+#include "report/load_checks.h"
+
+#include <limits>
+
+#include "report/verdict.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace report;
+
+constexpr double kUnknownLimit = std::numeric_limits<double>::quiet_NaN();
+
+/// A caterpillar of 4 s, changed by hand.
+struct LoadCase {
+  Scenario scenario = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated"});
+  Recording record = recorded(scenario);
+
+  static Recording recorded(const Scenario& scenario) {
+    Simulation simulation({&scenario, 1}, Loads::recorded);
+    simulation.run();
+    return simulation.take_recording(0);
+  }
+  /// A column from row `from` on.
+  void set(const std::string& column, double value, std::size_t from = 0) {
+    const std::size_t at = record.loads.find(column);
+    for (std::size_t row = from; row < record.loads.rows(); ++row)
+      record.loads.values.at(row * record.loads.columns.size() + at) = value;
+  }
+  [[nodiscard]] std::size_t last() const { return record.loads.rows() - 1; }
+  [[nodiscard]] Summary summary() const { return summarise(scenario, record, 0); }
+  [[nodiscard]] Check check(const std::string& id) const {
+    const Verdict made = verdict(scenario, record, summary(), overlaps(scenario, record));
+    const auto found = std::ranges::find(made.checks, id, &Check::id);
+    return found != made.checks.end() ? *found : Check();
+  }
+  [[nodiscard]] Check docks(DockQuantity quantity, const std::vector<double>& limits) const {
+    Check made;
+    made.value = made.limit = made.from = made.to = kUnknownLimit;
+    judge_docks(scenario, record, summary(), quantity, limits, made);
+    return made;
+  }
+};
+
+LoadCase& crawl() {
+  static LoadCase made;
+  return made;
+}
+
+TEST(LoadChecks, NameTheDockThatBearsMost) {
+  const std::tuple<const char*, const char*, const char*> all[] = {
+      {"dock_tension", "tension", "m3/dock is pulled apart by up to 77 N"},
+      {"dock_shear", "shear", "m3/dock is sheared by up to 77 N"},
+      {"dock_bending", "bending", "m3/dock is bent by up to 77 N m"},
+      {"dock_torsion", "torsion", "m3/dock is twisted by up to 77 N m"}};
+  for (const auto& [id, column, text] : all) {
+    LoadCase made = crawl();
+    made.set(fmt::format("dock.3.{}", column), 77, made.last());
+    const Check check = made.check(id);
+    EXPECT_EQ(check.status, CheckStatus::not_judged) << "no module type states a limit";
+    EXPECT_EQ(check.value, 77);
+    EXPECT_EQ(check.from, 4);
+    EXPECT_TRUE(contains(check.text, text)) << check.text;
+    EXPECT_TRUE(contains(check.text, "do not state")) << check.text;
+  }
+}
+
+TEST(LoadChecks, HoldDocksAgainstTheirLimits) {
+  LoadCase made = crawl();
+  for (int m = 1; m < 8; ++m) made.set(fmt::format("dock.{}.bending", m), 0.1);
+  made.set("dock.2.bending", 5);
+  made.set("dock.6.bending", 4);
+  const auto with = [&](double second, double sixth) {
+    return made.docks(DockQuantity::bending,
+                      {kUnknownLimit, kUnknownLimit, second, kUnknownLimit, kUnknownLimit, kUnknownLimit, sixth});
+  };
+  EXPECT_EQ(with(10, 5.1).status, CheckStatus::pass);
+  EXPECT_EQ(with(10, 5.1).limit, 5.1) << "4 of 5.1 is nearer than 5 of 10";
+  EXPECT_EQ(with(10, 4.5).status, CheckStatus::warn) << "above the margin of 80 %";
+  EXPECT_EQ(with(10, 3.9).status, CheckStatus::fail);
+  EXPECT_EQ(with(10, 3.9).joints, 1U);
+  EXPECT_EQ(with(4, 3.9).joints, 2U);
+  EXPECT_EQ(with(kUnknownLimit, 5.1).status, CheckStatus::pass) << "docks of which nothing is stated do not count";
+  EXPECT_EQ(with(kUnknownLimit, kUnknownLimit).status, CheckStatus::not_judged);
+  EXPECT_EQ(with(kUnknownLimit, kUnknownLimit).value, 5);
+}
+
+TEST(LoadChecks, OfATensionOnlyThePullCounts) {
+  LoadCase made = crawl();
+  for (int m = 1; m < 8; ++m) {
+    made.set(fmt::format("dock.{}.tension", m), -50);
+    made.set(fmt::format("dock.{}.torsion", m), -50);
+  }
+  EXPECT_EQ(made.check("dock_tension").value, -50);
+  EXPECT_TRUE(contains(made.check("dock_tension").text, "no dock is pulled apart"));
+  EXPECT_EQ(made.check("dock_torsion").value, 50);
+}
+
+TEST(LoadChecks, ReadTheJudgedWindow) {
+  LoadCase made = crawl();
+  made.set("dock.1.shear", 500);
+  made.set("dock.1.shear", 1, 2);  // from the third tick on
+  EXPECT_LT(made.check("dock_shear").value, 100);
+}
+
+TEST(LoadChecks, WarnOfFeetThatSlide) {
+  const auto with = [&](double slip, double path, const char* foot = "foot.m3/active.slid") {
+    LoadCase made = crawl();
+    for (const Column& column : made.record.loads.columns) {
+      if (glob("foot.*.slid", column.name)) made.set(column.name, 0);
+    }
+    for (const char* const sum : {"slip", "path"}) made.set(sum, 0);
+    made.set("slip", slip, made.last());
+    made.set("path", path, made.last());
+    made.set(foot, 0.123, made.last());
+    return made.check("slip");
+  };
+  EXPECT_EQ(with(0.019, 0.1).status, CheckStatus::pass);
+  EXPECT_NEAR(with(0.019, 0.1).value, 0.19, 1e-12);
+  EXPECT_EQ(with(0.021, 0.1).status, CheckStatus::warn);
+  EXPECT_EQ(with(5, 0.1).status, CheckStatus::warn) << "it never fails";
+  EXPECT_EQ(with(kUnknownLimit, 0.1).status, CheckStatus::warn) << "not a number is not a pass";
+  EXPECT_EQ(with(0.001, 0.005).status, CheckStatus::not_judged) << "it goes nowhere";
+  EXPECT_TRUE(contains(with(0.021, 0.1).text, "farthest m3/active, by 123 of 100 mm")) << with(0.021, 0.1).text;
+  LoadCase lenient = crawl();
+  lenient.scenario.limits.slip = 1e-6;
+  EXPECT_EQ(lenient.check("slip").status, CheckStatus::warn);
+}
+
+TEST(LoadChecks, NoteWhatStandsAndWhatFalls) {
+  LoadCase made = crawl();
+  made.set("stability", 0.02);
+  EXPECT_EQ(made.check("stability").status, CheckStatus::pass);
+  EXPECT_EQ(made.check("stability").value, 0.02);
+  EXPECT_TRUE(contains(made.check("stability").text, "stays 20 mm within"));
+  made.set("stability", -0.03, made.last());
+  EXPECT_EQ(made.check("stability").status, CheckStatus::pass) << "a note";
+  EXPECT_EQ(made.check("stability").value, -0.03);
+  EXPECT_EQ(made.check("stability").from, 4);
+  EXPECT_TRUE(contains(made.check("stability").text, "30 mm out of the support polygon")) << made.check("stability").text;
+  made.set("stability", kUnknownLimit);
+  EXPECT_EQ(made.check("stability").status, CheckStatus::not_judged);
+  EXPECT_EQ(made.check("stability").text, "no foot bears a load");
+  made.scenario.ground.kind = Ground::Kind::heightfield;
+  EXPECT_TRUE(contains(made.check("stability").text, "plane"));
+}
+
+TEST(LoadChecks, DoNotAssumeWhatTheyDoNotKnow) {
+  constexpr const char* kIds[] = {"dock_tension", "dock_shear", "dock_bending", "dock_torsion", "slip", "stability"};
+  LoadCase old = crawl();
+  old.record.loads = {};
+  LoadCase solver = crawl();
+  solver.scenario.contact.law = ContactLaw::solver;
+  for (const char* const id : kIds) {
+    EXPECT_EQ(old.check(id).status, CheckStatus::not_judged) << id;
+    EXPECT_TRUE(contains(old.check(id).text, "not recorded")) << id;
+    EXPECT_EQ(solver.check(id).status, CheckStatus::not_judged) << id;
+    EXPECT_TRUE(contains(solver.check(id).text, "contact.law bullet")) << id;
+  }
+  LoadCase held = crawl();
+  held.scenario.base = Base::fixed;
+  EXPECT_EQ(held.check("slip").status, CheckStatus::not_judged);
+  EXPECT_EQ(held.check("dock_shear").text, crawl().check("dock_shear").text);
+}
+
+}  // namespace
+}  // namespace gaitlab::test
