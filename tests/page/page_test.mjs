@@ -175,6 +175,10 @@ on("infeasible: which joint first, when, how much", pages.infeasible, {}, async 
   const failed = meta.verdict.checks.find((c) => c.status === "fail" && c.group !== "trust");
   assert.ok(facts["Longest at its limit"].startsWith(failed.joint));
   assert.ok(facts["Its longest stretch"].startsWith(failed.from.toFixed(2)));
+  const { missing } = meta.verdict.checks.find((c) => c.status === "fail" && c.missing);
+  assert.ok(missing.startsWith(/^[\d.]+ \S+/.exec(facts.Missing)[0]), `${facts.Missing}; ${missing}`);
+  const asked = await page.$$eval("#demand tbody tr", (all) => all.map((r) => r.firstChild.textContent));
+  assert.ok(asked.length > 0 && asked.every((name) => meta.verdict.demand.joints.some((d) => d.joint === name)));
 });
 
 // Hinges are where the engine had them: the body that a hinge's frame belongs to, of the trace's body.* columns, through the camera's

@@ -65,7 +65,7 @@ export interface Scale {
 export function frame(pen: Pen, ink: Ink, box: Box, x: Span, y: Span, names: { x: string; y: string }): Scale {
   const X = (v: number) => box.left + (v - x[0]) / (x[1] - x[0]) * (box.right - box.left);
   const Y = (v: number) => box.bottom - (v - y[0]) / (y[1] - y[0]) * (box.bottom - box.top);
-  const across = ticks(x[0], x[1], Math.max(2, (box.right - box.left) / 72)), up = ticks(y[0], y[1], Math.max(2, (box.bottom - box.top) / 44));
+  const across = ticks(x[0], x[1], Math.max(2, (box.right - box.left) / 72)), up = ticks(y[0], y[1], Math.max(2, (box.bottom - box.top) / 38));
   pen.font = font(11);
   pen.fillStyle = ink.muted;
   pen.strokeStyle = ink.grid;
@@ -108,7 +108,7 @@ export function line(pen: Pen, x0: number, y0: number, x1: number, y1: number): 
 
 /** Seconds along the foot of a drawing. */
 export function timeAxis(pen: Pen, ink: Ink, left: number, width: number, y: number, [from, to]: Span): void {
-  const marks = ticks(from, to, width / 84);
+  const marks = ticks(from, to, width / 64);
   pen.font = font(11);
   pen.fillStyle = ink.muted;
   pen.textAlign = "center";

@@ -2,7 +2,7 @@
 // as a line, a ring where it is now.
 import { Board, font, frame, line, type Box, type Pen, type Scale } from "./board";
 import { element, leaveOut } from "./dom";
-import { keys } from "./joint_plots";
+import { keys } from "./keyline";
 import { largest } from "./loads";
 import { least, limited, most } from "./motor";
 import { number } from "./numbers";

@@ -90,7 +90,9 @@ function shortfall(desk: Desk, first: Check, failed: Check[]): Fact[] {
   if (first.joint) facts.push([motor ? "Longest at its limit" : "Joint", place(desk, first.joint, first.from), motor ? `${quantity(first.value, first.unit)} of the time` : ""]);
   if (first.from !== null) facts.push([motor ? "Its longest stretch" : "When", span(first.from, first.to ?? first.from)]);
   const strays = failed.find((c) => c.id === "tracking");
-  if (missing) facts.push(["Missing", missing]);
+  // `7.51 V (needs 14.9 V; 2.53 N m, 5.88 rad/s at most)`: the rest stands in the row of the check.
+  const [amount, need] = /^(.*?)(?: \((.*?)[;)].*)?$/.exec(missing ?? "")!.slice(1);
+  if (amount) facts.push(["Missing", amount, need]);
   else if (motor && strays) facts.push(["Off its set point", quantity(strays.value, strays.unit), `limit ${quantity(strays.limit, strays.unit)}`]);
   else if (motor) facts.push(["Missing", "not measured"]);
   else if (first.value !== null && first.limit !== null) facts.push(["Found", quantity(first.value, first.unit), `limit ${quantity(first.limit, first.unit)}`]);

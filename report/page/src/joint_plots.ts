@@ -1,5 +1,6 @@
 // The chosen joint over time: angle, set point and torque; what its motor is asked for and draws.
 import { element, leaveOut, make } from "./dom";
+import { keys } from "./keyline";
 import { fixed, number, percent } from "./numbers";
 import type { Desk, Panel, Span } from "./panel";
 import { TimePlot, type Level } from "./timeplot";
@@ -109,14 +110,4 @@ export class JointPlots implements Panel {
     const { recording, state: { joint } } = this.desk, { lo, hi } = recording.meta.joints[joint], room = 0.05 * (hi - lo);
     return recording.channel(`joint.${joint}.angle`).some((a) => a < lo + room || a > hi - room);
   }
-}
-
-/** The line under a plot: mark, colour, words; without words it is left out. */
-export function keys(id: string, entries: [kind: string, colour: string, words: string][]): void {
-  element(id).replaceChildren(...entries.filter(([, , words]) => words).map(([kind, colour, words]) => {
-    const key = make("span.k", words);
-    if (kind) key.classList.add(kind);
-    key.style.setProperty("--c", `var(${colour})`);
-    return key;
-  }));
 }

@@ -1,4 +1,5 @@
 // The page: its state, its panels, what keys and links do.
+import { Balance } from "./balance";
 import { inkOf, type Ink, type Theme } from "./colour";
 import { checks } from "./checks";
 import { demand } from "./demand";
@@ -182,7 +183,7 @@ export class Page implements Desk {
     if (keep("envelope", recording.ran && jointed)) this.panels.push(new Envelope(this));
     if (keep("heat", recording.ran && jointed)) this.panels.push(new HeatMap(this));
     if (keep("foot", recording.ran && meta.ground.kind !== "none")) this.panels.push(new Footfalls(this));
-    if (keep("path", recording.ran && meta.ground.kind !== "none")) this.panels.push(new Path(this));
+    if (keep("path", recording.ran && meta.ground.kind !== "none")) this.panels.push(new Path(this), new Balance(this));
     if (keep("docks", recording.ran && meta.docks.length > 0)) docks(recording);
     if (keep("phase", recording.ran && jointed)) this.panels.push(new Phases(this));
     if (keep("energy", recording.ran && jointed)) this.panels.push(new Energy(this));

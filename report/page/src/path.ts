@@ -2,7 +2,7 @@
 import { Board, frame, type Box, type Pen, type Scale } from "./board";
 import type { Values } from "./channels";
 import { element, leaveOut } from "./dom";
-import { keys } from "./joint_plots";
+import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
 
 export class Path implements Panel {

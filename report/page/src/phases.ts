@@ -1,7 +1,7 @@
 // First harmonic of every joint in the limit cycle: how far it lags behind the first that swings, and how wide it swings.
 import { Board, axisName, font, line, type Box, type Pen } from "./board";
 import { element, leaveOut } from "./dom";
-import { keys } from "./joint_plots";
+import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
 
 const low = -Math.PI / 2 - 0.25; // half a turn stands in the middle of the axis

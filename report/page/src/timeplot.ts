@@ -55,7 +55,10 @@ export class TimePlot {
       series: [{}, ...what.curves.map((c): uPlot.Series => ({ label: c.label, scale: c.axis, stroke: c.colour, width: c.width ?? 1.5, dash: c.dash, points: { show: false } }))],
       hooks: {
         drawClear: [(u) => this.bands(u, what.bands ?? [])],
-        draw: [(u) => this.levels(u, what.levels ?? [])],
+        draw: [(u) => {
+          this.levels(u, what.levels ?? []);
+          this.mark(u, desk.state.t);
+        }],
         setSelect: [(u) => {
           if (u.select.width > 8) desk.zoom([u.posToVal(u.select.left, "x"), u.posToVal(u.select.left + u.select.width, "x")]);
           if (u.select.width > 0) u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
@@ -75,11 +78,7 @@ export class TimePlot {
     this.plot.setScale("x", { min, max });
   }
 
-  seek(t: number): void {
-    const [from, to] = this.desk.state.span;
-    this.head.style.display = t >= from && t <= to ? "" : "none";
-    this.head.style.transform = `translateX(${this.plot.valToPos(t, "x")}px)`;
-  }
+  seek(t: number): void { this.mark(this.plot, t); }
 
   destroy(): void {
     this.observer.disconnect();
@@ -90,7 +89,12 @@ export class TimePlot {
     const { width, height } = this.host.getBoundingClientRect();
     if (width < 10 || height < 10 || (width === this.plot.width && height === this.plot.height)) return;
     this.plot.setSize({ width, height });
-    this.seek(this.desk.state.t);
+  }
+
+  private mark(u: uPlot, t: number): void {
+    const [from, to] = this.desk.state.span;
+    this.head.style.display = t >= from && t <= to ? "" : "none";
+    this.head.style.transform = `translateX(${u.valToPos(t, "x")}px)`;
   }
 
   private bands(u: uPlot, bands: Span[]): void {
