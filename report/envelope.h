@@ -1,13 +1,34 @@
 // What the motors of a robot can do: the torque that is available at every speed, asked of the actuator, whichever it is.
 #pragma once
-#include <nlohmann/json_fwd.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/plugin/actuator.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab::report {
+
+/// What the motors have at a speed: the actuator's effort at plus and minus its largest useful command.
+class AvailableTorque {
+ public:
+  /// Throws PluginError.
+  explicit AvailableTorque(const Scenario& scenario);
+  /// There is one: something drives the joints.
+  [[nodiscard]] const Actuator& actuator() const { return *actuator_; }
+  /// Whether the actuator states a largest command for the joint; else what it has means nothing.
+  [[nodiscard]] bool known(std::size_t joint) const { return joint < known_.size() && known_[joint]; }
+  /// The largest commands; 0 where there is no limit.
+  [[nodiscard]] In commands() const { return most_; }
+  /// N m of every joint, at its speed (rad/s): the most along its axis, and the least (so against it).
+  void at(In speed, Out most, Out least) const;
+
+ private:
+  std::unique_ptr<Actuator> actuator_;
+  std::vector<bool> known_;
+  std::vector<double> most_, least_;
+};
 
 /// One kind of motor. Empty and none: the actuator states no limit.
 struct Envelope {

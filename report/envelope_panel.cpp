@@ -6,7 +6,7 @@
 
 #include "core/scenario/sections.h"
 #include "core/scenario/wording.h"
-#include "report/motors.h"
+#include "report/envelope.h"
 #include "report/paper_panel.h"
 
 namespace gaitlab::report {
@@ -14,17 +14,10 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kEnvelopeHeight = 55;  // mm
-constexpr std::size_t kSpeeds = 201;    // of an envelope
 constexpr std::size_t kNamed = 7;       // joints that have a line of their own
 constexpr double kApart = 0.25;         // px: a path keeps points as far apart
-constexpr double kFastest = 1e4;        // rad/s: a motor that still drives then has no idling speed
 constexpr double kPadding = 1.06;       // of the range, beside what is drawn
 constexpr std::string_view kAvailable = "#E8E8E8";
-
-/// What a motor has at every speed: rad/s, N m.
-struct Envelope {
-  std::vector<double> speed, most, least;
-};
 
 struct JointPath {
   std::string name;
@@ -67,15 +60,11 @@ class EnvelopeOfPanel final : public PaperPanel {
     }
     for (const Envelope& envelope : envelopes_) {
       x.add(envelope.speed);
-      y.add(1.15 * rest(envelope.most));
-      y.add(1.15 * rest(envelope.least));
+      for (const std::vector<double>* torque : {&envelope.most, &envelope.least})
+        y.add(1.15 * (*torque)[torque->size() / 2]);  // at rest
     }
     x_ = ticks_within(kPadding * x.lo, kPadding * x.hi, 8);
     y_ = ticks_within(kPadding * y.lo, kPadding * y.hi, 6);
-    for (const std::size_t j : joints) {
-      if (!AvailableTorque(run.scenario).known(j))
-        notes_.push_back(fmt::format("{}: the actuator states no largest command: no envelope is drawn", names[j]));
-    }
   }
 
   [[nodiscard]] Margins margins() const override { return {8 + label_width(y_) + 20, 12}; }
@@ -132,43 +121,17 @@ class EnvelopeOfPanel final : public PaperPanel {
   [[nodiscard]] std::vector<std::string> notes() const override { return notes_; }
 
  private:
-  /// In the middle of the speeds, which is 0.
-  static double rest(const std::vector<double>& torque) { return torque[kSpeeds / 2]; }
-
   void find_envelopes(const Scenario& scenario, const std::vector<std::size_t>& joints) {
-    const AvailableTorque available(scenario);
-    const std::size_t count = scenario.robot->joints.size();
-    std::vector<double> most(count);
-    std::vector<double> least(count);
-    const auto at = [&](double speed) { available.at(std::vector<double>(count, speed), most, least); };
     Bounds drawn;
     for (const JointPath& path : paths_) drawn.add(path.speed);
-    for (const std::size_t j : joints) {
-      if (!available.known(j)) continue;
-      // The idling speed, where the torque that drives is gone, by halving.
-      double low = 0;
-      double high = 1;
-      for (at(high); most[j] > 0 && high < kFastest; at(high)) high *= 2;
-      double fastest = std::max({std::abs(drawn.lo), std::abs(drawn.hi), 1e-3});
-      if (high < kFastest) {
-        for (int i = 0; i < 60; ++i) {
-          const double middle = 0.5 * (low + high);
-          at(middle);
-          (most[j] > 0 ? low : high) = middle;
-        }
-        fastest = std::max(fastest, low);
+    const Motors all = motors(scenario, std::max(std::abs(drawn.lo), std::abs(drawn.hi)));
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      if (all.of_joint.empty() || !all.joint(joints[k]).command) {
+        notes_.push_back(fmt::format("{}: the actuator states no largest command: no envelope is drawn", paths_[k].name));
+        continue;
       }
-      Envelope envelope;
-      for (std::size_t k = 0; k < kSpeeds; ++k) {
-        envelope.speed.push_back(fastest * (2.0 * static_cast<double>(k) / (kSpeeds - 1) - 1));
-        at(envelope.speed.back());
-        envelope.most.push_back(most[j]);
-        envelope.least.push_back(least[j]);
-      }
-      const auto same = std::ranges::find_if(envelopes_, [&](const Envelope& other) {
-        return other.speed == envelope.speed && other.most == envelope.most && other.least == envelope.least;
-      });
-      if (same == envelopes_.end()) envelopes_.push_back(std::move(envelope));
+      const Envelope& envelope = all.joint(joints[k]);
+      if (std::ranges::find(envelopes_, envelope) == envelopes_.end()) envelopes_.push_back(envelope);
     }
   }
 

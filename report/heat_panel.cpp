@@ -8,8 +8,8 @@
 
 #include "core/scenario/sections.h"
 #include "core/scenario/wording.h"
+#include "report/envelope.h"
 #include "report/helvetica.h"
-#include "report/motors.h"
 #include "report/paper_panel.h"
 
 namespace gaitlab::report {

@@ -1,6 +1,5 @@
 #include "report/motors.h"
 
-#include <cmath>
 #include <memory>
 
 #include "core/laws/dc_motor.h"
@@ -38,24 +37,6 @@ std::string motor_source(const Scenario& scenario) {
     return source->text;
   }
   return "";
-}
-
-AvailableTorque::AvailableTorque(const Scenario& scenario) {
-  if (scenario.actuator.entry == nullptr) return;
-  actuator_ = make_actuator(scenario.actuator, info(*scenario.robot));
-  for (const double limit : actuator_->command_limit()) {
-    most_.push_back(std::isfinite(limit) ? limit : 0);
-    least_.push_back(-most_.back());
-  }
-}
-
-bool AvailableTorque::known(std::size_t joint) const { return joint < most_.size() && most_[joint] > 0; }
-
-void AvailableTorque::at(In speed, Out most, Out least) const {
-  if (actuator_ == nullptr) return;
-  std::vector<double> slope(speed.size());
-  actuator_->effort(most_, speed, most, slope);
-  actuator_->effort(least_, speed, least, slope);
 }
 
 bool chosen(const std::string& source) { return source.starts_with("chosen"); }

@@ -1,9 +1,8 @@
 // What the motors of a robot have at rest, and who says so. At every speed: envelope.h.
 #pragma once
-#include <memory>
+#include <string>
 #include <vector>
 
-#include "core/plugin/actuator.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab::report {
@@ -21,19 +20,5 @@ std::string motor_source(const Scenario& scenario);
 
 /// Whether a source says that its figures are chosen, not a maker's.
 bool chosen(const std::string& source);
-
-/// What the motors have at a speed, asked of the actuator: its effort at plus and minus its largest useful command.
-class AvailableTorque {
- public:
-  explicit AvailableTorque(const Scenario& scenario);
-  /// Whether the actuator states a largest command for the joint; else nothing is known of it.
-  [[nodiscard]] bool known(std::size_t joint) const;
-  /// N m of every joint, at its speed (rad/s): the most along its axis, and the least (so against it).
-  void at(In speed, Out most, Out least) const;
-
- private:
-  std::unique_ptr<Actuator> actuator_;
-  std::vector<double> most_, least_;  // commands; 0 where there is no limit
-};
 
 }  // namespace gaitlab::report
