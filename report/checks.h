@@ -32,6 +32,9 @@ struct CheckedRun {
 /// Up to `pass` a pass, up to `warn` a warning, above it, and where it is not a number, a failure.
 CheckStatus graded(double value, double pass, double warn);
 
+/// Who says a threshold of the section `limits`; all of their defaults are chosen.
+std::string threshold(const char* key, double value, double preset);
+
 // A check comes with its id, title and unit, not judged, without a number and without a word; what stays so was not judged, and
 // the text says why.
 namespace checks {

@@ -11,14 +11,13 @@
 
 namespace gaitlab::report {
 
-namespace {
-
-constexpr const char* kNoFall = "judged of a floating base above a plane, with or without boxes";
-
-/// A threshold of the section `limits`; all of their defaults are chosen.
 std::string threshold(const char* key, double value, double preset) {
   return value == preset ? fmt::format("chosen (limits.{})", key) : fmt::format("limits.{} of the scenario", key);
 }
+
+namespace {
+
+constexpr const char* kNoFall = "judged of a floating base above a plane, with or without boxes";
 
 void judge(Check& made, const char* key, double Limits::*member, const CheckedRun& run) {
   made.limit = run.limits().*member;

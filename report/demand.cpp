@@ -33,11 +33,20 @@ double highest(const Recording& record) {
   return height;
 }
 
-/// `11 V (needs 18.3 V at up to 7.4 rad/s)`.
-std::string lack(double needs, double has, const char* unit, const JudgedJoint& joint) {
-  if (!(needs > has)) return "";
-  return fmt::format("{:.3g} {} (needs {:.3g} {}; {:.3g} N m, {:.3g} rad/s at most)", needs - has, unit, needs, unit,
-                     joint.torque_peak, joint.speed_peak);
+/// What the joint that lacks most would take beyond what it has, of those at that limit for some time: `0.241 A at m5/passive
+/// (needs 0.741 A; largest torque 1.3 N m, largest speed 0.9 rad/s)`.
+std::string lack(const Scenario& scenario, const std::vector<JudgedJoint>& own, const std::vector<JudgedJoint>& free,
+                 double JudgedJoint::*share, double JudgedJoint::*peak, const char* unit) {
+  double most = 0;
+  std::string text;
+  for (std::size_t j = 0; j < own.size(); ++j) {
+    const double missing = free[j].*peak - own[j].*peak;
+    if (!(own[j].*share > 0) || !(missing > kLarger * most)) continue;
+    most = missing;
+    text = fmt::format("{:.3g} {} at {} (needs {:.3g} {}; largest torque {:.3g} N m, largest speed {:.3g} rad/s)", missing,
+                       unit, scenario.robot->joints[j].name, free[j].*peak, unit, free[j].torque_peak, free[j].speed_peak);
+  }
+  return text;
 }
 
 }  // namespace
@@ -75,7 +84,7 @@ void add_demand(Verdict& verdict, const Scenario& scenario, const Summary& summa
   if (!demand.known) return;
   const std::vector<JudgedJoint>& own = summary.judged.joints;
   for (std::size_t j = 0; j < own.size(); ++j) {
-    if (!own[j].reaches_limit()) continue;
+    if (!(own[j].limited() > 0)) continue;
     const JudgedJoint& free = demand.joints[j];
     verdict.demands.push_back(
         {scenario.robot->joints[j].name, free.voltage_peak, free.current_peak, free.torque_peak, free.speed_peak});
@@ -83,13 +92,12 @@ void add_demand(Verdict& verdict, const Scenario& scenario, const Summary& summa
   for (Check& check : verdict.checks) {
     if (check.id != "voltage" && check.id != "current") continue;
     if (check.status != CheckStatus::warn && check.status != CheckStatus::fail) continue;
-    for (std::size_t j = 0; j < own.size(); ++j) {
-      if (scenario.robot->joints[j].name != check.joint) continue;
-      const JudgedJoint& free = demand.joints[j];
-      check.missing = check.id == "voltage"     ? lack(free.voltage_peak, own[j].voltage_peak, "V", free)
-                      : own[j].current_peak > 0 ? lack(free.current_peak, own[j].current_peak, "A", free)
-                                                : lack(free.torque_peak, own[j].torque_peak, "N m", free);
-    }
+    const bool amperes = std::ranges::any_of(own, [](const JudgedJoint& joint) { return joint.current_peak > 0; });
+    check.missing = check.id == "voltage"
+                        ? lack(scenario, own, demand.joints, &JudgedJoint::voltage_limited, &JudgedJoint::voltage_peak, "V")
+                    : amperes
+                        ? lack(scenario, own, demand.joints, &JudgedJoint::current_limited, &JudgedJoint::current_peak, "A")
+                        : lack(scenario, own, demand.joints, &JudgedJoint::current_limited, &JudgedJoint::torque_peak, "N m");
   }
 }
 

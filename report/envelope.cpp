@@ -89,7 +89,7 @@ void AvailableTorque::at(In speed, Out most, Out least) const {
   actuator_->effort(least_, speed, least, slope);
 }
 
-Motors motors(const Scenario& scenario, double fastest) {
+Motors motors(const Scenario& scenario, double fastest) try {
   const std::size_t joints = scenario.robot->joints.size();
   if (scenario.actuator.entry == nullptr || joints == 0) return {};
   const AvailableTorque available(scenario);
@@ -134,6 +134,8 @@ Motors motors(const Scenario& scenario, double fastest) {
     if (known == found.kinds.end()) found.kinds.push_back(motor);
   }
   return found;
+} catch (const PluginError&) {  // one that throws may have ended the run, which says so; nothing is known of it
+  return {{Envelope()}, std::vector<std::size_t>(scenario.robot->joints.size(), 0)};
 }
 
 }  // namespace gaitlab::report

@@ -48,7 +48,7 @@ struct Motors {
 };
 
 /// Speeds reach from -w to w, w a quarter more than the speed without load, or `fastest` (rad/s, of the run) where that is
-/// more, but at most three times it; without such a speed they reach to `fastest`. Throws PluginError.
+/// more, but at most three times it; without such a speed they reach to `fastest`. Of an actuator that throws nothing is known.
 Motors motors(const Scenario& scenario, double fastest);
 
 }  // namespace gaitlab::report

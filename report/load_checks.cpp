@@ -145,8 +145,8 @@ void judge_slip(const Scenario& scenario, const Recording& record, const Summary
   made.from = window.time(window.start);
   made.to = window.loads.at(window.loads.rows() - 1, 0);
   made.text = worst.empty() ? "no foot slides under load"
-                            : fmt::format("feet slide {} of the way under load, farthest {}, by {:.3g} of {:.3g} mm",
-                                          texts::percent(made.value), worst, 1000 * farthest, 1000 * way);
+                            : fmt::format("feet slide {} of the way under load, farthest {}, by {:.3g} of {:.3g} m",
+                                          texts::percent(made.value), worst, farthest, way);
 }
 
 void judge_stability(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {

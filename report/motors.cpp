@@ -10,6 +10,10 @@
 
 namespace gaitlab::report {
 
+namespace {
+const std::string kOfTheScenario = " of the scenario; the rest: ";
+}
+
 bool dc_motors(const Scenario& scenario) { return !rest_torques(scenario).empty(); }
 
 std::vector<double> rest_torques(const Scenario& scenario) {
@@ -23,22 +27,30 @@ std::vector<double> rest_torques(const Scenario& scenario) {
 }
 
 std::string motor_source(const Scenario& scenario) {
-  const SettingsNumbers settings(scenario.actuator);
+  if (scenario.actuator.entry == nullptr) return "";
   for (const Node& document : *scenario.module_documents) {
     const Node* actuator = document.find("actuator");
     const Node* source = actuator == nullptr ? nullptr : actuator->find("source");
     if (source == nullptr) continue;
-    for (std::size_t i = 0; i < actuator->items.size(); ++i) {
-      const auto* setting = settings.find(actuator->keys[i].first);
-      if (setting == nullptr || actuator->items[i].kind != Node::Kind::scalar) continue;
-      const Reading<double> stated = read_number(actuator->items[i], "");
-      if (stated.ok() && !(setting->value == PerJoint{stated.value})) return "the scenario";
+    const Node* type = actuator->find("type");
+    if (type == nullptr || type->text != scenario.actuator.entry->name) return "the scenario";
+    const SettingsNumbers presets({scenario.actuator.entry, default_settings(*scenario.actuator.entry)});
+    std::string given;
+    const SettingsNumbers settings(scenario.actuator);
+    for (const SettingsNumbers::Found& setting : settings.all()) {
+      const Node* stated = actuator->find(setting.key);
+      const auto* preset = presets.find(setting.key);
+      const Reading<double> number = stated != nullptr ? read_number(*stated, "") : Reading<double>{preset->value.common, ""};
+      if (number.ok() && !(setting.value == PerJoint{number.value})) given += (given.empty() ? "" : ", ") + setting.key;
     }
-    return source->text;
+    return given.empty() ? source->text : given + kOfTheScenario + source->text;
   }
   return "";
 }
 
-bool chosen(const std::string& source) { return source.starts_with("chosen"); }
+bool chosen(const std::string& source) {
+  const std::size_t rest = source.find(kOfTheScenario);
+  return source.substr(rest == std::string::npos ? 0 : rest + kOfTheScenario.size()).starts_with("chosen");
+}
 
 }  // namespace gaitlab::report

@@ -14,11 +14,11 @@ bool dc_motors(const Scenario& scenario);
 /// where the actuator is not made of DC motors.
 std::vector<double> rest_torques(const Scenario& scenario);
 
-/// Who says what the motors have: the scenario, where it gives one of their settings, else the `source` that the module type
-/// gives for its actuator; empty: nobody does.
+/// Who says what the motors have: the `source` that the module type gives for its actuator, behind the settings that the
+/// scenario gives instead (`i_max of the scenario; the rest: chosen ...`); empty: nobody does.
 std::string motor_source(const Scenario& scenario);
 
-/// Whether a source says that its figures are chosen, not a maker's.
+/// Whether a source says that its figures, or the rest of them, are chosen, not a maker's.
 bool chosen(const std::string& source);
 
 }  // namespace gaitlab::report

@@ -127,7 +127,7 @@ std::vector<std::string> left_out(const Scenario& scenario, const std::vector<Si
   const auto has = [&](const char* pattern) {
     return std::ranges::any_of(signals, [&](const Signal& signal) { return glob(pattern, signal.name); });
   };
-  std::vector<const char*> shown{"energy.*"};
+  std::vector<const char*> shown;
   if (!scenario.robot->joints.empty()) shown.push_back("joint.*.speed");
   if (!scenario.robot->joints.empty() && scenario.actuator.entry != nullptr)
     shown.insert(shown.end(),

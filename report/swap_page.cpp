@@ -21,15 +21,26 @@ h1 { font-size: 20px; margin: 0 0 4px; }
 p { margin: 0 0 16px; color: var(--muted); }
 main { background: var(--panel); border-radius: 10px; padding: 4px 16px 12px; overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; }
-th, td { padding: 10px 10px; border-bottom: 1px solid var(--rule); text-align: right; vertical-align: middle; white-space: nowrap; }
+th, td { padding: 10px 8px; border-bottom: 1px solid var(--rule); text-align: right; vertical-align: middle; white-space: nowrap; }
 th { font-weight: 500; color: var(--muted); vertical-align: bottom; }
 th:first-child, td:first-child, th.l, td.l { text-align: left; }
-td.l { white-space: normal; min-width: 260px; }
+td.l { white-space: normal; min-width: 150px; max-width: 340px; }
 a { color: inherit; font-weight: 650; text-underline-offset: 3px; }
 b.pass { color: var(--pass); } b.fail { color: var(--fail); } b.open { color: var(--open); }
 small { display: block; color: var(--muted); font-size: 12.5px; }
-img { display: block; width: 240px; height: 66px; image-rendering: pixelated; border-radius: 3px; }
+img { display: block; width: 200px; height: 64px; image-rendering: pixelated; border-radius: 3px; }
 )";
+
+/// A minus sign where a number begins with a hyphen.
+std::string typeset(const std::string& text) {
+  std::string set;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool minus =
+        text[i] == '-' && i + 1 < text.size() && text[i + 1] >= '0' && text[i + 1] <= '9' && (i == 0 || text[i - 1] == ' ');
+    set += minus ? "−" : std::string(1, text[i]);
+  }
+  return xml_escaped(set);
+}
 
 std::string verdict_cell(const Verdict& verdict) {
   const bool bad = verdict.word == "infeasible" || verdict.word == "failed";
@@ -49,7 +60,7 @@ std::string swap_page(const std::string& name, const std::vector<SwapEntry>& ent
   const auto columns = placed(&SummaryNumber::swap);
   std::string head =
       "<th scope=\"col\">CPG</th><th scope=\"col\" class=\"l\">verdict</th>"
-      "<th scope=\"col\" class=\"l\">every joint over time, share of its motor</th>";
+      "<th scope=\"col\" class=\"l\">every joint over time<small>of its motor: pale 0, dark red all</small></th>";
   for (const SummaryNumber* number : columns)
     head += fmt::format("<th scope=\"col\">{}<small>{}</small></th>", xml_escaped(number->swap.head),
                         xml_escaped(number->swap.under));
@@ -63,7 +74,7 @@ std::string swap_page(const std::string& name, const std::vector<SwapEntry>& ent
                                                       picture, xml_escaped(entry.named.name)));
     for (const SummaryNumber* number : columns) {
       const bool known = entry.named.run.summary.outcome == "done";
-      rows += fmt::format("<td>{}</td>", known ? xml_escaped(number->swap.cell(entry.named.run)) : "");
+      rows += fmt::format("<td>{}</td>", known ? typeset(number->swap.cell(entry.named.run)) : "");
     }
     rows += "</tr>\n";
   }

@@ -19,7 +19,10 @@ template <DockQuantity kQuantity>
 void dock(const CheckedRun& run, Check& made) {
   judge_docks(run.scenario, run.record, run.summary, kQuantity, dock_limits(*run.scenario.robot, kQuantity), made);
 }
-void slip(const CheckedRun& run, Check& made) { judge_slip(run.scenario, run.record, run.summary, made); }
+void slip(const CheckedRun& run, Check& made) {
+  judge_slip(run.scenario, run.record, run.summary, made);
+  made.source = threshold("slip", run.limits().slip, Limits().slip);
+}
 void stability(const CheckedRun& run, Check& made) { judge_stability(run.scenario, run.record, run.summary, made); }
 
 constexpr CheckKind kChecks[] = {
@@ -31,9 +34,9 @@ constexpr CheckKind kChecks[] = {
      checks::voltage},
     {"current", "motor", "", "Current suffices", "share of the window at the limit of the current, over all steps",
      checks::current},
-    {"envelope", "motor", "", "Torque within what motors have",
+    {"envelope", "motor", "", "Torque within reach",
      "largest torque over what the actuator has at that speed in that direction, over all steps", checks::envelope},
-    {"speed", "motor", "rad/s", "Speed within what motors have",
+    {"speed", "motor", "rad/s", "Speed within reach",
      "largest speed against the speed at which the actuator has no torque left, or the rated one, over all steps",
      checks::speed},
     {"heat", "motor", "A", "Motors stay cool", "RMS current over the window against the continuous rating, over all steps",

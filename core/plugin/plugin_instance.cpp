@@ -119,7 +119,7 @@ class GuardedActuator final : public Actuator {
   [[nodiscard]] Values sized(const char* function, Values values) const {
     if (values.size() == size_) return values;
     throw PluginError(entry_,
-                      fmt::format("{} has {} values; expected {}, one per joint and lane", function, values.size(), size_));
+                      fmt::format("{} has {} numbers; expected {}, one per joint and lane", function, values.size(), size_));
   }
 
   const Entry& entry_;

@@ -200,16 +200,18 @@ TEST(Recordings, ThatDoNotFitTogetherAreRefused) {
   EXPECT_EQ(complaint(good.beside), "");
   const std::string file = folder / "trace.h5";
   std::vector<Beside> beside = good.beside;
+  const auto table = [&](const char* name) -> Trace& { return std::ranges::find(beside, name, &Beside::name)->table; };
   beside.erase(beside.begin());
   EXPECT_EQ(complaint(beside), file + ": error: is corrupt: there is no table /recording/rest");
   beside = good.beside;
   beside[0].table.values.resize(beside[0].table.columns.size());
   EXPECT_EQ(complaint(beside), file + ": error: is corrupt: 1 rows in /recording/rest, 11 in the trace");
   beside = good.beside;
-  beside[2].table.columns[0].name = "torque";
+  table("joints").columns[0].name = "torque";
   EXPECT_EQ(complaint(beside), file + ": error: is corrupt: there is no number torque_peak");
   beside = good.beside;
-  beside[3].table.values[beside[3].table.find("stability.index")] = -1;
+  Trace& numbers = table("run");
+  numbers.values[numbers.find("stability.index")] = -1;
   EXPECT_EQ(complaint(beside), file + ": error: is corrupt: stability.index is -1");
 }
 

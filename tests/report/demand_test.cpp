@@ -1,7 +1,6 @@
 // The demand twin: what motors without limits would take.
 #include "report/demand.h"
 
-#include "core/scenario/sections.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -43,15 +42,21 @@ TEST(Demand, IsTheRunWithLimitsTwentyTimesAsLarge) {
   }
   ASSERT_EQ(weak.judged.word, "infeasible");
   add_demand(weak.judged, weak.scenario, weak.summary, made);
-  EXPECT_EQ(weak.judged.demands.size(), Judged::limited(weak.summary.judged.joints));
-  for (const Check& check : weak.judged.checks) {
-    if (check.id != "current") continue;
-    EXPECT_EQ(check.status, CheckStatus::fail);
-    const auto names = joint_names(*weak.scenario.robot);
-    const auto worst = static_cast<std::size_t>(std::ranges::find(names, check.joint) - names.begin());
-    EXPECT_EQ(check.missing.substr(0, check.missing.find(" A")), fmt::format("{:.3g}", joints[worst].current_peak - 0.35));
+  // Every joint that is at its limit for some time; what is missing is of the one that lacks most.
+  const std::vector<JudgedJoint>& own = weak.summary.judged.joints;
+  std::size_t limited = 0;
+  double most = 0;
+  for (std::size_t j = 0; j < own.size(); ++j) {
+    if (!(own[j].current_limited > 0)) continue;
+    ++limited;
+    most = std::max(most, joints[j].current_peak - 0.35);
   }
-  EXPECT_TRUE(contains(to_lines(weak.judged).front() + to_lines(weak.judged).at(1) + to_lines(weak.judged).at(2), "missing: "));
+  EXPECT_EQ(weak.judged.demands.size(), limited);
+  const auto current = std::ranges::find(weak.judged.checks, "current", &Check::id);
+  EXPECT_EQ(current->status, CheckStatus::fail);
+  EXPECT_EQ(current->joints, limited);
+  EXPECT_EQ(current->missing.substr(0, current->missing.find(" at ")), fmt::format("{:.3g} A", most));
+  EXPECT_TRUE(contains(to_lines(weak.judged).front() + to_lines(weak.judged).at(1) + to_lines(weak.judged).at(2), "missing"));
   EXPECT_TRUE(contains(to_json(weak.judged), "\"demand\": {"));
 }
 
@@ -64,7 +69,7 @@ TEST(Demand, OfAnActuatorWithoutLimitsIsNotKnown) {
 /// The robot that pushes itself off the ground as soon as its motors can.
 TEST(Demand, SaysWhatMakesItDoubtful) {
   const Weak weak;
-  Scenario twin = shipped("caterpillar.yaml", with({"actuator.i_max=0.35", "cpg.frequency=40"}));
+  Scenario twin = shipped("caterpillar.yaml", with({"actuator.i_max=0.35", "cpg.frequency=20"}));
   raise_limits(twin);
   const Demand wild = demand(twin, weak.record, weak.summary);
   EXPECT_NE(wild.doubt, "") << "thrown up, at its limits again, or diverged";

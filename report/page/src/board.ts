@@ -113,8 +113,8 @@ export function timeAxis(pen: Pen, ink: Ink, left: number, width: number, y: num
   pen.fillStyle = ink.muted;
   pen.textAlign = "center";
   pen.textBaseline = "top";
-  for (const t of marks.at) {
-    const x = left + (t - from) / (to - from) * width, text = marks.text(t), half = pen.measureText(text).width / 2;
+  for (const [i, t] of marks.at.entries()) {
+    const x = left + (t - from) / (to - from) * width, text = marks.text(t) + (i === marks.at.length - 1 ? " s" : ""), half = pen.measureText(text).width / 2;
     pen.fillText(text, Math.min(Math.max(x, left + half), left + width - half), y);
   }
 }

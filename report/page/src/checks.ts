@@ -10,6 +10,8 @@ const marks: Record<Status, string> = {
 const words: Record<Status, string> = { pass: "pass", warn: "warning", fail: "fail", "not judged": "not judged" };
 /** On a figure that nobody but the project states. */
 export const rests = (source: string): boolean => source.startsWith("chosen");
+/** Checks whose limit is the least that may be found; of the others it is the most. */
+const least = new Set(["outcome", "fall"]);
 const groups: Record<string, string> = { run: "The run", motor: "Motors", motion: "Motion", structure: "Structure", ground: "Ground", trust: "Can the numbers be believed?" };
 
 export function checks(desk: Desk): void {
@@ -26,7 +28,7 @@ export function checks(desk: Desk): void {
     body.append(...rows(desk, check));
   }
   const chosen = verdict.checks.some((c) => c.limit !== null && rests(c.source));
-  element("checks-note").textContent = chosen ? "* rests on a figure that is chosen, not a maker's; the row says which" : "";
+  element("checks-note").textContent = chosen ? "* rests on a figure that is chosen, not a maker's; a row that is opened says which" : "";
   const { pass, warn, fail, "not judged": open } = verdict.counts;
   element("counts").textContent = [[pass, "passed"], [warn, warn === 1 ? "warning" : "warnings"], [fail, "failed"], [open, "not judged"]].filter(([n]) => n).map(([n, word]) => `${n} ${word}`).join(", ");
 }
@@ -42,9 +44,9 @@ function rows(desk: Desk, check: Check): HTMLTableRowElement[] {
   if (check.definition) more.append(make("p", sentence(check.definition)));
   if (check.source) more.append(make("p", sentence(`limit: ${check.source}`)));
   more.hidden = true;
-  const limit = check.limit === null ? "no limit" : quantity(check.limit, check.unit) + (rests(check.source) ? "*" : "");
+  const limit = check.limit === null ? "no limit" : (least.has(check.id) ? "≥ " : "") + quantity(check.limit, check.unit) + (rests(check.source) ? "*" : "");
   const head = make("tr", make("td.mark", icon(marks[check.status]), make("span.sr", words[check.status])), make("td.what", open),
-    make("td.value", check.status === "not judged" ? "not judged" : quantity(check.value, check.unit)), make("td.limit", limit));
+    make("td.value", check.value === null ? "not judged" : quantity(check.value, check.unit)), make("td.limit", limit));
   const text = make("td", ...(aloud ? [make("p.why", sentence(check.text))] : []), ...(check.missing ? [make("p.short", `Missing: ${check.missing}`)] : []), more), detail = make("tr", make("td"), text);
   text.colSpan = 3;
   detail.hidden = !aloud && !check.missing;

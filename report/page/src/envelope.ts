@@ -68,7 +68,7 @@ export class Envelope implements Panel {
     pen.lineWidth = 1;
     line(pen, box.left, Y(0), box.right, Y(0));
     line(pen, X(0), box.top, X(0), box.bottom);
-    const steady = motor?.continuous && motor.current && motor.rest ? motor.rest * Math.min(1, motor.continuous / motor.current) : null;
+    const steady = motor?.continuous && motor.current && motor.rest && motor.continuous < motor.current ? motor.rest * Math.min(1, motor.continuous / motor.current) : null;
     if (steady) {
       pen.setLineDash([5, 4]);
       pen.strokeStyle = ink.orange;

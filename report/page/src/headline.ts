@@ -49,8 +49,8 @@ function judgement(desk: Desk, meta: Meta): { mood: Mood; said: string; why: str
     const cause = meta.motors.length ? "Nothing is known of what the motors can do, so nobody can say whether they can do this." : "There are no motors whose limits this run could exceed.";
     return { mood: "open", said: "Not judged", why: [cause, ...others(failed)], facts: walked(desk, meta) };
   }
-  const near = gait.some((c) => c.status === "warn") ? null : nearest(gait);
-  const why = ["Every limit that is known is kept.", ...(near ? [`Nearest to its limit: ${quantity(near.value, near.unit)} of ${quantity(near.limit, near.unit)} (${inSentence(near.title)}${near.joint ? `: ${near.joint}` : ""}).`] : [])];
+  const most = hardest(meta), left = most && most.value! < 1 ? ` The motors have at least ${percent(1 - most.value!, 2)} of their torque left, at every speed.` : "";
+  const why = [`Every limit that is known is kept.${left}`];
   return { mood: "good", said: meta.motors.length ? "Feasible with these motors" : "Feasible", why, facts: walked(desk, meta) };
 }
 
@@ -67,7 +67,7 @@ function aside(meta: Meta): string[] {
   const of = (trust: boolean, ...status: Check["status"][]) => meta.verdict.checks.filter((c) => status.includes(c.status) && (c.group === "trust") === trust);
   const warned = of(false, "warn"), doubtful = of(true, "warn", "fail"), open = of(false, "not judged"), bad = meta.verdict.verdict !== "feasible", gait = of(false, "fail"), limited = gait.some((c) => c.id === "voltage" || c.id === "current");
   return [
-    ...(warned.length ? [bad ? `${capital(plural(warned.length, "warning"))}.` : `Warned of: ${briefly(warned)}.`] : []),
+    ...(warned.length ? [bad ? `${capital(plural(meta.verdict.counts.warn, "warning"))}.` : `Warned of: ${briefly(warned)}.`] : []),
     ...(meta.verdict.chosen_motors ? ["The figures of the motors are chosen, not a maker's."] : []),
     ...(limited && !gait.some((c) => c.missing) ? [`How much is missing in volts and amperes, gaitlab report --demand tells.`] : []),
     ...(doubtful.length ? [`Doubtful: ${briefly(doubtful)}.`] : []),
@@ -76,17 +76,14 @@ function aside(meta: Meta): string[] {
   ];
 }
 
-/** The check that is nearest to its limit, of those where more is worse. */
-function nearest(checks: Check[]): Check | null {
-  const share = (c: Check) => c.value! / c.limit!;
-  const known = checks.filter((c) => !["outcome", "fall", "stability"].includes(c.id) && c.status !== "not judged" && c.value !== null && c.limit !== null && c.limit > 0);
-  return known.sort((a, b) => share(b) - share(a))[0] ?? null;
-}
+/** The check on the torque that a motor gives, of what it has at that speed, where it was judged. */
+export const hardest = (meta: Meta): Check | null =>
+  meta.verdict.checks.find((c) => c.id === "envelope" && c.status !== "not judged" && c.value !== null && c.joint !== null) ?? null;
 
 function shortfall(desk: Desk, first: Check, failed: Check[]): Fact[] {
   const { meta } = desk.recording, motor = first.id === "voltage" || first.id === "current", early = motor ? firstAtLimit(desk) : null;
   const facts: Fact[] = [], missing = failed.find((c) => c.missing)?.missing;
-  if (early) facts.push(["First at its limit", place(desk, meta.joints[early.joint].name, early.t), `at ${fixed(early.t, 2)} s`]);
+  if (early) facts.push(["First of the run at a limit", place(desk, meta.joints[early.joint].name, early.t), `at ${fixed(early.t, 2)} s`]);
   if (first.joint) facts.push([motor ? "Longest at its limit" : "Joint", place(desk, first.joint, first.from), motor ? `${quantity(first.value, first.unit)} of the time` : ""]);
   if (first.from !== null) facts.push([motor ? "Its longest stretch" : "When", span(first.from, first.to ?? first.from)]);
   const strays = failed.find((c) => c.id === "tracking");
@@ -99,13 +96,13 @@ function shortfall(desk: Desk, first: Check, failed: Check[]): Fact[] {
   return facts;
 }
 
-/** The joint that is the first in the judged window whose motor gives all it can. */
+/** The joint that is the first of the run whose motor gives all it can. */
 export function firstAtLimit(desk: Desk): { joint: number; t: number } | null {
-  const { recording } = desk, from = recording.judged;
+  const { recording } = desk;
   let row = Infinity, joint = -1;
   recording.meta.joints.forEach((_, j) => {
     const flags = recording.find(`joint.${j}.saturation`);
-    for (let i = from; flags && i < Math.min(flags.length, row); i++) if (flags[i] > 0) { row = i; joint = j; }
+    for (let i = 0; flags && i < Math.min(flags.length, row); i++) if (flags[i] > 0) { row = i; joint = j; }
   });
   return joint < 0 ? null : { joint, t: recording.times[row] };
 }
@@ -122,7 +119,10 @@ function place(desk: Desk, name: string, t: number | null): HTMLButtonElement {
 
 function walked(desk: Desk, meta: Meta): Fact[] {
   const { summary, cycle } = meta, facts: Fact[] = [];
-  if (desk.loads.limited) {
+  const most = hardest(meta);
+  if (most) {
+    facts.push(["Hardest worked", place(desk, most.joint!, most.from), `${percent(most.value!, 2)} of its motor at ${fixed(most.from ?? 0, 2)} s`]);
+  } else if (desk.loads.limited) {
     const { joint, share, t } = desk.loads.hardest;
     facts.push(["Hardest worked", place(desk, meta.joints[joint].name, t), `${percent(share, 2)} of its motor`]);
   } else if (desk.loads.peak > 1e-6) facts.push(["Largest torque", number(desk.loads.peak), "N m"]);

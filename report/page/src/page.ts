@@ -8,7 +8,7 @@ import { element, make, panelOf } from "./dom";
 import { Energy } from "./energy";
 import { Envelope } from "./envelope";
 import { Footfalls } from "./footfalls";
-import { firstAtLimit, headline } from "./headline";
+import { firstAtLimit, hardest, headline } from "./headline";
 import { HeatMap } from "./heatmap";
 import { JointPlots } from "./joint_plots";
 import { Loads } from "./loads";
@@ -47,7 +47,7 @@ export class Page implements Desk {
     const all = recording.end || 1, period = cycle?.period ?? 2;
     this.stretches = { all, four: Math.min(all, 4 * period), one: Math.min(all, period) };
     this.width = this.stretches.four;
-    const failing = verdict.checks.find((c) => c.status === "fail" && c.joint), first = failing?.group === "motor" ? firstAtLimit(this) : null;
+    const failing = verdict.checks.find((c) => c.status === "fail" && c.joint) ?? hardest(meta), first = failing?.group === "motor" ? firstAtLimit(this) : null;
     const index = (name: string | null | undefined) => meta.joints.findIndex((j) => j.name === name);
     const start = [index(this.link.get("joint")), index(failing?.joint)].find((j) => j >= 0) ?? this.loads.hardest.joint;
     this.state = { t: 0, joint: meta.joints.length ? start : -1, playing: false, rate: 1, span: [0, all] };

@@ -49,7 +49,7 @@ export class TimePlot {
       scales: { x: { time: false, range: () => [...desk.state.span] as Span }, left: { range: () => left }, ...(what.right ? { right: { range: () => right } } : {}) },
       cursor: { drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false, x: true },
       axes: [
-        { stroke: ink.muted, font: small, grid: { stroke: ink.grid, width: 1 }, ticks: { show: false }, size: 24, gap: 5, values: (_, at) => at.map((v) => String(+v.toFixed(6))) },
+        { stroke: ink.muted, font: small, grid: { stroke: ink.grid, width: 1 }, ticks: { show: false }, size: 24, gap: 5, values: (_, at) => at.map((v, i) => `${+v.toFixed(6)}${i === at.length - 1 ? " s" : ""}`) },
         axis("left", what.left.name, what.left.colour), ...(what.right ? [axis("right", what.right.name, what.right.colour)] : []),
       ],
       series: [{}, ...what.curves.map((c): uPlot.Series => ({ label: c.label, scale: c.axis, stroke: c.colour, width: c.width ?? 1.5, dash: c.dash, points: { show: false } }))],
