@@ -105,6 +105,10 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
     made.checks.push_back(std::move(check));
   }
   made.word = word(made.checks);
+  if (const std::vector<JudgedJoint>& whole = summary.judged.whole; Judged::limited(whole) > 0) {
+    made.first_joint = run.joint(Judged::first(whole));
+    made.first_time = whole[Judged::first(whole)].first_limit_time;
+  }
   return made;
 }
 

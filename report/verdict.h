@@ -41,6 +41,8 @@ struct Verdict {
   std::vector<Check> checks;
   /// Whether a check that was judged rests on figures of motors that are chosen, not a maker's.
   bool chosen_motors = false;
+  std::string first_joint = {};  ///< the first of the whole run at a limit of its motor, however shortly; empty: none is
+  double first_time = 0;         ///< s, when that was
   std::vector<JointDemand> demands = {};  ///< empty: no joint reaches a limit, or nobody asked
   std::string demand_doubt = {};          ///< why demands are not known, or doubtful
   [[nodiscard]] std::size_t count(CheckStatus status) const;

@@ -38,6 +38,7 @@ std::string to_json(const Verdict& verdict) {
   json["verdict"] = verdict.word;
   json["chosen_motors"] = verdict.chosen_motors;
   json["window"] = {{"from", verdict.from}, {"to", verdict.to}};
+  json["first"] = verdict.first_joint.empty() ? Json() : Json{{"joint", verdict.first_joint}, {"time", verdict.first_time}};
   Json counts;
   for (const CheckStatus status : {CheckStatus::pass, CheckStatus::warn, CheckStatus::fail, CheckStatus::not_judged})
     counts[name_of(status)] = verdict.count(status);

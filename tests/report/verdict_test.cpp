@@ -355,6 +355,7 @@ TEST(Verdict, IsAFileALineAndAnExitCode) {
   const auto json = nlohmann::json::parse(read(folder.path() / "bad/verdict.json"));
   EXPECT_EQ(json.at("verdict"), "infeasible");
   EXPECT_EQ(json.at("checks").size(), 24U);
+  EXPECT_TRUE(json.at("first").at("time").is_number());
   EXPECT_EQ(gaitlab("run " + file + "--out good --fail-infeasible", folder.path()).code, 0);
   EXPECT_EQ(gaitlab("report bad --fail-infeasible", folder.path()).code, 3);
   EXPECT_EQ(gaitlab("report bad", folder.path()).code, 0);

@@ -9,7 +9,7 @@ const marks: Record<Status, string> = {
 };
 const words: Record<Status, string> = { pass: "pass", warn: "warning", fail: "fail", "not judged": "not judged" };
 /** On a figure that nobody but the project states. */
-export const rests = (source: string): boolean => source.startsWith("chosen");
+export const rests = (source: string): boolean => /^(.* of the scenario; the rest: )?chosen/.test(source);
 /** Checks whose limit is the least that may be found; of the others it is the most. */
 const least = new Set(["outcome", "fall"]);
 const groups: Record<string, string> = { run: "The run", motor: "Motors", motion: "Motion", structure: "Structure", ground: "Ground", trust: "Can the numbers be believed?" };

@@ -21,8 +21,9 @@ export class Forces {
 
   constructor(private readonly recording: Recording, scene: Scene, unit: number, size: number) {
     const { feet, weight } = recording.meta;
-    // A third of the weight, or what one foot of many carries, is as long as a few modules.
-    this.scale = 0.18 * Math.min(size, 14 * unit) / (Math.max(weight, 1e-9) / Math.max(3, feet.length / 2));
+    // A third of the weight, or what one foot of many carries, is as long as a few modules; the largest is never out of the picture.
+    const long = Math.min(size, 14 * unit);
+    this.scale = Math.min(0.18 * long / (Math.max(weight, 1e-9) / Math.max(3, feet.length / 2)), 0.32 * long / this.largest());
     this.head = 0.4 * unit;
     const shaft = new CylinderGeometry(0.052 * unit, 0.052 * unit, 1, 10).translate(0, 0.5, 0);
     const tip = new ConeGeometry(0.15 * unit, this.head, 14).translate(0, this.head / 2, 0);
@@ -36,6 +37,16 @@ export class Forces {
       scene.add(group);
       return [{ group, shaft: a, tip: b, force: force.map((f) => f ?? none), point: point as Values[] }];
     });
+  }
+
+  /** N, of any foot in any row. */
+  private largest(): number {
+    let most = 1e-9;
+    this.recording.meta.feet.forEach((_, n) => {
+      const [x, y, z] = ["fx", "fy", "fz"].map((c) => this.recording.find(`foot.${n}.${c}`));
+      for (let i = 0; z && i < z.length; i++) most = Math.max(most, Math.hypot(x?.[i] ?? 0, y?.[i] ?? 0, z[i]));
+    });
+    return most;
   }
 
   get any(): boolean { return this.arrows.length > 0; }

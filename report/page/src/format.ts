@@ -114,6 +114,8 @@ export interface Check {
 export interface Verdict {
   format: 1;
   verdict: "feasible" | "infeasible" | "failed" | "not judged";
+  /** The first joint of the run at a limit of its motor, however shortly; s. */
+  first: { joint: string; time: number } | null;
   window: { from: number; to: number };
   counts: Record<Status, number>;
   checks: Check[];

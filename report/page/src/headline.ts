@@ -96,15 +96,10 @@ function shortfall(desk: Desk, first: Check, failed: Check[]): Fact[] {
   return facts;
 }
 
-/** The joint that is the first of the run whose motor gives all it can. */
+/** The joint that is the first of the run at a limit of its motor, however shortly. */
 export function firstAtLimit(desk: Desk): { joint: number; t: number } | null {
-  const { recording } = desk;
-  let row = Infinity, joint = -1;
-  recording.meta.joints.forEach((_, j) => {
-    const flags = recording.find(`joint.${j}.saturation`);
-    for (let i = 0; flags && i < Math.min(flags.length, row); i++) if (flags[i] > 0) { row = i; joint = j; }
-  });
-  return joint < 0 ? null : { joint, t: recording.times[row] };
+  const { joints, verdict: { first } } = desk.recording.meta, joint = first ? joints.findIndex((j) => j.name === first.joint) : -1;
+  return first && joint >= 0 ? { joint, t: first.time } : null;
 }
 
 function place(desk: Desk, name: string, t: number | null): HTMLButtonElement {
