@@ -131,7 +131,7 @@ report::Verdict judged(const Scenario& scenario, const Recording& recording, con
   const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario)};
   Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
   if (!report::raise_limits(twin)) {
-    verdict.demand_doubt = "the actuator declares no limits that could be raised";
+    verdict.demand_doubt = "the actuator declares no limits above 0 that could be raised";
     return verdict;
   }
   report::add_demand(verdict, scenario, summary, report::demand(twin, recording, summary));

@@ -50,7 +50,9 @@ void height(const CheckedRun& run, Check& made) {
   made.value = run.fall->share();
   made.from = made.to = run.fall->lowest_time;
   made.status = made.value >= made.limit ? CheckStatus::pass : CheckStatus::fail;
-  made.text = fmt::format("the centre of mass keeps at least {} of its height at the start", texts::percent(made.value));
+  made.text = made.status == CheckStatus::pass
+                  ? fmt::format("the centre of mass keeps at least {} of its height at the start", texts::percent(made.value))
+                  : fmt::format("the centre of mass comes down to {} of its height at the start", texts::percent(made.value));
 }
 
 void tilt(const CheckedRun& run, Check& made) {
@@ -79,6 +81,8 @@ void tracking(const CheckedRun& run, Check& made) {
 }
 
 void stops(const CheckedRun& run, Check& made) {
+  made.text = "statistics of all steps were not recorded: the folder is of an older format";
+  if (run.record.joints.empty() && !run.scenario.robot->joints.empty()) return;
   judge(made, "beyond_range", &Limits::beyond_range, run);
   made.value = 0;
   made.status = CheckStatus::pass;
@@ -160,6 +164,10 @@ void created(const CheckedRun& run, Check& made) {
   made.text = "nothing drives the joints";
   if (!run.driven()) return;
   judge(made, "energy_created", &Limits::energy_created, run);
+  if (run.record.joints.empty()) {
+    made.text = run.no_steps();
+    return;
+  }
   made.value = texts::created(run.record) / energy_scale(run.scenario, run.record);
   made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // not a number: a warning
   made.text =

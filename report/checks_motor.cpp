@@ -56,6 +56,11 @@ std::string unstated(const CheckedRun& run, MotorLimit limit, double share) {
   return limited ? "" : "the actuator states no limit";
 }
 
+/// Behind a threshold on what motors have.
+std::string of_motors(const CheckedRun& run) {
+  return run.motor_source.empty() ? "" : fmt::format("; motors: {}", run.motor_source);
+}
+
 void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn column, double JudgedJoint::*share) {
   made.text = run.no_steps();
   if (!made.text.empty()) return;
@@ -84,7 +89,7 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
   made.value = value;
   made.status = status;
   made.limit = run.limits().saturated_share;
-  made.source = run.motor_source;
+  made.source = threshold("saturated_share", made.limit, Limits().saturated_share) + of_motors(run);
   const char* const name = !run.has_dc_motors ? "actuator" : limit == MotorLimit::voltage ? "voltage" : "current";
   made.text =
       made.joints == 0
@@ -114,7 +119,7 @@ void rated(const CheckedRun& run, Check& made, const char* none, double pass, do
       made.text = "the folder is of an older format, which did not keep it";
       return;
     }
-    if (share > pass) ++made.joints;
+    if (share > (std::isfinite(warn) ? warn : pass)) ++made.joints;
     if (share <= kLarger * worst) continue;
     worst = share;
     made.value = of.value;
@@ -150,6 +155,7 @@ void envelope(const CheckedRun& run, Check& made) {
   });
   if (made.status == CheckStatus::not_judged) return;
   made.limit = run.limits().margin;
+  made.source = threshold("margin", made.limit, Limits().margin) + of_motors(run);
   made.text = fmt::format("the torque of joint {} takes {} of what its {} has at that speed", made.joint,
                           texts::percent(made.value), run.has_dc_motors ? "motor" : "actuator");
 }
@@ -166,7 +172,9 @@ void speed(const CheckedRun& run, Check& made) {
         });
   if (made.status == CheckStatus::not_judged) return;
   made.text = fmt::format("joint {} turns at up to {:.3g} rad/s of {:.3g} rad/s", made.joint, made.value, made.limit);
-  if (made.status == CheckStatus::fail) made.text += ", faster than its motor can drive it: the load does";
+  if (made.status != CheckStatus::fail) return;
+  const bool driven = std::ranges::any_of(run.motors.kinds, [&](const Envelope& motor) { return motor.no_load == made.limit; });
+  made.text += driven ? ", faster than its motor can drive it: the load does" : ", more than it is rated for";
 }
 
 void heat(const CheckedRun& run, Check& made) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "core/plugin/plugin_instance.h"
 #include "core/simulation/simulation.h"
@@ -12,25 +12,35 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kThrown = 1.5;  // times the largest height of the run itself
+constexpr double kThrown =
+    0.5;  // of the height at the start: a gait that rises by more than its own run did and this is a jump
 
 class Raise final : public Fields {
  public:
   bool found = false;
+  bool zero = false;  ///< a limit of 0, which stays one
   void visit(const Field& field) override {
     const auto* each = std::get_if<field::EachJoint>(&field.value);
     if (each == nullptr || each->role != field::Role::limit) return;
     found = true;
-    each->value.common *= kDemandTimes;
-    for (double& value : each->value.each) value *= kDemandTimes;
+    raise(each->value.common, each->value.each.empty());
+    for (double& value : each->value.each) raise(value, true);
   }
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
+
+ private:
+  void raise(double& value, bool counts) {
+    zero = zero || (counts && value == 0);
+    value *= kDemandTimes;
+  }
 };
 
-double highest(const Recording& record) {
-  double height = -std::numeric_limits<double>::infinity();
-  for (const double z : record.series("com.z").values()) height = std::max(height, z);
-  return height;
+/// m: how far the centre of mass rises above where it is at the start.
+double rise(const Recording& record) {
+  const Series z = record.series("com.z");
+  double most = 0;
+  for (std::size_t row = 0; row < z.size(); ++row) most = std::max(most, z[row] - z.front());
+  return most;
 }
 
 /// What the joint that lacks most would take beyond what it has, of those at that limit for some time: `0.241 A at m5/passive
@@ -51,10 +61,16 @@ std::string lack(const Scenario& scenario, const std::vector<JudgedJoint>& own, 
 
 }  // namespace
 
+bool thrown_up(const Scenario& scenario, const Recording& free, const Recording& own) {
+  const Series z = own.series("com.z");
+  if (scenario.base != Base::floating || scenario.ground.kind == Ground::Kind::none || z.empty()) return false;
+  return rise(free) > rise(own) + kThrown * std::abs(z.front());
+}
+
 bool raise_limits(Scenario& scenario) {
   Raise raise;
   if (scenario.actuator.entry != nullptr) visit_settings(*scenario.actuator.entry, scenario.actuator.settings.get(), raise);
-  return raise.found;
+  return raise.found && !raise.zero;
 }
 
 Demand demand(const Scenario& twin, const Recording& record, const Summary& summary) {
@@ -71,7 +87,7 @@ Demand demand(const Scenario& twin, const Recording& record, const Summary& summ
   made.joints = judge(free, summary.limit_cycle).joints;
   made.known = made.joints.size() == summary.judged.joints.size();
   const bool limited = Judged::limited(made.joints) > 0;
-  if (highest(free) > kThrown * highest(record)) {
+  if (thrown_up(twin, free, record)) {
     made.doubt = "with motors without limits the robot is thrown up, so that what it needs is not what the gait needs";
   } else if (limited) {
     made.doubt = fmt::format("even {:g} times these limits are reached: it needs more than that", kDemandTimes);

@@ -17,12 +17,17 @@ struct Demand {
   std::vector<JudgedJoint> joints = {};  ///< of the twin, in the window of the run itself
 };
 
-/// Multiplies every limit of the scenario's actuator (fields declared as Fields::limit) by kDemandTimes. False: it has none.
+/// Multiplies every limit of the scenario's actuator (fields declared as Fields::limit) by kDemandTimes. False: it has none, or
+/// one is 0.
 bool raise_limits(Scenario& scenario);
 
+/// Whether a robot on the ground is thrown up without limits (`free`) that was not in its own run: its centre of mass rises by
+/// half of its height at the start more. False of a fixed base.
+bool thrown_up(const Scenario& scenario, const Recording& free, const Recording& own);
+
 /// Runs the twin, which raise_limits made of the scenario of `record`. A twin that diverges is not known; one whose robot is
-/// thrown up (centre of mass above 1.5 times the largest height of the run itself) is doubtful, and so is one that itself
-/// reaches a limit. Same bytes for the same run.
+/// thrown up (its centre of mass rises by half of its height at the start more than in the run itself) is doubtful, and so is
+/// one that itself reaches a limit. Same bytes for the same run.
 Demand demand(const Scenario& twin, const Recording& record, const Summary& summary);
 
 /// Fills in `missing` of what fails or warns for a limit of the motors, and Verdict::demands.

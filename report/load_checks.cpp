@@ -54,7 +54,7 @@ struct Window {
 /// Why nothing is known of what feet and docks bore; empty: it is.
 std::string unknown(const Scenario& scenario, const Recording& record) {
   if (scenario.contact.solver()) return "contact.law bullet has impulses, not all of them at contact elements";
-  if (record.loads.rows() < 2) return "loads were not recorded: the folder is of an older format, or the run ended at once";
+  if (record.loads.rows() < 2) return "loads were not recorded: only `gaitlab run` does, and not where a run ends at once";
   return "";
 }
 
@@ -158,8 +158,12 @@ void judge_stability(const Scenario& scenario, const Recording& record, const Su
   made.text = "no foot bears a load";
   std::size_t seen = 0;
   std::size_t outside = 0;
+  std::size_t aloft = 0;
   for (std::size_t row = window.start + 1; row < margin.size(); ++row) {
-    if (std::isnan(margin[row])) continue;
+    if (std::isnan(margin[row])) {
+      ++aloft;
+      continue;
+    }
     ++seen;
     if (margin[row] < 0) ++outside;
     if (margin[row] >= made.value) continue;  // of a value that is not known yet: false
@@ -169,7 +173,12 @@ void judge_stability(const Scenario& scenario, const Recording& record, const Su
   if (seen == 0) return;
   made.status = CheckStatus::pass;
   made.text =
-      made.value >= 0
+      made.value >= 0 && aloft > 0
+          ? fmt::format(
+                "a note: no foot bears a load for {} of the time; else the centre of mass stays {:.3g} mm within the "
+                "support polygon",
+                texts::percent(static_cast<double>(aloft) / static_cast<double>(aloft + seen)), 1000 * made.value)
+      : made.value >= 0
           ? fmt::format("statically stable: the centre of mass stays {:.3g} mm within the support polygon", 1000 * made.value)
           : fmt::format(
                 "a note: the centre of mass comes {:.3g} mm out of the support polygon, and is out of it {} of the "

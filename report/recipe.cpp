@@ -160,6 +160,10 @@ Recipe read_recipe(const std::string& file) {
     problems.add(recipe.place({"runs"}), "runs is empty; expected NAME: FOLDER");
   if (recipe.root.find("panels") != nullptr && recipe.panels.empty() && problems.empty())
     problems.add(recipe.place({"panels"}), "panels is empty; nothing would be drawn");
+  constexpr std::size_t kLetters = 26;  // panels and their data files are told apart by a letter
+  if (recipe.panels.size() > kLetters)
+    problems.add(recipe.place({"panels"}),
+                 fmt::format("panels has {} entries; allowed are up to {}", recipe.panels.size(), kLetters));
   // A panel of an unknown kind has been refused already: what it lacks is not known.
   const bool whole = problems.empty();
   for (std::size_t i = 0; i < recipe.panels.size(); ++i) {

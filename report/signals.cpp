@@ -137,10 +137,9 @@ std::vector<std::string> left_out(const Scenario& scenario, const std::vector<Si
   if (!shown.empty()) missing.push_back(fmt::format("trace.columns leaves out {}", fmt::join(shown, ", ")));
   if (!has("dock.*") && scenario.robot->modules.size() > 1) {
     missing.emplace_back(scenario.contact.solver() ? "the loads of docks are not known under contact.law: bullet"
-                                                   : "the loads of docks were not recorded: the folder is of an older format");
+                                                   : "the loads of docks were not recorded");
   }
-  if (has("foot.*") && !has("foot.*.fx"))
-    missing.emplace_back("of feet the vertical load on their modules is known alone: the folder is of an older format");
+  if (has("foot.*") && !has("foot.*.fx")) missing.emplace_back("of feet the vertical load on their modules is known alone");
   return missing;
 }
 

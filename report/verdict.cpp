@@ -63,7 +63,7 @@ constexpr CheckKind kChecks[] = {
      checks::battery},
     {"in_ground", "ground", "m", "Bodies stay above the ground", "depth of a body in a plane, of the whole run, at trace rows",
      checks::in_ground},
-    {"slip", "ground", "", "Feet hold", "way that the loaded feet slide over the way of the centre of mass, over all steps",
+    {"slip", "ground", "", "Feet hold", "way that the loaded feet slide over the way of the centre of mass, at control ticks",
      slip},
     {"stability", "ground", "m", "Stands on its feet",
      "least distance of the centre of mass to the edge of the support polygon, inside positive", stability},
@@ -101,7 +101,7 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
                 0,       kNone,      kNone,      kind.definition};
     kind.judge(run, check);
     const bool judged = check.status != CheckStatus::not_judged;
-    made.chosen_motors = made.chosen_motors || (judged && check.group == "motor" && chosen(check.source));
+    made.chosen_motors = made.chosen_motors || (judged && check.group == "motor" && chosen(run.motor_source));
     made.checks.push_back(std::move(check));
   }
   made.word = word(made.checks);

@@ -118,8 +118,15 @@ void halve_rows(Trace& table) {
   const std::size_t columns = table.columns.size();
   const std::size_t rows = table.rows();
   std::size_t kept = std::min<std::size_t>(1, rows);
-  for (std::size_t k = 2; k < rows; k += 2, ++kept)
-    std::ranges::copy(table.row(k), Out(table.values).subspan(kept * columns, columns).begin());
+  for (std::size_t k = 2; k < rows; k += 2, ++kept) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      const double before = table.at(k - 1, c);
+      double now = table.at(k, c);
+      if (table.columns[c].name.starts_with("dock.") && std::abs(before) > std::abs(now)) now = before;
+      if (table.columns[c].name == "stability" && before < now) now = before;
+      table.values[kept * columns + c] = now;
+    }
+  }
   table.values.resize(kept * columns);
 }
 

@@ -94,7 +94,7 @@ struct Recording {
 std::vector<Column> tick_columns(std::size_t joints);
 /// Makes one row of each two behind the first: the later one, with the larger of their peaks.
 void halve_ticks(Trace& ticks);
-/// Makes one row of each two behind the first: the later one.
+/// Makes one row of each two behind the first: the later one, with the larger of their loads of docks and the lesser stability.
 void halve_rows(Trace& table);
 
 }  // namespace gaitlab

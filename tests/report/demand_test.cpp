@@ -66,13 +66,40 @@ TEST(Demand, OfAnActuatorWithoutLimitsIsNotKnown) {
   EXPECT_FALSE(raise_limits(held));
 }
 
-/// The robot that pushes itself off the ground as soon as its motors can.
+/// A twin at 20 Hz needs more than twenty times the current, or breaks off: it is never told as if it were known.
 TEST(Demand, SaysWhatMakesItDoubtful) {
   const Weak weak;
   Scenario twin = shipped("caterpillar.yaml", with({"actuator.i_max=0.35", "cpg.frequency=20"}));
   raise_limits(twin);
   const Demand wild = demand(twin, weak.record, weak.summary);
-  EXPECT_NE(wild.doubt, "") << "thrown up, at its limits again, or diverged";
+  EXPECT_NE(wild.doubt, "");
+}
+
+/// The height of the place where it hangs is nothing to a robot with a fixed base; on the ground a leap is one.
+TEST(Demand, KnowsALeap) {
+  const Weak weak;
+  const auto doubt = [&](Scenario own, double height) {
+    Recording free = weak.record;
+    Recording low = weak.record;
+    for (Recording* record : {&free, &low}) {
+      for (Trace* table : {&record->trace, &record->rest}) {
+        const std::size_t z = table->find("com.z");
+        for (std::size_t row = 0; z < table->columns.size() && row < table->rows(); ++row)
+          table->values[row * table->columns.size() + z] = record == &free && row > 10 ? height : 0.1;
+      }
+    }
+    return thrown_up(own, free, low);
+  };
+  EXPECT_FALSE(doubt(weak.scenario, 0.14));
+  EXPECT_TRUE(doubt(weak.scenario, 0.16));
+  Scenario fixed = weak.scenario;
+  fixed.base = Base::fixed;
+  EXPECT_FALSE(doubt(fixed, 0.16));
+}
+
+TEST(Demand, OfALimitOfNothingIsNotKnown) {
+  Scenario none = shipped("caterpillar.yaml", with({"actuator.u_max=0"}));
+  EXPECT_FALSE(raise_limits(none));
 }
 
 }  // namespace

@@ -124,6 +124,7 @@ TEST(Verdict, JudgesSpeedsByTheOneWithoutTorque) {
   EXPECT_EQ(with(0.9 * no_load).status, CheckStatus::warn);
   EXPECT_EQ(with(1.01 * no_load).status, CheckStatus::fail);
   EXPECT_EQ(with(1.01 * no_load).joint, "m3/passive");
+  EXPECT_TRUE(contains(with(1.01 * no_load).text, "the load does"));
   const Scenario rated = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated", "actuator.speed_max=1.2"});
   EXPECT_EQ(motors(rated, 0).joint(0).speed_max, 1.2);
 }
@@ -151,6 +152,7 @@ TEST(Verdict, JudgesRatings) {
     EXPECT_EQ(with(rating, 1.3 * value).status(id), CheckStatus::pass) << id;
     EXPECT_EQ(with(rating, 1.1 * value).status(id), CheckStatus::warn) << id;
     EXPECT_EQ(with(rating, 0.9 * value).status(id), CheckStatus::fail) << id;
+    EXPECT_FALSE(contains(with(rating, 0.9 * value).check(id).text, "the load does")) << id;
     EXPECT_NEAR(with(rating, value).check(id).value, value, 1e-6 * value) << id;
     EXPECT_EQ(with(rating, value).check(id).source.substr(0, 40),
               std::string(rating).append(" of the scenario; the rest: chosen: the paper").substr(0, 40));
@@ -222,6 +224,7 @@ TEST(Verdict, JudgesStopsFallsAndTheEnd) {
     }
   }
   EXPECT_EQ(fallen.status("fall"), CheckStatus::fail);
+  EXPECT_TRUE(contains(fallen.check("fall").text, "comes down to ")) << fallen.check("fall").text;
   Case tilted = walk();
   tilted.scenario.limits.tilt = 0.01;
   EXPECT_EQ(tilted.status("tilt"), CheckStatus::warn);
@@ -316,6 +319,12 @@ TEST(Verdict, DoesNotAssumeWhatItDoesNotKnow) {
   const Verdict made = old.judged();
   EXPECT_EQ(made.word, "not judged") << "nothing is known of the motors";
   EXPECT_TRUE(contains(old.check("voltage").text, "older format"));
+  Case bare = walk();  // as a CSV file alone: rows and nothing else
+  bare.record.ticks = {};
+  bare.record.joints.clear();
+  for (const char* const id : {"voltage", "envelope", "tracking", "stops", "created"})
+    EXPECT_EQ(bare.status(id), CheckStatus::not_judged) << id;
+  EXPECT_TRUE(contains(bare.check("voltage").text, "older format"));
 }
 
 TEST(Verdict, LimitsAreSettings) {

@@ -10,7 +10,7 @@ export function docks(recording: Recording): void {
   const { meta } = recording, table = element<HTMLTableElement>("docks"), from = recording.judged;
   const shown = kinds.filter(([k]) => recording.has(`dock.0.${k}`));
   if (!shown.length) {
-    element("docks-note").textContent = "The recording has no loads of docks (trace.columns: reaction.*).";
+    element("docks-note").textContent = "The recording has no loads of docks.";
     table.append(...joins(recording));
     shorten(table);
     return;

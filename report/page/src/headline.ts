@@ -49,8 +49,8 @@ function judgement(desk: Desk, meta: Meta): { mood: Mood; said: string; why: str
     const cause = meta.motors.length ? "Nothing is known of what the motors can do, so nobody can say whether they can do this." : "There are no motors whose limits this run could exceed.";
     return { mood: "open", said: "Not judged", why: [cause, ...others(failed)], facts: walked(desk, meta) };
   }
-  const most = hardest(meta), left = most && most.value! < 1 ? ` The motors have at least ${percent(1 - most.value!, 2)} of their torque left, at every speed.` : "";
-  const why = [`Every limit that is known is kept.${left}`];
+  const most = hardest(meta), left = most && most.value! < 1 ? ` The motors have at least ${percent(1 - most.value!, 2)} of their torque left, at the speeds that they reach.` : "";
+  const why = [`${gait.some((c) => c.status === "warn") ? "No limit is exceeded so far that the gait fails." : "Every limit that is known is kept."}${left}`];
   return { mood: "good", said: meta.motors.length ? "Feasible with these motors" : "Feasible", why, facts: walked(desk, meta) };
 }
 
@@ -69,10 +69,10 @@ function aside(meta: Meta): string[] {
   return [
     ...(warned.length ? [bad ? `${capital(plural(meta.verdict.counts.warn, "warning"))}.` : `Warned of: ${briefly(warned)}.`] : []),
     ...(meta.verdict.chosen_motors ? ["The figures of the motors are chosen, not a maker's."] : []),
-    ...(limited && !gait.some((c) => c.missing) ? [`How much is missing in volts and amperes, gaitlab report --demand tells.`] : []),
+    ...(limited && !gait.some((c) => c.missing) ? [`How much is missing was not asked; gaitlab report --demand tells.`] : []),
     ...(doubtful.length ? [`Doubtful: ${briefly(doubtful)}.`] : []),
     ...(meta.verdict.demand?.doubt ? [ended(capital(meta.verdict.demand.doubt))] : []),
-    ...(open.length > 6 ? [`Not judged, for want of a limit or of what it takes: ${open.length} checks.`] : open.length ? [`Not judged, for want of a limit: ${open.map((c) => inSentence(c.title)).join(", ")}.`] : []),
+    ...(open.length > 6 ? [`${open.length} checks were not judged, because nobody states a limit.`] : open.length ? [`Not judged, because nobody states a limit: ${open.map((c) => inSentence(c.title)).join(", ")}.`] : []),
   ];
 }
 
