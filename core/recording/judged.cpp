@@ -123,7 +123,8 @@ Judged judge(const Recording& r, const MotionCycle& cycle) {
   const bool known = !r.joints.empty() && !r.tick(0, kCurrentLimited).empty();
   // The period is an estimate, which must not decide whether a row at the start of the window belongs to it.
   const double period = judged.periods > 0 ? cycle.period : 0;
-  if (r.ticks.rows() > 0) judged.first_row = row_at(Series(r.ticks, 0), judged.from, std::max(kSameTime, kWholePeriod * period));
+  if (r.ticks.rows() > 0)
+    judged.first_row = row_at(Series(r.ticks, 0), judged.from, std::max(kSameTime, kWholePeriod * period));
   for (std::size_t j = 0; known && j < r.joints.size(); ++j) {
     judged.joints[j] = from_ticks(r, j, judged.first_row);
     judged.whole[j] = from_ticks(r, j, 0);
