@@ -19,7 +19,7 @@ class AvailableTorque {
   [[nodiscard]] const Actuator& actuator() const { return *actuator_; }
   /// Whether the actuator states a largest command for the joint; else what it has means nothing.
   [[nodiscard]] bool known(std::size_t joint) const { return joint < known_.size() && known_[joint]; }
-  /// The largest commands; 0 where there is no limit.
+  /// The largest commands; 0 where the actuator states no limit.
   [[nodiscard]] In commands() const { return most_; }
   /// N m of every joint, at its speed (rad/s): the most along its axis, and the least (so against it).
   void at(In speed, Out most, Out least) const;

@@ -39,7 +39,7 @@ Json frequency(const PluginSelection& cpg) {
   return std::ranges::all_of(found->value.each, same) ? Json(found->value[0]) : Json();
 }
 
-/// A folder is no part of a run: its libraries go by their names.
+/// A folder is not part of a run: plugin libraries go by the names of their files.
 std::string without_folders(std::string text, const std::vector<PluginFile>& plugins) {
   for (const PluginFile& plugin : plugins) {
     const std::string name = std::filesystem::path(plugin.path).filename().string();

@@ -1,4 +1,4 @@
-// What a page knows of a run: names, robot, verdict and settings as JSON, and its signals, packed.
+// What a page knows of a run: names, robot, verdict and settings as JSON, and the signals of the run, packed.
 #pragma once
 #include <string>
 #include <vector>

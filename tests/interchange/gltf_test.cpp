@@ -289,7 +289,7 @@ TEST(Gltf, BodiesWithoutAShapeAreNamed) {
   Scenario nothing = s;
   nothing.robot = std::make_shared<const Robot>(std::move(bare));
   EXPECT_EQ(bodies_without_shape(*nothing.robot).size(), s.robot->bodies.size());
-  EXPECT_FALSE(exported(nothing).json().contains("meshes")) << "an empty list is no glTF";
+  EXPECT_FALSE(exported(nothing).json().contains("meshes")) << "an empty list is not valid glTF";
 }
 
 TEST(Gltf, NumbersThatAreNotFiniteAreRefused) {
