@@ -4,12 +4,12 @@ import { readFileSync } from "node:fs";
 import { resolve } from "node:path";
 
 const options = { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader"] };
-const browser = await chromium.launch(options);
-export const close = () => browser.close();
+const browser = await chromium.launch(options), flat = await chromium.launch({ ...options, args: [...options.args, "--disable-3d-apis"] });
+export const close = () => Promise.all([browser.close(), flat.close()]);
 
-/** A page that is ready; `complaints`: errors on the console, exceptions, requests. */
-export async function open(file, { link = "paused", width = 1440, height = 900, ...more } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, offline: true, bypassCSP: false, ...more });
+/** A page that is ready, in a browser with or without WebGL; `complaints`: errors on the console, exceptions, requests. */
+export async function open(file, { link = "paused", width = 1440, height = 900, webgl = true, ...more } = {}) {
+  const context = await (webgl ? browser : flat).newContext({ viewport: { width, height }, offline: true, bypassCSP: false, ...more });
   const page = await context.newPage(), complaints = [];
   page.on("console", (m) => { if (m.type() === "error") complaints.push(m.text()); });
   const broken = new Promise((_, reject) => page.on("pageerror", (e) => {

@@ -50,6 +50,14 @@ for (const [name, file] of Object.entries(pages)) {
     }
   });
 
+  on(`${name}: without WebGL the rest of it works`, file, { webgl: false, link: "paused&faces" }, async (page, meta) => {
+    assert.match(await page.textContent("#stage"), /cannot draw in 3D/);
+    if (said[name]) assert.match(await page.textContent("#said"), said[name]);
+    for (const key of ["f", "c", "n", "a", "1", "j", "d"]) await page.keyboard.press(key);
+    if (meta.joints.length) assert.equal(await page.$eval("#joint", (list) => list.options.length), meta.joints.length);
+    assert.ok(await page.isHidden("#faces"));
+  });
+
   on(`${name}: fits narrow windows`, file, { width: 390, height: 844 }, async (page) => {
     for (const width of [390, 320]) {
       await page.setViewportSize({ width, height: 844 });

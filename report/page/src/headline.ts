@@ -22,7 +22,7 @@ export function headline(desk: Desk): void {
   element("why").textContent = why.join(" ");
   element("aside").textContent = aside(meta).join(" ");
   element("facts").dataset.count = String(facts.length);
-  element("facts").append(...facts.map(([name, value, small]) => make("div", make("dt", name), make("dd", value, ...(small ? [make("small", ` ${small}`)] : [])))));
+  element("facts").append(...facts.map(([name, value, small]) => make("div", make("dt", name), make("dd", value, ...(small ? [make("small", small)] : [])))));
   const notes = element("missing");
   notes.hidden = !meta.missing.length;
   notes.append(...meta.missing.map((m) => make("li", ended(m))));

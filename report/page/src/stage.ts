@@ -15,9 +15,10 @@ export class Stage implements Panel {
 
   constructor(private readonly desk: Desk) {
     const canvas = element<HTMLCanvasElement>("view");
-    this.view = opened(() => new View(desk.recording, desk.loads, canvas));
+    this.view = opened(canvas, desk);
     if (!this.view) {
-      this.host.replaceChildren(make("p.empty", "This browser cannot draw in 3D (it has no WebGL 2). Everything else on this page works."));
+      for (const part of this.host.querySelectorAll<HTMLElement>("*")) part.hidden = true; // keys ask whether a button is hidden
+      this.host.append(make("p.empty", "This browser cannot draw in 3D (it has no WebGL 2). Everything else on this page works."));
       return;
     }
     const { view } = this, { meta } = desk.recording;
@@ -118,11 +119,8 @@ export class Stage implements Panel {
   }
 }
 
-function opened(open: () => View): View | null {
-  try {
-    return open();
-  } catch (e) {
-    if (/WebGL/i.test(String(e))) return null;
-    throw e;
-  }
+/** A view, or null without WebGL 2: asked on a canvas of its own, which leaves no error on the console. */
+function opened(canvas: HTMLCanvasElement, desk: Desk): View | null {
+  if (!document.createElement("canvas").getContext("webgl2")) return null;
+  return new View(desk.recording, desk.loads, canvas);
 }
