@@ -6,6 +6,7 @@
 #include "app/commands.h"
 #include "app/run_time.h"
 #include "core/recording/atomic_file.h"
+#include "core/scenario/wording.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
 #include "report/page.h"
@@ -48,8 +49,8 @@ int check(const CheckArguments& arguments) {
   const Robot& robot = *s.robot;
   const auto contacts = contact_elements(robot, s.contact.on);
   fmt::print("{}: valid\n", s.name);
-  fmt::print("  {} modules, {} bodies (moving as {}), {} degrees of freedom, {:.3f} kg\n", robot.modules.size(),
-             robot.bodies.size(), robot.links.size(), robot.dof(s.base), robot.mass);
+  fmt::print("  {}, {} {} (moving as {}), {} degrees of freedom, {:.3f} kg\n", counted(robot.modules.size(), "module"),
+             robot.bodies.size(), robot.bodies.size() == 1 ? "body" : "bodies", robot.links.size(), robot.dof(s.base), robot.mass);
   const double rate = simulation->standing().rate;
   fmt::print("  engine {} ({}), {}{}\n", s.physics.engine->name, s.physics.integrator->name, report::step_text(s.physics),
              rate > 0 ? fmt::format(": h lambda = {:.2f} standing (at most 1)", s.physics.step * rate) : "");

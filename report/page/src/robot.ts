@@ -101,7 +101,8 @@ export class Robot {
     }
     all.needsUpdate = true;
     this.hinges.forEach((hinge, j) => {
-      const wide = j === selected ? 1.16 : j === hovered ? 1.1 : 1, size = hinge.size.clone().multiply(new Vector3(wide, j === selected ? 1.05 : 1, wide));
+      const wide = j === selected ? 1.16 : j === hovered ? 1.1 : 1, size = hinge.size.clone().multiply(new Vector3(wide, 1, wide));
+      if (j === selected) size.y += 0.005 * this.unit; // less than a face's number is lifted by
       this.discs.setMatrixAt(j, matrix.compose(kinematics.pivots[j], kinematics.pivotTurns[j].clone().multiply(hinge.turn), size));
       const [r, g, b] = load(this.theme, shares[j]);
       this.discs.setColorAt(j, colour.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace));
