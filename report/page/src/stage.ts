@@ -13,9 +13,9 @@ export class Stage implements Panel {
   private readonly labels = new Labels(element("names"));
   private image: HTMLImageElement | null = null;
 
-  constructor(private readonly desk: Desk) {
+  constructor(private readonly desk: Desk, align: (on: boolean) => void) {
     const canvas = element<HTMLCanvasElement>("view");
-    this.view = opened(() => new View(desk.recording, desk.loads, canvas));
+    this.view = opened(() => new View(desk, canvas));
     if (!this.view) {
       this.host.replaceChildren(make("p.empty", "This browser cannot draw in 3D (it has no WebGL 2). Everything else on this page works."));
       return;
@@ -28,6 +28,8 @@ export class Stage implements Panel {
     this.toggle("forces", view.arrows.any, () => view.forces, (on) => { view.forces = on; });
     this.toggle("faces", view.marks.anyFaces, () => view.marks.faces, (on) => { view.marks.faces = on; });
     this.toggle("axes", meta.joints.length > 0, () => view.marks.axes, (on) => { view.marks.axes = on; });
+    const { ghost } = desk;
+    this.toggle("align", !!ghost?.periodic, () => !!ghost?.aligned, align);
     this.pointer(canvas, view);
     new ResizeObserver(() => view.resize()).observe(this.host);
   }
