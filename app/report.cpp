@@ -1,9 +1,12 @@
-// `gaitlab report`: what a run came to, from its folder alone.
+// `gaitlab report`: what a run came to, or two, from their folders alone.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "app/commands.h"
 #include "app/stored_scenario.h"
@@ -11,10 +14,12 @@
 #include "core/recording/atomic_file.h"
 #include "core/recording/run_files.h"
 #include "core/recording/run_folder.h"
+#include "core/scenario/changed_lines.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
 #include "report/demand.h"
 #include "report/page.h"
+#include "report/page_overlay.h"
 #include "report/run_figure.h"
 #include "report/summary.h"
 #include "report/trust.h"
@@ -26,8 +31,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kPairFile = "compare.html";  ///< in the folder of the first of two runs
+
 struct ReportArguments {
-  std::string run;                  ///< folder
+  std::vector<std::string> runs;    ///< one folder, or two
   std::optional<std::string> out;   ///< folder for summary.json, verdict.json, figure.svg and report.html
   std::optional<std::string> page;  ///< file for a page alone
   SummaryOptions shown;
@@ -58,53 +65,114 @@ std::vector<std::string> told_missing(std::vector<std::string> missing, const fs
   return missing;
 }
 
-int report(const ReportArguments& arguments) {
-  const fs::path trace = trace_file(arguments.run);
-  const fs::path folder = trace.parent_path();
-  if (arguments.page) check_page(*arguments.page, folder / kPageFile);
+/// A run folder, read and judged.
+struct JudgedRun {
+  std::string name;  ///< of the folder, as it was given
+  fs::path trace;    ///< file
+  StoredRun read;
+  report::Summary summary = {};
+  report::Overlaps overlaps = {};
+  report::Verdict verdict = {};
+
+  [[nodiscard]] const Recording& recording() const { return read.stored.recording; }
+  [[nodiscard]] report::PageData page_data(std::size_t most = report::kMostData) const {
+    return report::page_data(read.scenario, recording(), summary, verdict, told_missing(read.stored.missing, trace), most);
+  }
+};
+
+/// `catalog` outlives it. `joints`: to be drawn in the figure. InputError: see read_run, draw_joints.
+JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vector<std::string>& joints,
+                     const SummaryOptions& shown) {
+  const fs::path trace = trace_file(name);
+  JudgedRun run{name, trace, read_run(name, catalog)};
+  Scenario& scenario = run.read.scenario;
+  Recording& recording = run.read.stored.recording;
+  draw_joints(scenario, joints);
+  // A CSV file alone does not have it.
+  const nlohmann::json told =
+      run.read.stored.origin.outcome.empty() ? summarised(trace.parent_path(), "outcome") : nlohmann::json(recording.outcome);
+  if (told.is_string()) recording.outcome = told;
+  run.summary = report::summarise(scenario, recording, wall_time(trace.parent_path()));
+  run.summary.build = run.read.stored.origin.build;
+  run.overlaps = report::overlaps(scenario, recording);
+  run.verdict = judged(scenario, recording, run.summary, run.overlaps, shown);
+  return run;
+}
+
+/// What is doubtful, on stderr.
+void warn(const JudgedRun& run) {
+  const Recording& recording = run.recording();
+  for (const std::string& missing : run.read.stored.missing) fmt::print(stderr, "{}: note: {}\n", run.name, missing);
+  if (recording.outcome != "done") fmt::print(stderr, "{}: note: this run ended early: {}\n", run.name, recording.outcome);
+  warn_of_run(run.read.scenario, recording, run.summary, run.overlaps);
+}
+
+int report_one(const ReportArguments& arguments) {
+  const std::string& name = arguments.runs.front();
+  if (arguments.page) check_page(*arguments.page, trace_file(name).parent_path() / kPageFile);
   Catalog catalog = standard_catalog();
-  auto [read, scenario] = read_run(arguments.run, catalog);
-  Recording& recording = read.recording;
-  draw_joints(scenario, arguments.joints);
-  if (arguments.out && !read.missing.empty()) {
+  const JudgedRun run = judged_run(name, catalog, arguments.joints, arguments.shown);
+  const Scenario& scenario = run.read.scenario;
+  const std::vector<std::string>& missing = run.read.stored.missing;
+  if (arguments.out && !missing.empty()) {
     throw InputError(
-        SourceLocation{arguments.run},
+        SourceLocation{name},
         fmt::format(
             "summary and figure cannot be made anew: {}; a page can: --page FILE; or simulate it again: gaitlab rerun {}",
-            fmt::join(read.missing, "; "), arguments.run));
+            fmt::join(missing, "; "), name));
   }
-  // A CSV file alone does not have it.
-  const nlohmann::json told = read.origin.outcome.empty() ? summarised(folder, "outcome") : nlohmann::json(recording.outcome);
-  if (told.is_string()) recording.outcome = told;
-  report::Summary summary = report::summarise(scenario, recording, wall_time(folder));
-  summary.build = read.origin.build;
-  const report::Overlaps overlaps = report::overlaps(scenario, recording);
-  const report::Verdict verdict = judged(scenario, recording, summary, overlaps, arguments.shown);
   std::string page;
-  if (arguments.out || arguments.page) {
-    page = report::page(report::page_data(scenario, recording, summary, verdict, told_missing(read.missing, trace)));
-  }
+  if (arguments.out || arguments.page) page = report::page(run.page_data());
   if (arguments.page) write_file(*arguments.page, page);
   if (arguments.out) {
     RunFolder out(*arguments.out, scenario.name);
-    write_file(out.path() / "figure.svg", report::run_figure(scenario, recording, summary));
-    write_file(out.path() / "verdict.json", report::to_json(verdict));
+    write_file(out.path() / "figure.svg", report::run_figure(scenario, run.recording(), run.summary));
+    write_file(out.path() / "verdict.json", report::to_json(run.verdict));
     write_file(out.path() / kPageFile, page);
-    write_file(out.path() / "summary.json", report::to_json(summary, scenario, recording));
+    write_file(out.path() / "summary.json", report::to_json(run.summary, scenario, run.recording()));
     out.keep();
   }
-  print_summary(scenario, recording, summary, verdict, arguments.shown);
+  print_summary(scenario, run.recording(), run.summary, run.verdict, arguments.shown);
   if (arguments.out) {
     fmt::print("  {:<13} {}: summary.json, verdict.json, figure.svg\n", "files", *arguments.out);
     print_page(fs::path(*arguments.out) / kPageFile);
   }
   if (arguments.page) print_page(*arguments.page);
-  for (const std::string& missing : read.missing) fmt::print(stderr, "{}: note: {}\n", arguments.run, missing);
-  if (recording.outcome != "done") {
-    fmt::print(stderr, "{}: note: this run ended early: {}\n", arguments.run, recording.outcome);
+  warn(run);
+  return exit_code(run.verdict, arguments.shown);
+}
+
+/// Settings as a page shows them.
+std::string settings(const Scenario& scenario) { return report::without_folders(resolved(scenario), scenario.plugins); }
+
+int report_two(const ReportArguments& arguments) {
+  const fs::path own = trace_file(arguments.runs[0]).parent_path() / kPairFile;
+  const std::string file = arguments.page.value_or(own.string());
+  check_page(file, own);
+  std::array<Catalog, 2> catalogs{standard_catalog(), standard_catalog()};
+  const JudgedRun a = judged_run(arguments.runs[0], catalogs[0], {}, arguments.shown);
+  const JudgedRun b = judged_run(arguments.runs[1], catalogs[1], {}, arguments.shown);
+  report::PageOverlay overlay;
+  overlay.differs = changed_lines(settings(a.read.scenario), settings(b.read.scenario), 6);
+  constexpr std::size_t kEach = report::kMostData / 2;
+  write_file(file, report::page(report::overlaid(a.page_data(kEach), b.page_data(kEach), overlay)));
+  int code = 0;
+  for (const auto& [label, run] : {std::pair{"A", &a}, std::pair{"B", &b}}) {
+    fmt::print("{}: ", label);
+    print_summary(run->read.scenario, run->recording(), run->summary, run->verdict, arguments.shown);
+    warn(*run);
+    const int own_code = exit_code(run->verdict, arguments.shown);
+    code = code == 1 || own_code == 1 ? 1 : std::max(code, own_code);  // a run that failed before one that is infeasible
   }
-  warn_of_run(scenario, recording, summary, overlaps);
-  return exit_code(verdict, arguments.shown);
+  print_page(file);
+  return code;
+}
+
+int report(const ReportArguments& arguments) {
+  if (arguments.runs.size() == 1) return report_one(arguments);
+  if (arguments.out)
+    throw InputError(SourceLocation{"--out " + *arguments.out}, "takes one run; of two there is a page: --page FILE");
+  return report_two(arguments);
 }
 
 }  // namespace
@@ -183,12 +251,19 @@ void warn_of_run(const Scenario& scenario, const Recording& recording, const rep
 
 void add_report(Commands& commands) {
   add_command<ReportArguments>(
-      commands, "report", "Print the summary of a run folder again, without simulating.", report,
-      [](CLI::App& command, ReportArguments& arguments) {
-        command.add_option("RUN", arguments.run, "run folder")->required()->check(not_empty);
+      commands, "report", "Print the summary of a run folder again, without simulating; of two, also write a page with both.",
+      report, [](CLI::App& command, ReportArguments& arguments) {
+        command
+            .add_option("RUN", arguments.runs,
+                        "run folder; of two, B is laid over A on one page, compare.html in the folder of A")
+            ->required()
+            ->expected(1, 2)
+            ->check(not_empty);
         command.add_option("--out", arguments.out,
                            "folder for summary.json, verdict.json, figure.svg and report.html, made anew; new or empty");
-        command.add_option("--page", arguments.page, "file for the page alone; new, or the run's report.html")
+        command
+            .add_option("--page", arguments.page,
+                        "file for the page alone; new, or the run's report.html (of two runs compare.html)")
             ->check(not_empty);
         add_joint(command, arguments.joints);
         command.get_option("--joint")->needs("--out");

@@ -39,16 +39,6 @@ Json frequency(const PluginSelection& cpg) {
   return std::ranges::all_of(found->value.each, same) ? Json(found->value[0]) : Json();
 }
 
-/// A folder is not part of a run: plugin libraries go by the names of their files.
-std::string without_folders(std::string text, const std::vector<PluginFile>& plugins) {
-  for (const PluginFile& plugin : plugins) {
-    const std::string name = std::filesystem::path(plugin.path).filename().string();
-    for (std::size_t at = 0; (at = text.find(plugin.path, at)) != std::string::npos; at += name.size())
-      text.replace(at, plugin.path.size(), name);
-  }
-  return text;
-}
-
 /// Every text within.
 void leave_folders_out(Json& json, const std::vector<PluginFile>& plugins) {
   if (json.is_string()) json = without_folders(json.get<std::string>(), plugins);
@@ -131,6 +121,21 @@ double fastest_joint(const Recording& r) {
 
 }  // namespace
 
+std::string without_folders(std::string text, const std::vector<PluginFile>& plugins) {
+  for (const PluginFile& plugin : plugins) {
+    const std::string name = std::filesystem::path(plugin.path).filename().string();
+    for (std::size_t at = 0; (at = text.find(plugin.path, at)) != std::string::npos; at += name.size())
+      text.replace(at, plugin.path.size(), name);
+  }
+  return text;
+}
+
+std::string json_text(const nlohmann::ordered_json& json) {
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
+  return text;
+}
+
 PageData page_data(const Scenario& scenario, const Recording& r, const Summary& summary, const Verdict& verdict,
                    std::vector<std::string> missing, std::size_t most) {
   const Robot& robot = *scenario.robot;
@@ -195,9 +200,7 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
     meta["channels"].push_back({channel.name, channel.unit, channel.quantum, channel.count});
   leave_folders_out(meta, scenario.plugins);
 
-  std::string text = meta.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
-  return {scenario.name, std::move(text), std::move(data)};
+  return {scenario.name, json_text(meta), std::move(data)};
 }
 
 }  // namespace gaitlab::report

@@ -1,5 +1,6 @@
 // What a page knows of a run: names, robot, verdict and settings as JSON, and the signals of the run, packed.
 #pragma once
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,11 @@ struct PageData {
 /// missing: what the folder of the run does not hold, a sentence each. The same run gives the same bytes.
 PageData page_data(const Scenario& scenario, const Recording& record, const Summary& summary, const Verdict& verdict,
                    std::vector<std::string> missing = {}, std::size_t most = kMostData);
+
+/// A folder is not part of a run: plugin libraries go by the names of their files.
+std::string without_folders(std::string text, const std::vector<PluginFile>& plugins);
+
+/// JSON that may stand in a script of a page: without any `<`.
+std::string json_text(const nlohmann::ordered_json& json);
 
 }  // namespace gaitlab::report

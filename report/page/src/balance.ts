@@ -2,7 +2,7 @@
 import { element } from "./dom";
 import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
-import { TimePlot } from "./timeplot";
+import { second, TimePlot } from "./timeplot";
 
 export class Balance implements Panel {
   private plot: TimePlot | null = null;
@@ -13,7 +13,7 @@ export class Balance implements Panel {
 
   paint(): void {
     this.plot?.destroy();
-    const { recording, ink } = this.desk, margin = recording.find("stability"), height = recording.find("com.z");
+    const { recording, ink } = this.desk, margin = recording.find("stability"), height = recording.find("com.z"), { ghost } = this.desk, other = ghost?.values("stability"), high = height && ghost?.values("com.z");
     if (!margin) return;
     this.plot = new TimePlot(element("balance"), this.desk, {
       label: "Distance of the centre of mass to the edge of the support polygon, and its height, over time",
@@ -21,9 +21,11 @@ export class Balance implements Panel {
       curves: [
         { values: margin, label: "margin", colour: ink.green, axis: "left" },
         ...(height ? [{ values: height, label: "height", colour: ink.sky, axis: "right" as const }] : []),
+        ...(other ? [second(other, `margin, ${ghost!.label}`, ink.green, "left")] : []),
+        ...(high ? [second(high, `height, ${ghost!.label}`, ink.sky, "right")] : []),
       ],
     });
-    keys("balance-key", [["", "--green", "from the edge of the support polygon, inside positive (left)"], ["", "--sky", height ? "height (right)" : ""]]);
+    keys("balance-key", [["", "--green", "from the edge of the support polygon, inside positive (left)"], ["", "--sky", height ? "height (right)" : ""], ["dash", "--ink2", other || high ? `${ghost!.label}: dashed` : ""]]);
     this.seek(this.desk.state.t);
   }
 

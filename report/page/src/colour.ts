@@ -34,7 +34,21 @@ export function load(theme: Theme, share: number): Rgb {
   return a.map((v, c) => Math.round(v + (b[c] - v) * f)) as Rgb;
 }
 
+const ends: Record<Theme, [less: Rgb, none: Rgb, more: Rgb]> = {
+  light: [[0, 92, 152], [241, 243, 245], [168, 48, 0]],
+  dark: [[120, 196, 246], [28, 34, 40], [255, 148, 92]],
+};
+
+/** Less, -1, to more, 1: two hues that also those tell apart who see red and green alike. */
+export function difference(theme: Theme, x: number): Rgb {
+  const [less, none, more] = ends[theme], f = Math.min(Math.abs(x), 1) ** 0.8, end = x < 0 ? less : more;
+  return none.map((v, c) => Math.round(v + (end[c] - v) * f)) as Rgb;
+}
+
 export const css = (rgb: Rgb): string => `rgb(${rgb.join(",")})`;
 
-/** The ramp as a gradient of CSS, for the legend. */
-export const gradient = (theme: Theme): string => `linear-gradient(90deg,${ramps[theme].map(([x, c]) => `${css(c)} ${100 * x}%`).join(",")})`;
+const stops = (colours: [at: number, colour: Rgb][]): string => `linear-gradient(90deg,${colours.map(([x, c]) => `${css(c)} ${100 * x}%`).join(",")})`;
+
+/** The ramps as gradients of CSS, for legends. */
+export const gradient = (theme: Theme): string => stops(ramps[theme]);
+export const differenceGradient = (theme: Theme): string => stops([-1, -0.5, 0, 0.5, 1].map((x) => [(x + 1) / 2, difference(theme, x)]));

@@ -1,13 +1,14 @@
 // What the docks hold, worst first; without loads: which face sits on which.
 import { element, make } from "./dom";
 import { number } from "./numbers";
+import type { Desk } from "./panel";
 import type { Recording } from "./recording";
 
 const kinds = [["tension", "N"], ["shear", "N"], ["bending", "N m"], ["torsion", "N m"]] as const;
 const few = 12;
 
-export function docks(recording: Recording): void {
-  const { meta } = recording, table = element<HTMLTableElement>("docks"), from = recording.judged;
+export function docks(desk: Desk): void {
+  const { recording, ghost } = desk, { meta } = recording, table = element<HTMLTableElement>("docks");
   const shown = kinds.filter(([k]) => recording.has(`dock.0.${k}`));
   if (!shown.length) {
     element("docks-note").textContent = "The recording has no loads of docks.";
@@ -15,21 +16,29 @@ export function docks(recording: Recording): void {
     shorten(table);
     return;
   }
-  element("docks-note").textContent = "largest in the judged window";
-  const peaks = meta.docks.map((_, n) => shown.map(([kind]) => {
-    let most = 0;
-    recording.channel(`dock.${n}.${kind}`).forEach((v, i) => { if (i >= from) most = Math.max(most, kind === "tension" ? v : Math.abs(v)); });
-    return most;
-  }));
-  const largest = shown.map((_, k) => Math.max(...peaks.map((p) => p[k]), 1e-9)), by = shown.findIndex(([k]) => k === "bending");
+  element("docks-note").textContent = `largest of the rows in the judged window${ghost ? `; below, thin: ${ghost.label}` : ""}`;
+  const peaks = meta.docks.map((_, n) => shown.map(([kind]) => peak(recording, n, kind)));
+  const second = meta.docks.map((_, n) => (ghost && ghost.number("dock", n) >= 0 && ghost.recording.has(`dock.0.${kinds[0][0]}`) ? shown.map(([kind]) => peak(ghost.recording, ghost.number("dock", n), kind)) : null));
+  const largest = shown.map((_, k) => Math.max(...peaks.map((p) => p[k]), ...second.map((p) => p?.[k] ?? 0), 1e-9)), by = shown.findIndex(([k]) => k === "bending");
   const order = meta.docks.map((_, n) => n).sort((a, b) => peaks[b][Math.max(by, 0)] - peaks[a][Math.max(by, 0)]);
+  const bar = (value: number, most: number, ...text: HTMLElement[]): HTMLElement => {
+    const fill = make("i");
+    fill.style.width = `${(100 * value / most).toFixed(1)}%`;
+    return make("span.bar", fill, ...text);
+  };
   const body = make("tbody", ...order.map((n) => make("tr", head(recording, n), ...shown.map((_, k) => {
-      const fill = make("i"), value = peaks[n][k];
-      fill.style.width = `${(100 * value / largest[k]).toFixed(1)}%`;
-      return make("td", make("span.bar", fill, make("span", number(value))));
+      const theirs = second[n]?.[k], cell = make("td", bar(peaks[n][k], largest[k], make("span", number(peaks[n][k]) + (theirs === undefined ? "" : ` · ${number(theirs)}`))));
+      if (theirs !== undefined) cell.append(bar(theirs, largest[k]));
+      return cell;
     }))));
   table.append(make("thead", make("tr", make("th", "dock"), ...shown.map(([kind, unit]) => make("th", kind, make("small", ` ${unit}`))))), body);
   shorten(table);
+}
+
+function peak(recording: Recording, dock: number, kind: string): number {
+  let most = 0;
+  recording.channel(`dock.${dock}.${kind}`).forEach((v, i) => { if (i >= recording.judged) most = Math.max(most, kind === "tension" ? v : Math.abs(v)); });
+  return most;
 }
 
 /** A dozen rows, and a button for all. */

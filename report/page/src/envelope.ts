@@ -1,7 +1,9 @@
 // Torque over speed in what the chosen joint's motor can give: all joints with such a motor as a cloud, the chosen one's last period
 // as a line, a ring where it is now.
 import { Board, font, frame, line, type Box, type Pen, type Scale } from "./board";
+import type { Values } from "./channels";
 import { element, leaveOut } from "./dom";
+import type { Motor } from "./format";
 import { keys } from "./keyline";
 import { largest } from "./loads";
 import { least, limited, most } from "./motor";
@@ -23,7 +25,7 @@ export class Envelope implements Panel {
     if (!this.board) return;
     const motor = this.desk.loads.motor(this.desk.state.joint);
     keys("envelope-key", [["", "--blue", this.desk.recording.meta.cycle ? "chosen joint, last period" : "chosen joint"], ["cloud", "--cloud", this.peers.length > 1 ? "all joints with this motor" : ""],
-      ["hatch", "--hatch", limited(motor) ? "out of reach" : ""]]);
+      ["hatch", "--hatch", limited(motor) ? "out of reach" : ""], ["dash", "--purple", this.second() ? `${this.desk.ghost!.label}, its last period` : ""]]);
     this.board.paint();
   }
 
@@ -33,6 +35,14 @@ export class Envelope implements Panel {
     if (!this.scale) return;
     const { recording, state: { joint } } = this.desk, now = (name: string) => recording.at(recording.channel(`joint.${joint}.${name}`), t);
     this.dot.style.transform = `translate(${this.scale.X(now("speed"))}px,${this.scale.Y(now("torque"))}px)`;
+  }
+
+  // The second run's joint of the same name.
+  private second(): { speed: Values; torque: Values; motor: Motor | null; from: number } | null {
+    const { ghost, state } = this.desk, j = ghost?.number("joint", state.joint) ?? -1;
+    if (!ghost || j < 0) return null;
+    const { recording, loads } = ghost, speed = recording.find(`joint.${j}.speed`), torque = recording.find(`joint.${j}.torque`), { cycle } = recording.meta;
+    return speed && torque && { speed, torque, motor: loads.motor(j), from: cycle ? Math.max(recording.judged, recording.row(recording.end - cycle.period)) : recording.judged };
   }
 
   private get peers(): number[] {
@@ -45,7 +55,8 @@ export class Envelope implements Panel {
     const speed = (j: number) => recording.channel(`joint.${j}.speed`), torque = (j: number) => recording.channel(`joint.${j}.torque`);
     const reach = limited(motor) ? Math.max(...motor.most, ...motor.least.map((v) => -v)) : 0;
     const fastest = Math.max(...peers.map((j) => largest(speed(j), from)), 1e-6), hardest = Math.max(...peers.map((j) => largest(torque(j), from)), 1e-6);
-    const w = 1.08 * Math.max(fastest, motor?.no_load ?? 0), T = 1.15 * Math.max(hardest, reach);
+    const second = this.second(), their = second?.motor ?? null, beyond = limited(their) ? Math.max(...their.most) : 0;
+    const w = 1.08 * Math.max(fastest, motor?.no_load ?? 0, second ? largest(second.speed, second.from) : 0, their?.no_load ?? 0), T = 1.15 * Math.max(hardest, reach, second ? largest(second.torque, second.from) : 0, beyond);
     const box: Box = { left: 52, right: width - 14, top: 10, bottom: height - 44 };
     const { X, Y } = (this.scale = frame(pen, ink, box, [-w, w], [-T, T], { x: "joint speed (rad/s)", y: "torque (N m)" }));
     pen.save();
@@ -63,6 +74,17 @@ export class Envelope implements Panel {
       pen.strokeStyle = ink.vermillion;
       pen.lineWidth = 1.6;
       pen.stroke(inside);
+    }
+    if (limited(their) && their !== motor && JSON.stringify(their) !== JSON.stringify(motor)) {
+      pen.setLineDash([7, 4]);
+      pen.strokeStyle = ink.vermillion;
+      pen.lineWidth = 1.3;
+      for (const bound of [most, least]) {
+        pen.beginPath();
+        for (let i = 0; i <= 240; i++) pen.lineTo(X(-w + 2 * w * i / 240), Y(bound(their, -w + 2 * w * i / 240)));
+        pen.stroke();
+      }
+      pen.setLineDash([]);
     }
     pen.strokeStyle = ink.line;
     pen.lineWidth = 1;
@@ -90,6 +112,15 @@ export class Envelope implements Panel {
     pen.beginPath();
     for (let i = first; i < rows; i++) pen.lineTo(X(v[i]), Y(u[i]));
     pen.stroke();
+    if (second) {
+      pen.setLineDash([7, 4]);
+      pen.strokeStyle = ink.purple;
+      pen.lineWidth = 1.5;
+      pen.beginPath();
+      for (let i = second.from; i < second.speed.length; i++) pen.lineTo(X(second.speed[i]), Y(second.torque[i]));
+      pen.stroke();
+      pen.setLineDash([]);
+    }
     pen.restore();
     this.write(pen, box, steady);
     this.seek(desk.state.t);

@@ -2,6 +2,7 @@
 import { Board, fitted, font, timeAxis, type Pen } from "./board";
 import type { Values } from "./channels";
 import { element, leaveOut } from "./dom";
+import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
 
 const left = 96, right = 46, foot = 22, threshold = 0.02; // of the weight
@@ -10,6 +11,7 @@ interface Foot {
   name: string;
   load: Values;
   duty: number;
+  number: number;
 }
 
 export class Footfalls implements Panel {
@@ -28,7 +30,7 @@ export class Footfalls implements Panel {
       if (!load) return [];
       let rows = 0;
       for (let i = from; i < load.length; i++) rows += load[i] > this.on ? 1 : 0;
-      return [{ name, load, duty: rows / Math.max(1, load.length - from) }];
+      return [{ name, number: n, load, duty: rows / Math.max(1, load.length - from) }];
     });
     this.most = Math.max(1e-9, ...this.feet.map((f) => f.load.reduce((a, b) => Math.max(a, b), 0)));
     this.head = this.host.querySelector<HTMLElement>(".playhead");
@@ -36,6 +38,7 @@ export class Footfalls implements Panel {
       leaveOut(this.host, recording.meta.ground.kind === "none" ? "there is no ground." : recording.meta.contacts.length ? "no foot carries load, or the recording has no contacts (trace.columns)." : "nothing of the robot touches the ground.");
       return;
     }
+    if (desk.ghost) keys("foot-key", [["band", "--green", desk.ghost.overlay.labels[0]], ["band", "--purple", `${desk.ghost.label}, below`]]);
     this.host.style.height = `${foot + Math.max(Math.min(220, 60 * this.feet.length), Math.min(330, this.feet.length * 26))}px`;
     this.board = new Board(this.host, "When each foot carries load", (pen, width, height) => this.draw(pen, width, height));
     this.host.addEventListener("click", (e) => {
@@ -58,19 +61,25 @@ export class Footfalls implements Panel {
     const { feet, desk } = this, { ink, recording, state } = desk, width = Math.floor(fullWidth - left - right), height = fullHeight - foot, each = height / feet.length, [from, to] = state.span;
     const edges = Array.from({ length: width + 1 }, (_, x) => recording.row(from + (to - from) * x / width));
     let last = -99;
-    feet.forEach(({ name, load, duty }, r) => {
+    feet.forEach(({ name, load, duty, number }, r) => {
       const top = r * each, gap = Math.min(5, each * 0.16), middle = top + each / 2;
+      // Two runs share a row: the second one has its lower third.
+      const second = desk.ghost?.values(`foot.${number}.fz`) ?? null, tall = each - 2 * gap, upper = desk.ghost ? 0.62 * tall : tall;
       pen.fillStyle = ink.track;
-      pen.fillRect(left, top + gap, width, each - 2 * gap);
-      pen.fillStyle = ink.green;
-      for (let x = 0; x < width; x++) {
-        let most = 0;
-        for (let i = edges[x], end = Math.max(edges[x] + 1, edges[x + 1]); i < end; i++) if (load[i] > most) most = load[i];
-        if (most <= this.on) continue;
-        pen.globalAlpha = 0.35 + 0.65 * Math.min(1, most / (0.6 * this.most));
-        pen.fillRect(left + x, top + gap, 1, each - 2 * gap);
-      }
-      pen.globalAlpha = 1;
+      pen.fillRect(left, top + gap, width, tall);
+      const blocks = (values: Values, colour: string, on: number, most: number, y: number, h: number) => {
+        pen.fillStyle = colour;
+        for (let x = 0; x < width; x++) {
+          let held = 0;
+          for (let i = edges[x], end = Math.max(edges[x] + 1, edges[x + 1]); i < end; i++) if (values[i] > held) held = values[i];
+          if (held <= on) continue;
+          pen.globalAlpha = 0.35 + 0.65 * Math.min(1, held / (0.6 * most));
+          pen.fillRect(left + x, y, 1, h);
+        }
+        pen.globalAlpha = 1;
+      };
+      blocks(load, ink.green, this.on, this.most, top + gap, upper);
+      if (second) blocks(second, ink.purple, threshold * desk.ghost!.recording.meta.weight, this.most, top + gap + upper + 1, tall - upper - 1);
       if (middle - last < 11.5) return;
       last = middle;
       pen.font = font(11);

@@ -147,6 +147,24 @@ export type Channel = [name: string, unit: string, quantum: number, count: numbe
 /** Amplitude and phase of a first harmonic, rad. */
 export type Harmonic = [amplitude: number, phase: number];
 
+/** A signal of the second run that left its band around the first one's. */
+export interface Stray {
+  signal: string; // a channel
+  unit: string;
+  ratio: number; // RMS of the difference, in bands
+  tolerance: number; // in the unit: how far it may be away at a time
+  from: number | null; // s: the first time beyond the tolerance
+}
+
+/** A second run, which is laid over the page's own: report/page_overlay.h. */
+export interface Overlay {
+  labels: [own: string, second: string];
+  differs: string[]; // settings
+  strayed: string | null; // a run that strayed from its golden; null: a page of two runs
+  strays: Stray[];
+  run: Meta;
+}
+
 export interface Meta {
   format: 1;
   name: string;
@@ -181,4 +199,5 @@ export interface Meta {
   missing: string[];
   scenario: string;
   channels: Channel[];
+  overlay?: Overlay;
 }

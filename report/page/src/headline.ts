@@ -1,8 +1,10 @@
 // The answer, before anything else: can the robot do it; if not, which joint first, when, how much is missing.
+import { about } from "./about";
 import { element, icon, make } from "./dom";
-import type { Check, Meta } from "./format";
+import type { Check, Meta, Overlay } from "./format";
 import { fixed, number, percent, plural, quantity, span } from "./numbers";
-import type { Desk } from "./panel";
+import type { Desk, Run } from "./panel";
+import { signalLink } from "./strays";
 
 type Mood = "good" | "bad" | "open" | "plan";
 type Fact = [name: string, value: Node | string, small?: string];
@@ -14,21 +16,65 @@ const inSentence = (title: string): string => (/^[A-Z][a-z]/.test(title) ? title
 const ended = (text: string): string => (/[.!?]$/.test(text) ? text : `${text}.`);
 const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
-export function headline(desk: Desk): void {
-  const { meta } = desk.recording, { mood, said, why, facts } = judgement(desk, meta);
-  element("verdict").dataset.mood = mood;
-  element("badge").append(icon(badges[mood], 24));
-  element("said").textContent = said;
-  element("why").textContent = why.join(" ");
-  element("aside").textContent = aside(meta).join(" ");
-  element("facts").dataset.count = String(facts.length);
-  element("facts").append(...facts.map(([name, value, small]) => make("div", make("dt", name), make("dd", value, ...(small ? [make("small", small)] : [])))));
-  const notes = element("missing");
-  notes.hidden = !meta.missing.length;
-  notes.append(...meta.missing.map((m) => make("li", ended(m))));
+interface Judgement {
+  mood: Mood;
+  said: string;
+  why: string[];
+  facts: Fact[];
 }
 
-function judgement(desk: Desk, meta: Meta): { mood: Mood; said: string; why: string[]; facts: Fact[] } {
+export function headline(desk: Desk): void {
+  const { ghost, recording: { meta } } = desk, own = element("verdict"), overlay = ghost?.overlay;
+  if (!ghost || !overlay) {
+    card(own, desk, judgement(desk, meta), aside(meta));
+    return;
+  }
+  const both = element("pair"), list = both.querySelector("ul")!;
+  both.hidden = false;
+  if (overlay.strayed) {
+    card(own, desk, strayed(desk, overlay, overlay.strayed), []);
+  } else {
+    const second = own.cloneNode(true) as HTMLElement;
+    second.removeAttribute("id");
+    second.setAttribute("aria-labelledby", "said-second");
+    for (const one of second.querySelectorAll("[id]")) one.id = `${one.id}-second`;
+    own.after(second);
+    own.parentElement!.classList.add("two-runs");
+    [own, second].forEach((host, n) => {
+      const run = desk.runs[n], { meta: of } = run.recording, made = judgement(run, of);
+      card(host, run, { ...made, facts: made.facts.slice(0, 4) }, aside(of));
+      host.querySelector(".words")!.prepend(make("p.whose", make(`span.tag-${n ? "second" : "own"}`, overlay.labels[n]), make("b", of.name), ` ${about(of)}`));
+    });
+  }
+  const [a, b] = overlay.labels;
+  both.querySelector("p")!.replaceChildren(make("span.k", `${a}: solid lines, and the robot in colours`), make("span.k.dash", `${b}: dashed lines, and the translucent robot`));
+  const settings = make("details", make("summary", overlay.strayed ? "What is not as it was when the golden was approved" : `Where the settings of ${b} are not those of ${a}`), make("ul", ...overlay.differs.map((one) => make("li", one))));
+  settings.open = overlay.differs.length <= 3;
+  list.append(...ghost.apart.map((one) => make("li", one)), make("li", overlay.differs.length ? settings : overlay.strayed ? "Build, engine, step and scenario are those of the golden." : "Both runs have the same settings."));
+}
+
+function card(host: HTMLElement, run: Run, { mood, said, why, facts }: Judgement, beside: string[]): void {
+  const part = (name: string) => host.querySelector<HTMLElement>(`.${name}`)!, { missing } = run.recording.meta;
+  host.dataset.mood = mood;
+  part("badge").append(icon(badges[mood], 24));
+  part("said").textContent = said;
+  part("reason").textContent = why.join(" ");
+  part("aside").textContent = beside.join(" ");
+  part("facts").dataset.count = String(facts.length);
+  part("facts").append(...facts.map(([name, value, small]) => make("div", make("dt", name), make("dd", value, ...(small ? [make("small", small)] : [])))));
+  part("lacks").hidden = !missing.length;
+  part("lacks").append(...missing.map((m) => make("li", ended(m))));
+}
+
+/** Of a run that strayed from its golden: what, where, when. */
+function strayed(run: Run, { strays }: Overlay, text: string): Judgement {
+  const worst = [...strays].sort((a, b) => b.ratio - a.ratio)[0], facts: Fact[] = [];
+  if (strays[0] && strays[0].from !== null) facts.push(["First to leave its band", signalLink(run, strays[0]), `at ${fixed(strays[0].from, 2)} s`]);
+  if (worst) facts.push(["Farthest off", signalLink(run, worst), `RMS ${number(worst.ratio)} bands`]);
+  return { mood: "bad", said: "It strayed from its golden", why: [ended(capital(text))], facts };
+}
+
+function judgement(desk: Run, meta: Meta): Judgement {
   const { checks, verdict } = meta.verdict;
   const gait = checks.filter((c) => c.group !== "trust"), failed = gait.filter((c) => c.status === "fail");
   if (meta.outcome === "not run") {
@@ -80,7 +126,7 @@ function aside(meta: Meta): string[] {
 export const hardest = (meta: Meta): Check | null =>
   meta.verdict.checks.find((c) => c.id === "envelope" && c.status !== "not judged" && c.value !== null && c.joint !== null) ?? null;
 
-function shortfall(desk: Desk, first: Check, failed: Check[]): Fact[] {
+function shortfall(desk: Run, first: Check, failed: Check[]): Fact[] {
   const { meta } = desk.recording, motor = first.id === "voltage" || first.id === "current", early = motor ? firstAtLimit(desk) : null;
   const facts: Fact[] = [], missing = failed.find((c) => c.missing)?.missing;
   if (early) facts.push(["First of the run at a limit", place(desk, meta.joints[early.joint].name, early.t), `at ${fixed(early.t, 2)} s`]);
@@ -97,12 +143,12 @@ function shortfall(desk: Desk, first: Check, failed: Check[]): Fact[] {
 }
 
 /** The joint that is the first of the run at a limit of its motor, however shortly. */
-export function firstAtLimit(desk: Desk): { joint: number; t: number } | null {
+export function firstAtLimit(desk: Run): { joint: number; t: number } | null {
   const { joints, verdict: { first } } = desk.recording.meta, joint = first ? joints.findIndex((j) => j.name === first.joint) : -1;
   return first && joint >= 0 ? { joint, t: first.time } : null;
 }
 
-function place(desk: Desk, name: string, t: number | null): HTMLButtonElement {
+function place(desk: Run, name: string, t: number | null): HTMLButtonElement {
   const go = make("button.link", name);
   go.type = "button";
   go.addEventListener("click", () => {
@@ -112,7 +158,7 @@ function place(desk: Desk, name: string, t: number | null): HTMLButtonElement {
   return go;
 }
 
-function walked(desk: Desk, meta: Meta): Fact[] {
+function walked(desk: Run, meta: Meta): Fact[] {
   const { summary, cycle } = meta, facts: Fact[] = [];
   const most = hardest(meta);
   if (most) {

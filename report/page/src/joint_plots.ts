@@ -3,7 +3,7 @@ import { element, leaveOut, make } from "./dom";
 import { keys } from "./keyline";
 import { fixed, number, percent } from "./numbers";
 import type { Desk, Panel, Span } from "./panel";
-import { TimePlot, type Level } from "./timeplot";
+import { second, TimePlot, type Level, type Tube } from "./timeplot";
 import { limited } from "./motor";
 
 type Cell = "angle" | "error" | "speed" | "torque" | "use";
@@ -26,20 +26,32 @@ export class JointPlots implements Panel {
     const { desk } = this, { ink, state: { joint } } = desk, values = (name: string) => desk.recording.channel(`joint.${joint}.${name}`);
     this.plots.forEach((p) => p.destroy());
     this.plots = [];
-    const zero: Level = { value: 0, axis: "left", colour: ink.line }, bands = this.saturated(), name = desk.recording.meta.joints[joint].name;
+    const { recording } = desk, zero: Level = { value: 0, axis: "left", colour: ink.line }, bands = this.saturated(), name = desk.recording.meta.joints[joint].name;
     if (this.has("angle")) {
       const torque = this.has("torque"), setpoint = this.has("setpoint"), range = desk.recording.meta.joints[joint], reached = this.nearStops();
       const stops: Level[] = reached ? [range.lo, range.hi].map((value) => ({ value, axis: "left", colour: ink.fail, dash: [2, 3] })) : [];
+      const other = (quantity: string) => desk.ghost?.values(`joint.${joint}.${quantity}`) ?? null, angleB = other("angle"), torqueB = torque ? other("torque") : null, label = desk.ghost?.label ?? "";
+      const tube = (quantity: string, axis: Tube["axis"], colour: string): Tube[] => {
+        const stray = desk.ghost?.stray(`joint.${joint}.${quantity}`);
+        return stray ? [{ around: values(quantity), by: stray.tolerance, axis, colour }] : [];
+      };
+      const tubes = [...tube("angle", "left", ink.blue), ...(torque ? tube("torque", "right", ink.vermillion) : [])];
+      const pushed = recording.find(`joint.${joint}.stop_torque`), stopped = pushed?.some((v) => v !== 0) ? pushed : null;
       this.plots.push(new TimePlot(element("motion"), desk, {
-        label: `Angle, set point and torque of joint ${name} over time`, bands, levels: [zero, ...stops],
+        label: `Angle, set point and torque of joint ${name} over time`, bands, tubes, levels: [zero, ...stops],
         left: { name: "angle (rad)", colour: ink.blue }, ...(torque ? { right: { name: "torque (N m)", colour: ink.vermillion } } : {}),
         curves: [
           { values: values("angle"), label: "angle", colour: ink.blue, width: 2, axis: "left" },
           ...(setpoint ? [{ values: values("setpoint"), label: "set point", colour: ink.ink, dash: [2, 3], width: 1.3, axis: "left" as const }] : []),
           ...(torque ? [{ values: values("torque"), label: "torque", colour: ink.vermillion, width: 1.5, axis: "right" as const }] : []),
+          ...(torque && stopped ? [{ values: stopped, label: "torque of the stops", colour: ink.green, width: 1.2, axis: "right" as const }] : []),
+          ...(angleB ? [second(angleB, `angle, ${label}`, ink.blue, "left")] : []),
+          ...(torqueB ? [second(torqueB, `torque, ${label}`, ink.vermillion, "right")] : []),
         ],
       }));
       keys("motion-key", [["dash", "--ink", setpoint ? "set point" : ""], ["", "--blue", "angle (left)"], ["", "--vermillion", torque ? "torque (right)" : ""],
+        ["", "--green", torque && stopped ? "torque of the hinge's stops (right)" : ""], ["dash", "--ink2", angleB || torqueB ? `${label}: dashed` : ""],
+        ["", "", desk.ghost && !angleB && !torqueB ? `${label} has no such joint` : ""], ["hatch", "--band", tubes.length ? "within three bands of the golden" : ""],
         ["band", "--band", bands.length ? "motor at its limit" : ""], ["dots", "--fail", reached ? "end of its range" : ""]]);
     } else leaveOut(element("motion"), "the recording has no angles of the joints (trace.columns).");
     this.drive(bands);
@@ -79,12 +91,15 @@ export class JointPlots implements Panel {
     };
     limits(motor?.command, "left", ink.purple, [6, 4]);
     if (current) limits(motor?.current, "right", ink.green, [2, 4]);
+    const { ghost } = desk, other = ghost?.values(`joint.${joint}.${command}`), drawn = current ? ghost?.values(`joint.${joint}.current`) : null;
     this.plots.push(new TimePlot(host, desk, {
       label: `${unit === "V" ? "Voltage and current" : "Command"} of joint ${recording.meta.joints[joint].name} over time`, bands, levels,
       left: { name: unit === "V" ? "voltage (V)" : "command (N m)", colour: ink.purple }, ...(current ? { right: { name: "current (A)", colour: ink.green } } : {}),
       curves: [
         { values: recording.channel(`joint.${joint}.${command}`), label: word, colour: ink.purple, axis: "left" },
         ...(current ? [{ values: recording.channel(`joint.${joint}.current`), label: "current", colour: ink.green, axis: "right" as const }] : []),
+        ...(other ? [second(other, `${word}, ${ghost!.label}`, ink.purple, "left")] : []),
+        ...(drawn ? [second(drawn, `current, ${ghost!.label}`, ink.green, "right")] : []),
       ],
     }));
     const of = (limit: number | null | undefined, u: string) => (limit ? `, limit ±${number(limit)} ${u}` : "");

@@ -18,7 +18,8 @@ export class Loads {
 
   constructor(private readonly recording: Recording) {
     const { joints } = recording.meta, from = recording.judged;
-    this.limited = joints.some((_, j) => limited(this.motor(j)));
+    // A share is of the torque at a speed: where the recording has no speeds, none is known.
+    this.limited = recording.has("joint.0.speed") && recording.has("joint.0.torque") && joints.some((_, j) => limited(this.motor(j)));
     this.peaks = joints.map((_, j) => largest(recording.channel(`joint.${j}.torque`), from));
     this.peak = Math.max(...this.peaks, 1e-9);
     this.worst = new Float32Array(recording.rows);
@@ -67,7 +68,7 @@ export class Loads {
     const out = new Float32Array(recording.rows), torque = one("torque");
     if (quantity === "use") {
       const motor = this.motor(joint), speed = one("speed");
-      if (limited(motor)) return out.map((_, i) => use(motor, speed[i], torque[i]));
+      if (this.limited && limited(motor)) return out.map((_, i) => use(motor, speed[i], torque[i]));
       return this.limited ? out : out.map((_, i) => Math.abs(torque[i]) / this.peak);
     }
     const scale = this.scale(quantity), setpoint = one("setpoint"), angle = one("angle"), values = one(quantity);

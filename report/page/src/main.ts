@@ -9,8 +9,8 @@ declare global {
   interface Window { gaitlab: { page: Page; unpack: typeof unpack; motor: { most: typeof most; least: typeof least; use: typeof use } } }
 }
 
-Recording.of(document).then((recording) => {
-  const page = new Page(recording), frame = (now: number) => {
+Recording.of(document).then(([recording, second]) => {
+  const page = new Page(recording, second), frame = (now: number) => {
     page.tick(now);
     requestAnimationFrame(frame);
   };

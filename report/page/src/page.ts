@@ -1,4 +1,5 @@
 // The page: its state, its panels, what keys and links do.
+import { about, title } from "./about";
 import { Balance } from "./balance";
 import { inkOf, type Ink, type Theme } from "./colour";
 import { checks } from "./checks";
@@ -8,18 +9,20 @@ import { element, make, panelOf } from "./dom";
 import { Energy } from "./energy";
 import { Envelope } from "./envelope";
 import { Footfalls } from "./footfalls";
+import { Ghost } from "./ghost";
 import { firstAtLimit, hardest, headline } from "./headline";
 import { HeatMap } from "./heatmap";
 import { JointPlots } from "./joint_plots";
 import { Loads } from "./loads";
-import { number, plural, quantity } from "./numbers";
+import { number } from "./numbers";
 import { Overview } from "./overview";
-import type { Desk, Panel, Span, State } from "./panel";
+import type { Desk, Panel, Run, Span, State } from "./panel";
 import { parts } from "./parts";
 import { Path } from "./path";
 import { Phases } from "./phases";
 import type { Recording } from "./recording";
 import { Stage } from "./stage";
+import { Strays } from "./strays";
 import { Transport } from "./transport";
 import type { Look } from "./view";
 
@@ -27,6 +30,8 @@ type Stretch = "all" | "four" | "one";
 
 export class Page implements Desk {
   readonly loads: Loads;
+  readonly ghost: Ghost | null;
+  readonly runs: readonly Run[];
   readonly state: State;
   readonly stage: Stage;
   ink: Ink;
@@ -37,25 +42,28 @@ export class Page implements Desk {
   private last: number | null = null; // ms, of the frame before, while playing
   private late = 0; // frames
 
-  constructor(readonly recording: Recording) {
+  constructor(readonly recording: Recording, second: Recording | null) {
     const { meta } = recording, { cycle, verdict } = meta;
     this.link = new URLSearchParams(location.hash.slice(1));
     const dark = this.link.get("theme") ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
     document.documentElement.dataset.theme = dark === "dark" ? "dark" : "light";
     this.ink = inkOf(document.documentElement);
     this.loads = new Loads(recording);
+    this.ghost = second && new Ghost(second, recording);
+    this.runs = [this, ...(this.ghost ? [this.asRun(this.ghost)] : [])];
     const all = recording.end || 1, period = cycle?.period ?? 2;
     this.stretches = { all, four: Math.min(all, 4 * period), one: Math.min(all, period) };
     this.width = this.stretches.four;
     const failing = verdict.checks.find((c) => c.status === "fail" && c.joint) ?? hardest(meta), first = failing?.group === "motor" ? firstAtLimit(this) : null;
     const index = (name: string | null | undefined) => meta.joints.findIndex((j) => j.name === name);
-    const start = [index(this.link.get("joint")), index(failing?.joint)].find((j) => j >= 0) ?? this.loads.hardest.joint;
+    const stray = this.ghost?.overlay.strays[0], strayed = /^joint\.(\d+)\./.exec(stray?.signal ?? "");
+    const start = [index(this.link.get("joint")), strayed ? Number(strayed[1]) : -1, index(failing?.joint)].find((j) => j >= 0) ?? this.loads.hardest.joint;
     this.state = { t: 0, joint: meta.joints.length ? start : -1, playing: false, rate: 1, span: [0, all] };
-    const t = this.link.has("t") ? Number(this.link.get("t")) : failing?.from ?? first?.t ?? (recording.ran ? Math.max(verdict.window.from, 0) : 0);
+    const t = this.link.has("t") ? Number(this.link.get("t")) : stray?.from ?? failing?.from ?? first?.t ?? (recording.ran ? Math.max(verdict.window.from, 0) : 0);
     this.state.t = this.within(Number.isFinite(t) ? t : 0);
     this.state.span = this.spanAround();
     this.text();
-    this.stage = new Stage(this);
+    this.stage = new Stage(this, (on) => this.align(on));
     this.panels.push(this.stage);
     this.arrange();
     this.wire();
@@ -86,6 +94,19 @@ export class Page implements Desk {
   zoom(span: Span | null): void {
     this.width = span ? 0 : this.stretches.all;
     this.show(span ?? [0, this.recording.end]);
+  }
+
+  /** The second run at the same phase of its gait, or at the same time. */
+  align(on: boolean): void {
+    if (!this.ghost) return;
+    this.ghost.aligned = on;
+    this.panels.forEach((p) => p.paint());
+    this.seek(this.state.t);
+  }
+
+  private asRun(ghost: Ghost): Run {
+    const { recording, loads } = ghost;
+    return { recording, loads, goTo: (t) => this.goTo(ghost.back(t)), choose: (joint) => { if (ghost.jointBack(joint) >= 0) this.choose(ghost.jointBack(joint)); } };
   }
 
   // --- time
@@ -148,13 +169,8 @@ export class Page implements Desk {
 
   private text(): void {
     const { meta } = this.recording, ran = meta.outcome !== "not run";
-    element("name").textContent = meta.name;
-    const step = meta.step !== null ? `step ${quantity(1000 * meta.step, "ms")}` : meta.accuracy !== null ? `accuracy ${number(meta.accuracy)}` : "";
-    element("about").textContent = [
-      `${plural(meta.modules.length, "module")}, ${plural(meta.joints.length, "joint")}, ${quantity(meta.mass, "kg")}`,
-      ...(ran ? [`${meta.cpg}${meta.frequency ? ` at ${quantity(meta.frequency, "Hz")}` : ""}`, quantity(meta.duration, "s")] : []),
-      `engine ${meta.engine}${step ? `, ${step}` : ""}`,
-    ].filter(Boolean).join(" · ");
+    element("name").textContent = title(this.runs);
+    element("about").textContent = this.ghost ? (this.ghost.overlay.strayed ? about(meta) : "") : about(meta);
     headline(this);
     element("foot-text").textContent = [`gaitlab ${meta.build}.`, ...(ran ? [`Trace hash ${meta.summary.trace_hash ?? "unknown"}.`, "Values on this page are rounded; the trace beside it has them in full.",
       `The same run again: ${meta.command}`] : [])].join(" ");
@@ -172,8 +188,10 @@ export class Page implements Desk {
       return when;
     };
     for (const [n, joint] of meta.joints.entries()) element("joint").append(new Option(`${n}  ${joint.name}`, String(n)));
-    if (keep("checks", meta.outcome !== "not run")) checks(this);
-    if (keep("demand", !!meta.verdict.demand?.joints.length)) demand(this);
+    if (keep("checks", meta.outcome !== "not run" && this.runs.some((r) => r.recording.meta.verdict.checks.length > 0))) checks(this);
+    if (keep("drift", !!this.ghost?.overlay.strayed) && keep("strays", true)) this.panels.push(new Strays(this));
+    else keep("strays", false);
+    if (keep("demand", this.runs.some((r) => r.recording.meta.verdict.demand?.joints.length))) demand(this);
     if (keep("parts", meta.outcome === "not run")) parts(this);
     element("transport").hidden = !recording.ran;
     if (recording.ran) {
@@ -184,7 +202,7 @@ export class Page implements Desk {
     if (keep("heat", recording.ran && jointed)) this.panels.push(new HeatMap(this));
     if (keep("foot", recording.ran && meta.ground.kind !== "none")) this.panels.push(new Footfalls(this));
     if (keep("path", recording.ran && meta.ground.kind !== "none")) this.panels.push(new Path(this), new Balance(this));
-    if (keep("docks", recording.ran && meta.docks.length > 0)) docks(recording);
+    if (keep("docks", recording.ran && meta.docks.length > 0)) docks(this);
     if (keep("phase", recording.ran && jointed)) this.panels.push(new Phases(this));
     if (keep("energy", recording.ran && jointed)) this.panels.push(new Energy(this));
     // Those that have nothing to show are left out by now.
@@ -249,7 +267,7 @@ export class Page implements Desk {
     const acts: Record<string, () => void> = {
       " ": () => this.play(!state.playing), ArrowLeft: () => this.goTo(state.t - step), ArrowRight: () => this.goTo(state.t + step), Home: () => this.goTo(0), End: () => this.goTo(recording.end),
       "[": () => this.choose(state.joint - 1), "]": () => this.choose(state.joint + 1), 1: look("iso"), 2: look("side"), 3: look("top"), 4: look("front"), j: () => this.stage.frame(state.joint),
-      f: press("follow"), c: press("forces"), n: press("faces"), a: press("axes"), d: press("theme"), z: () => this.zoom(null), "?": press("keys"),
+      f: press("follow"), c: press("forces"), n: press("faces"), a: press("axes"), d: press("theme"), z: () => this.zoom(null), p: press("align"), "?": press("keys"),
     };
     const act = acts[e.key.length === 1 ? e.key.toLowerCase() : e.key];
     if (!act || (e.key === " " && target.matches("button, summary"))) return;

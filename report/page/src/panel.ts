@@ -1,5 +1,6 @@
 // What the panels of the page have in common: the state they show, and what they answer to.
 import type { Ink } from "./colour";
+import type { Ghost } from "./ghost";
 import type { Loads } from "./loads";
 import type { Recording } from "./recording";
 
@@ -13,15 +14,24 @@ export interface State {
   span: Span; // s, of the plots over time
 }
 
-/** The page, as its panels see it. */
-export interface Desk {
+/** One of the page's runs, and the way to a place in it. */
+export interface Run {
   readonly recording: Recording;
   readonly loads: Loads;
+  /** Stops playing, goes to a time of this run. */
+  goTo(t: number): void;
+  /** The number of one of this run's joints. */
+  choose(joint: number): void;
+}
+
+/** The page, as its panels see it: of its own run. */
+export interface Desk extends Run {
+  /** The run that is laid over it. */
+  readonly ghost: Ghost | null;
+  /** Its own run, and the one that is laid over it. */
+  readonly runs: readonly Run[];
   readonly state: Readonly<State>;
   readonly ink: Ink;
-  /** Stops playing, goes to a time. */
-  goTo(t: number): void;
-  choose(joint: number): void;
   /** null: the whole run. */
   zoom(span: Span | null): void;
 }

@@ -22,8 +22,15 @@ export class Path implements Panel {
       leaveOut(element("path"), "the recording has no centre of mass (trace.columns: com.*).");
       return;
     }
-    keys("path-key", [["", "--blue", "centre of mass"], ["ring", "--blue", "start"], ["dotk", "--green", this.prints.length ? "feet on the ground" : ""]]);
+    keys("path-key", [["", "--blue", "centre of mass"], ["ring", "--blue", "start"], ["dotk", "--green", this.prints.length ? "feet on the ground" : ""],
+      ["dash", "--purple", this.second ? `centre of mass, ${desk.ghost!.label}` : ""]]);
     this.board = new Board(element("path"), "Way of the centre of mass from above", (pen, width, height) => this.draw(pen, width, height));
+  }
+
+  // By its own rows: its way does not depend on the clock.
+  private get second(): [Values, Values] | null {
+    const x = this.desk.ghost?.recording.find("com.x"), y = this.desk.ghost?.recording.find("com.y");
+    return x && y ? [x, y] : null;
   }
 
   paint(): void { this.board?.paint(); }
@@ -38,7 +45,7 @@ export class Path implements Panel {
     const { x, y, desk } = this, { ink, recording } = desk, box: Box = { left: 58, right: width - 14, top: 10, bottom: height - 44 }, n = recording.rows;
     const reach: [number, number, number, number] = [Infinity, -Infinity, Infinity, -Infinity];
     const see = (a: Values, b: Values, only?: Values) => {
-      for (let i = 0; i < n; i++) {
+      for (let i = 0; i < a.length; i++) {
         if (only && only[i] <= 0.02 * recording.meta.weight) continue;
         reach[0] = Math.min(reach[0], a[i]);
         reach[1] = Math.max(reach[1], a[i]);
@@ -47,6 +54,7 @@ export class Path implements Panel {
       }
     };
     see(x, y);
+    if (this.second) see(...this.second);
     for (const [fz, px, py] of this.prints) see(px, py, fz);
     const room = 0.06 * Math.max(reach[1] - reach[0], reach[3] - reach[2], 0.02);
     const perPixel = Math.max((reach[1] - reach[0] + 2 * room) / (box.right - box.left), (reach[3] - reach[2] + 2 * room) / (box.bottom - box.top));
@@ -67,6 +75,16 @@ export class Path implements Panel {
     pen.beginPath();
     for (let i = 0; i < n; i += Math.max(1, Math.floor(n / 2000))) pen.lineTo(X(x[i]), Y(y[i]));
     pen.stroke();
+    if (this.second) {
+      const [a, b] = this.second;
+      pen.setLineDash([7, 4]);
+      pen.strokeStyle = ink.purple;
+      pen.beginPath();
+      for (let i = 0; i < a.length; i += Math.max(1, Math.floor(a.length / 2000))) pen.lineTo(X(a[i]), Y(b[i]));
+      pen.stroke();
+      pen.setLineDash([]);
+      pen.strokeStyle = ink.blue;
+    }
     pen.fillStyle = ink.panel;
     pen.beginPath();
     pen.arc(X(x[0]), Y(y[0]), 4, 0, 2 * Math.PI);

@@ -22,7 +22,7 @@ export class Phases implements Panel {
     }
     element("phase-note").textContent = `behind ${joints[this.reference].name}`;
     this.board = new Board(element("phase"), "Phase lag of every joint", (pen, width, height) => this.draw(pen, width, height));
-    keys("phase-key", [["dotk", "--sky", "set point"], ["ring", "--vermillion", "angle"]]);
+    keys("phase-key", [["dotk", "--sky", "set point"], ["ring", "--vermillion", "angle"], ["square", "--purple", desk.ghost?.recording.meta.cycle ? `angle, ${desk.ghost.label}` : ""]]);
     element("phase-key").append("area: amplitude");
   }
 
@@ -58,6 +58,15 @@ export class Phases implements Panel {
       pen.beginPath();
       pen.arc(X(j), Y(wrap(lag)), Math.max(2.2, most * Math.sqrt(amplitude / this.widest)), 0, 2 * Math.PI);
     };
+    const { ghost } = this.desk, theirs = ghost?.recording.meta.phases ?? [], begin = theirs[ghost?.number("joint", this.reference) ?? -1]?.setpoint[1];
+    phases.forEach((_, j) => {
+      const at = theirs[ghost?.number("joint", j) ?? -1]?.angle;
+      if (!at || begin === undefined || at[0] < 0.02 * this.widest) return;
+      const half = 0.9 * Math.max(2.2, most * Math.sqrt(Math.min(at[0] / this.widest, 1.5)));
+      pen.strokeStyle = ink.purple;
+      pen.lineWidth = 1.5;
+      pen.strokeRect(X(j) - half, Y(wrap(begin - at[1])) - half, 2 * half, 2 * half);
+    });
     phases.forEach(({ setpoint: [A, a], angle: [B, b] }, j) => {
       const chosen = j === state.joint;
       if (A < 0.02 * this.widest) {

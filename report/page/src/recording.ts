@@ -12,12 +12,13 @@ export class Recording {
     this.times.forEach((time, i) => { if (Math.abs(time - i * meta.period) < 1e-3 * meta.period) this.times[i] = i * meta.period; });
   }
 
-  static async of(page: Document): Promise<Recording> {
+  /** The runs of a page: its own, and the one that is laid over it where there is one. */
+  static async of(page: Document): Promise<[Recording, Recording | null]> {
     const text = (id: string) => page.getElementById(id)?.textContent?.trim() ?? "";
-    const meta = JSON.parse(text("meta")) as Meta;
+    const meta = JSON.parse(text("meta")) as Meta, data = text("data").split("\n");
     if (meta.format !== 1) throw new Error(`it is of format ${meta.format}, this page reads format 1`);
-    const bytes = meta.channels.length ? await inflate(text("data")) : new Uint8Array();
-    return new Recording(meta, unpack(meta.channels, bytes));
+    const read = async (of: Meta, packed: string) => new Recording(of, unpack(of.channels, of.channels.length ? await inflate(packed) : new Uint8Array()));
+    return [await read(meta, data[0]), meta.overlay ? await read(meta.overlay.run, data[1]) : null];
   }
 
   get rows(): number { return this.times.length; }

@@ -1,6 +1,6 @@
 // The robot in 3D: bodies with their edges and shadows, hinges coloured by load. One instanced mesh per piece of a body type, so that
 // 200 joints draw as fast as 20.
-import { BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide, DynamicDrawUsage, EdgesGeometry, InstancedMesh, LineBasicMaterial,
+import { BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide, DynamicDrawUsage, EdgesGeometry, Group, InstancedMesh, LineBasicMaterial,
   LineSegments, Matrix4, MeshBasicMaterial, MeshLambertMaterial, Quaternion, SRGBColorSpace, Scene, Vector3, type Intersection, type Raycaster } from "three";
 import { load, type Theme } from "./colour";
 import type { Body, Meta } from "./format";
@@ -24,8 +24,8 @@ interface Hinge {
 }
 
 const looks = {
-  light: { active: 0x6fb9e3, passive: 0xe8ab3a, other: 0x98a1a9, edge: 0x27313a, shadow: 0xd0d7dd, accent: 0x0b5f9e },
-  dark: { active: 0x4b97c6, passive: 0xc98d22, other: 0x7b858e, edge: 0x05080b, shadow: 0x090c0f, accent: 0x8fd0ff },
+  light: { ghost: 0x8f4a86, active: 0x6fb9e3, passive: 0xe8ab3a, other: 0x98a1a9, edge: 0x27313a, shadow: 0xd0d7dd, accent: 0x0b5f9e },
+  dark: { ghost: 0xe39cc1, active: 0x4b97c6, passive: 0xc98d22, other: 0x7b858e, edge: 0x05080b, shadow: 0x090c0f, accent: 0x8fd0ff },
 };
 
 export class Robot {
@@ -39,18 +39,23 @@ export class Robot {
   private readonly chosen: LineSegments;
   private readonly materials = { active: new MeshLambertMaterial(), passive: new MeshLambertMaterial(), other: new MeshLambertMaterial() };
   private readonly shade = new MeshBasicMaterial({ side: DoubleSide });
+  private readonly unseen = new MeshBasicMaterial({ colorWrite: false, transparent: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   private readonly matrices: Matrix4[];
   private readonly press: Matrix4 | null;
   private readonly corners = new Map<string, Vector3[]>(); // of a body type's pieces
   private theme: Theme = "light";
 
-  constructor(private readonly meta: Meta, private readonly kinematics: Kinematics, scene: Scene, light: Vector3) {
+  private readonly all = new Group();
+
+  /** Without light: the robot of a second run, translucent, in one colour, without shadow and hinges. */
+  constructor(private readonly meta: Meta, private readonly kinematics: Kinematics, scene: Scene, private readonly light: Vector3 | null) {
+    scene.add(this.all);
     const { bodies, joints, ground } = meta;
     this.unit = typicalSize(meta);
     this.matrices = bodies.map(() => new Matrix4());
     // Shadows: the bodies once more, pressed onto the ground along the light; opaque, so that overlaps do not show. A shadow map
     // costs 140 ms a frame where there is no GPU.
-    this.press = ground.kind === "plane" || ground.kind === "boxes" ? pressed(light, ground.height + 0.0008 * this.unit) : null;
+    this.press = light && (ground.kind === "plane" || ground.kind === "boxes") ? pressed(light, ground.height + 0.0008 * this.unit) : null;
     const types = new Map<string, number[]>();
     bodies.forEach((b, i) => types.set(b.type, [...(types.get(b.type) ?? []), i]));
     let points = 0;
@@ -59,11 +64,18 @@ export class Robot {
       const role = bodies[members[0]].role, material = this.materials[role === "active" || role === "passive" ? role : "other"];
       for (const piece of outline(meta.geometry[type] ?? [])) {
         const mesh = new InstancedMesh(piece.body, material, members.length), shadow = this.press ? new InstancedMesh(piece.shadow, this.shade, members.length) : null;
-        for (const one of [mesh, shadow]) {
+        // A translucent robot is drawn twice, its depth first, so that its own far side does not show through.
+        const depth = light ? null : new InstancedMesh(piece.body, this.unseen, members.length);
+        if (depth) {
+          depth.instanceMatrix = mesh.instanceMatrix;
+          depth.renderOrder = 1;
+        }
+        mesh.renderOrder = light ? 0 : 2;
+        for (const one of [depth, mesh, shadow]) {
           if (!one) continue;
           one.frustumCulled = false;
           one.instanceMatrix.setUsage(DynamicDrawUsage);
-          scene.add(one);
+          this.all.add(one);
         }
         const edges = new EdgesGeometry(piece.body, 35).getAttribute("position").array as Float32Array;
         this.kinds.push({ piece, bodies: members, mesh, shadow, edges, first: points });
@@ -72,7 +84,8 @@ export class Robot {
     }
     this.outlines = lines(points, new LineBasicMaterial({ transparent: true, opacity: 0.55 }));
     this.chosen = lines(Math.max(0, ...bodies.map((_, i) => this.edgesOf(i).reduce((n, k) => n + k.edges.length / 3, 0))), new LineBasicMaterial());
-    scene.add(this.outlines, this.chosen);
+    this.outlines.renderOrder = light ? 0 : 3;
+    this.all.add(this.outlines, this.chosen);
 
     this.axes = joints.map(() => new Vector3(0, 1, 0));
     for (const b of bodies) if (b.joint >= 0) this.axes[b.joint] = new Vector3(...b.axis).normalize();
@@ -81,7 +94,9 @@ export class Robot {
     this.discs.count = joints.length;
     this.discs.frustumCulled = false;
     this.discs.setColorAt(0, new Color());
-    scene.add(this.discs);
+    this.discs.visible = !!light;
+    this.all.add(this.discs);
+    if (!light) for (const material of Object.values(this.materials)) Object.assign(material, { transparent: true, opacity: 0.3, depthWrite: false, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   }
 
   /** Takes over the poses; `shares`: load of each joint, 0 to 1. */
@@ -100,6 +115,7 @@ export class Robot {
       if (kind.shadow) kind.shadow.instanceMatrix.needsUpdate = true;
     }
     all.needsUpdate = true;
+    if (!this.light) return;
     this.hinges.forEach((hinge, j) => {
       const wide = j === selected ? 1.16 : j === hovered ? 1.1 : 1, size = hinge.size.clone().multiply(new Vector3(wide, 1, wide));
       if (j === selected) size.y += 0.005 * this.unit; // less than a face's number is lifted by
@@ -116,12 +132,13 @@ export class Robot {
   paint(theme: Theme): void {
     this.theme = theme;
     const look = looks[theme];
-    for (const key of ["active", "passive", "other"] as const) this.materials[key].color.set(look[key]);
-    (this.outlines.material as LineBasicMaterial).color.set(look.edge);
+    for (const key of ["active", "passive", "other"] as const) this.materials[key].color.set(this.light ? look[key] : look.ghost);
+    (this.outlines.material as LineBasicMaterial).color.set(this.light ? look.edge : look.ghost);
     (this.chosen.material as LineBasicMaterial).color.set(look.accent);
     this.shade.color.set(look.shadow);
   }
 
+  set visible(on: boolean) { this.all.visible = on; }
   set shadows(on: boolean) { for (const kind of this.kinds) if (kind.shadow) kind.shadow.visible = on; }
 
   matrix(body: number): Matrix4 { return this.matrices[body]; }

@@ -13,7 +13,7 @@ export class Stage implements Panel {
   private readonly labels = new Labels(element("names"));
   private image: HTMLImageElement | null = null;
 
-  constructor(private readonly desk: Desk) {
+  constructor(private readonly desk: Desk, align: (on: boolean) => void) {
     const canvas = element<HTMLCanvasElement>("view");
     this.view = opened(canvas, desk);
     if (!this.view) {
@@ -29,6 +29,8 @@ export class Stage implements Panel {
     this.toggle("forces", view.arrows.any, () => view.forces, (on) => { view.forces = on; });
     this.toggle("faces", view.marks.anyFaces, () => view.marks.faces, (on) => { view.marks.faces = on; });
     this.toggle("axes", meta.joints.length > 0, () => view.marks.axes, (on) => { view.marks.axes = on; });
+    const { ghost } = desk;
+    this.toggle("align", !!ghost?.periodic, () => !!ghost?.aligned, align);
     this.pointer(canvas, view);
     new ResizeObserver(() => view.resize()).observe(this.host);
   }
@@ -122,5 +124,5 @@ export class Stage implements Panel {
 /** A view, or null without WebGL 2: asked on a canvas of its own, which leaves no error on the console. */
 function opened(canvas: HTMLCanvasElement, desk: Desk): View | null {
   if (!document.createElement("canvas").getContext("webgl2")) return null;
-  return new View(desk.recording, desk.loads, canvas);
+  return new View(desk, canvas);
 }

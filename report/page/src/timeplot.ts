@@ -29,7 +29,19 @@ export interface Plot {
   right?: { name: string; colour?: string };
   levels?: Level[];
   bands?: Span[];
+  tubes?: Tube[];
 }
+
+/** How far a curve may be away from another. */
+export interface Tube {
+  around: Values;
+  by: number;
+  axis: Side;
+  colour: string;
+}
+
+/** A curve of the second run, in the colour of the first one's. */
+export const second = (values: Values, label: string, colour: string, axis: Side): Curve => ({ values, label, colour, axis, width: 1.5, dash: [7, 4] });
 
 export class TimePlot {
   private readonly plot: uPlot;
@@ -54,7 +66,10 @@ export class TimePlot {
       ],
       series: [{}, ...what.curves.map((c): uPlot.Series => ({ label: c.label, scale: c.axis, stroke: c.colour, width: c.width ?? 1.5, dash: c.dash, points: { show: false } }))],
       hooks: {
-        drawClear: [(u) => this.bands(u, what.bands ?? [])],
+        drawClear: [(u) => {
+          this.bands(u, what.bands ?? []);
+          this.tubes(u, what.tubes ?? []);
+        }],
         draw: [(u) => {
           this.levels(u, what.levels ?? []);
           this.mark(u, desk.state.t);
@@ -64,7 +79,7 @@ export class TimePlot {
           if (u.select.width > 0) u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
         }],
       },
-    }, [recording.times as unknown as number[], ...what.curves.map((c) => c.values as unknown as number[])], host);
+    }, [recording.times as unknown as number[], ...what.curves.map((c) => gaps(c.values))], host);
     host.setAttribute("role", "img");
     host.setAttribute("aria-label", what.label);
     this.plot.over.append(this.head);
@@ -111,6 +126,23 @@ export class TimePlot {
     ctx.restore();
   }
 
+  private tubes(u: uPlot, tubes: Tube[]): void {
+    const { ctx, bbox } = u, { times } = this.desk.recording;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    for (const { around, by, axis, colour } of tubes) {
+      const shape = new Path2D(), edge = (i: number, sign: number) => shape.lineTo(u.valToPos(times[i], "x", true), u.valToPos(around[i] + sign * by, axis, true));
+      for (let i = 0; i < times.length; i++) edge(i, 1);
+      for (let i = times.length - 1; i >= 0; i--) edge(i, -1);
+      ctx.fillStyle = colour;
+      ctx.globalAlpha = 0.18;
+      ctx.fill(shape);
+    }
+    ctx.restore();
+  }
+
   private levels(u: uPlot, levels: Level[]): void {
     const { ctx, bbox } = u, ratio = window.devicePixelRatio || 1;
     ctx.save();
@@ -126,6 +158,11 @@ export class TimePlot {
     }
     ctx.restore();
   }
+}
+
+/** As uPlot takes it: a line ends where a value is not known. */
+function gaps(values: Values): number[] {
+  return (values.some(Number.isNaN) ? Array.from(values, (v) => (Number.isNaN(v) ? null : v)) : values) as unknown as number[];
 }
 
 /** Of both axes, with their zeros on one line as report/axes.h has it: the same share of each lies below zero. */

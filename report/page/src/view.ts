@@ -5,9 +5,10 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Theme } from "./colour";
 import { Forces } from "./forces";
 import { Ground, type Area } from "./ground";
+import type { Ghost } from "./ghost";
 import { Kinematics } from "./kinematics";
-import type { Loads } from "./loads";
 import { Marks } from "./marks";
+import type { Desk } from "./panel";
 import type { Recording } from "./recording";
 import { Robot } from "./robot";
 
@@ -37,16 +38,26 @@ export class View {
   private readonly sun = new DirectionalLight(0xffffff, 1.75);
   private readonly trail: Line;
   private readonly size: number;
+  private readonly recording: Recording;
+  /** The second run's robot, translucent. */
+  private readonly shade: { ghost: Ghost; kinematics: Kinematics; robot: Robot } | null = null;
   private time = 0;
   private lightened = 0;
 
-  constructor(private readonly recording: Recording, private readonly loads: Loads, readonly canvas: HTMLCanvasElement) {
+  constructor(private readonly desk: Pick<Desk, "recording" | "loads" | "ghost">, readonly canvas: HTMLCanvasElement) {
+    const { recording, ghost } = desk;
+    this.recording = recording;
     this.kinematics = new Kinematics(recording);
     this.kinematics.set(0);
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "low-power" });
     this.scene.add(new HemisphereLight(0xffffff, 0xb9c2cb, 2.15), this.sun);
     this.sun.position.set(-0.7, -0.9, 2.4);
     this.robot = new Robot(recording.meta, this.kinematics, this.scene, this.sun.position);
+    if (ghost) {
+      const kinematics = new Kinematics(ghost.recording);
+      kinematics.set(0);
+      this.shade = { ghost, kinematics, robot: new Robot(ghost.recording.meta, kinematics, this.scene, null) };
+    }
     this.size = this.extent();
     this.ground = new Ground(recording, this.scene, this.area(), this.size);
     this.arrows = new Forces(recording, this.scene, this.robot.unit, this.size);
@@ -70,12 +81,13 @@ export class View {
     this.scene.fog = new Fog(look.sky, 4.5 * this.size, 14 * this.size);
     (this.trail.material as LineBasicMaterial).color.set(look.trail);
     for (const part of [this.robot, this.ground, this.arrows, this.marks]) part.paint(theme);
+    this.shade?.robot.paint(theme);
     this.set(this.time);
   }
 
   /** As near as shows every body, or one joint's, with room around and for what is written above. */
   look(from: Look, joint = -1): void {
-    const points = this.robot.points(joint), centre = new Box3().setFromPoints(points).getCenter(new Vector3()), v = new Vector3();
+    const points = joint < 0 ? this.everything() : this.robot.points(joint), centre = new Box3().setFromPoints(points).getCenter(new Vector3()), v = new Vector3();
     let distance = joint < 0 ? this.size : 6 * this.robot.unit;
     for (let i = 0; i < 6; i++) {
       this.camera.position.copy(directions[from]).normalize().multiplyScalar(distance).add(centre);
@@ -100,8 +112,14 @@ export class View {
     }
     this.time = t;
     this.kinematics.set(t);
-    const shares = this.recording.meta.joints.map((_, j) => this.loads.shareAt(j, t));
+    const shares = this.recording.meta.joints.map((_, j) => this.desk.loads.shareAt(j, t));
     this.robot.set(shares, this.selected, this.hovered);
+    if (this.shade) {
+      const { ghost, kinematics, robot } = this.shade;
+      robot.visible = ghost.covers(t);
+      kinematics.set(ghost.time(t));
+      robot.set([], -1, -1);
+    }
     this.marks.set();
     this.ground.set(t);
     this.arrows.set(t, this.forces);
@@ -179,8 +197,10 @@ export class View {
     return new Vector3(this.recording.at(x, t), this.recording.at(y, t), this.recording.at(z, 0));
   }
 
+  private everything(): Vector3[] { return [...this.robot.points(), ...(this.shade?.ghost.covers(this.time) ? this.shade.robot.points() : [])]; }
+
   private extent(): number {
-    return Math.max(new Box3().setFromPoints(this.robot.points()).getSize(new Vector3()).length(), this.robot.unit);
+    return Math.max(new Box3().setFromPoints(this.everything()).getSize(new Vector3()).length(), this.robot.unit);
   }
 
   private area(): Area {
