@@ -65,6 +65,12 @@ std::vector<std::string> told_missing(std::vector<std::string> missing, const fs
   return missing;
 }
 
+/// What the run's own `--demand` found, which no recording holds.
+void keep_demand(report::Verdict& verdict, const fs::path& file) {
+  if (kind_of(file) != fs::file_type::regular || report::take_demand(verdict, read_file(file))) return;
+  fmt::print(stderr, "{}: note: is not of this recording, so that what --demand found there is left out\n", file.string());
+}
+
 /// A run folder, read and judged.
 struct JudgedRun {
   std::string name;  ///< of the folder, as it was given
@@ -96,6 +102,7 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
   run.summary.build = run.read.stored.origin.build;
   run.overlaps = report::overlaps(scenario, recording);
   run.verdict = judged(scenario, recording, run.summary, run.overlaps, shown);
+  if (!shown.demand) keep_demand(run.verdict, trace.parent_path() / "verdict.json");
   return run;
 }
 

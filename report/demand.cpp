@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
 
 #include "core/plugin/plugin_instance.h"
 #include "core/simulation/simulation.h"
+#include "report/fall.h"
+#include "report/plugin_names.h"
 
 namespace gaitlab::report {
 
@@ -36,12 +40,7 @@ class Raise final : public Fields {
 };
 
 /// m: how far the centre of mass rises above where it is at the start.
-double rise(const Recording& record) {
-  const Series z = record.series("com.z");
-  double most = 0;
-  for (std::size_t row = 0; row < z.size(); ++row) most = std::max(most, z[row] - z.front());
-  return most;
-}
+double rise(const std::vector<double>& z) { return *std::ranges::max_element(z) - z.front(); }
 
 /// What the joint that lacks most would take beyond what it has, of those at that limit for some time: `0.241 A at m5/passive
 /// (needs 0.741 A; largest torque 1.3 N m, largest speed 0.9 rad/s)`.
@@ -62,9 +61,10 @@ std::string lack(const Scenario& scenario, const std::vector<JudgedJoint>& own, 
 }  // namespace
 
 bool thrown_up(const Scenario& scenario, const Recording& free, const Recording& own) {
-  const Series z = own.series("com.z");
-  if (scenario.base != Base::floating || scenario.ground.kind == Ground::Kind::none || z.empty()) return false;
-  return rise(free) > rise(own) + kThrown * std::abs(z.front());
+  if (scenario.base != Base::floating || scenario.ground.kind == Ground::Kind::none) return false;
+  const std::vector<double> z = heights(scenario, own);
+  const std::vector<double> thrown = heights(scenario, free);
+  return !z.empty() && !thrown.empty() && rise(thrown) > rise(z) + kThrown * std::abs(z.front());
 }
 
 bool raise_limits(Scenario& scenario) {
@@ -95,8 +95,42 @@ Demand demand(const Scenario& twin, const Recording& record, const Summary& summ
   return made;
 }
 
+bool take_demand(Verdict& verdict, const std::string& json) try {
+  using Json = nlohmann::json;
+  const Json old = Json::parse(json);
+  const auto demand = old.find("demand");
+  if (demand == old.end()) return true;
+  const Json own = Json::parse(to_json(verdict));
+  Verdict with = verdict;
+  for (const char* const same : {"verdict", "window"}) {
+    if (old.at(same) != own.at(same)) return false;
+  }
+  for (std::size_t i = 0; i < with.checks.size(); ++i) {
+    Check& check = with.checks[i];
+    if (check.id != "voltage" && check.id != "current") continue;
+    const auto of = std::ranges::find(old.at("checks"), Json(check.id), [](const Json& one) { return one.at("id"); });
+    if (of == old.at("checks").end()) return false;
+    for (const char* const same : {"status", "value", "limit", "joint", "joints"}) {
+      if (of->at(same) != own.at("checks")[i].at(same)) return false;
+    }
+    check.missing = of->at("missing").get<std::string>();
+  }
+  const auto number = [](const Json& value) {
+    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+  };
+  with.demand_doubt = demand->at("doubt").get<std::string>();
+  for (const Json& of : demand->at("joints")) {
+    with.demands.push_back({of.at("joint").get<std::string>(), number(of.at("voltage")), number(of.at("current")),
+                            number(of.at("torque")), number(of.at("speed"))});
+  }
+  verdict = std::move(with);
+  return true;
+} catch (const nlohmann::json::exception&) {  // a file that somebody changed
+  return false;
+}
+
 void add_demand(Verdict& verdict, const Scenario& scenario, const Summary& summary, const Demand& demand) {
-  verdict.demand_doubt = demand.doubt;
+  verdict.demand_doubt = without_folders(demand.doubt, scenario.plugins);
   if (!demand.known) return;
   const std::vector<JudgedJoint>& own = summary.judged.joints;
   for (std::size_t j = 0; j < own.size(); ++j) {

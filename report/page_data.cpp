@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +13,7 @@
 #include "report/loads.h"
 #include "report/numbers.h"
 #include "report/page_ground.h"
+#include "report/plugin_names.h"
 #include "report/robot_tree.h"
 #include "report/settings_numbers.h"
 #include "report/signals.h"
