@@ -39,6 +39,19 @@ void write_page(const Scenario& s, const std::string& file) {
   write_file(file, report::page(report::page_data(s, start, report::summarise(s, start, 0), verdict)));
 }
 
+/// Whoever rolls sees what friction does at low speed.
+void print_creep(const Scenario& s) {
+  std::string names;
+  for (const Joint& joint : s.robot->joints) {
+    if (joint.turns_freely()) names += (names.empty() ? "" : ", ") + joint.name;
+  }
+  if (names.empty() || s.contact.solver() || s.ground.kind == Ground::Kind::none || s.contact.on == ContactSet::none) return;
+  fmt::print(
+      "  note: {} turn{} freely: where they roll, feet and wheels that should hold creep, because friction is viscous below\n"
+      "    contact.slip_speed, {:g} m/s here; 0.001 m/s makes that ten times less than 0.01 m/s does\n",
+      names, names.find(',') == std::string::npos ? "s" : "", s.contact.penalty.v_lim);
+}
+
 int check(const CheckArguments& arguments) {
   if (arguments.page) check_page(*arguments.page);
   Catalog catalog = standard_catalog();
@@ -69,8 +82,11 @@ int check(const CheckArguments& arguments) {
   for (const PluginFile& plugin : s.plugins) fmt::print("  plugin {} ({})\n", plugin.path, plugin.hash);
   fmt::print("  joints (number, name, range in rad):\n");
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    fmt::print("  {:5}  {:<16} {:+.4f} {:+.4f}\n", j, robot.joints[j].name, robot.joints[j].lo, robot.joints[j].hi);
+    const Joint& joint = robot.joints[j];
+    const std::string range = joint.turns_freely() ? "free" : fmt::format("{:+.4f} {:+.4f}", joint.lo, joint.hi);
+    fmt::print("  {:5}  {:<16} {}{}\n", j, joint.name, range, joint.driven() ? "" : "  without a motor");
   }
+  print_creep(s);
   if (arguments.page) {
     write_page(s, *arguments.page);
     print_page(*arguments.page);

@@ -134,8 +134,8 @@ report::CurvesInput figure(const std::vector<Swapped>& all) {
   report::CurvesPanel setpoint{"set point"};
   report::CurvesPanel torque{"torque"};
   report::CurvesPanel travel{"travel of the centre of mass along x (m)"};
-  const bool driven = report::has_motors(first);
   const std::size_t joint = all.front().summary.most_loaded();
+  const bool driven = report::has_motors(first) && first.robot->joints[joint].driven();
   if (driven) {
     const std::string where = fmt::format(" of joint {} ({})", joint, first.robot->joints[joint].name);
     setpoint.title += where + " (rad)";

@@ -304,7 +304,7 @@ class MujocoPlant final : public Plant {
   std::vector<int> dof_, q_;          // of a joint
   std::vector<std::size_t> element_;  // of a geom
   std::vector<double> slope_, torque_, speed_, zero_;
-  std::array<double, 3> works_ = {};
+  std::array<double, 4> works_ = {};
   OnePart part_;
 };
 

@@ -120,7 +120,7 @@ std::vector<double> clamped_spline(const std::vector<double>& t, const std::vect
 
 void Keyframes::Frame::fields(Fields& f) {
   f.number("time", time, {"s", 0, 1e6, "When; the first frame's is 0."});
-  f.per_joint("angles", angles, {"rad", -3.2, 3.2, "Set points at that time."});
+  f.per_joint("angles", angles, {"rad", -1000, 1000, "Set points at that time; within +-3.2 where the hinge has a range."});
 }
 
 void Keyframes::Model::fields(Fields& f) {
@@ -141,6 +141,10 @@ Keyframes::Keyframes(const RobotInfo& robot, const Settings& settings)
   for (const Frame& frame : frames) {
     time_.push_back(frame.time);
     for (std::size_t j = 0; j < joints_; ++j) angle_.push_back(frame.angles[j]);
+  }
+  for (std::size_t j = 0; j < joints_; ++j) {
+    for (std::size_t k = 0; k < frames.size() && robot.joints[j].driven; ++k)
+      check_angle(robot.joints[j], "an angle of the frames", angle_[k * joints_ + j]);
   }
   if (repeat_) check_closed(robot);
   curvature_.assign(angle_.size(), 0.0);

@@ -130,8 +130,14 @@ class Mjcf {
     set(e, "type", "hinge");
     set(e, "pos", text(hinge.p));
     set(e, "axis", text(Vec3(hinge.R * robot_.links[body.link].axis)));
-    set(e, "limited", "true");
-    set(e, "range", text({joint.lo, joint.hi}));
+    set(e, "limited", joint.turns_freely() ? "false" : "true");
+    if (!joint.turns_freely()) set(e, "range", text({joint.lo, joint.hi}));
+    if (!joint.driven()) {
+      set(e, "stiffness", text({joint.passive->stiffness}));
+      set(e, "springref", text({joint.passive->rest}));
+      set(e, "damping", text({joint.passive->damping}));
+      set(e, "frictionloss", text({joint.passive->friction}));
+    }
     if (!limits_.empty() && limits_[j].armature > 0) set(e, "armature", text({limits_[j].armature}));
   }
 
@@ -216,6 +222,7 @@ class Mjcf {
     if (limits_.empty()) return;
     Xml& actuator = add(root, "actuator");
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+      if (!robot_.joints[j].driven()) continue;
       Xml& e = add(actuator, "motor");
       set(e, "name", robot_.joints[j].name);
       set(e, "joint", robot_.joints[j].name);

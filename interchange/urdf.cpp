@@ -36,11 +36,11 @@ class Urdf {
                 "Written by gaitlab. Not in this file, because URDF does not hold it: Gravity {}.{}{} Start: base at {}, "
                 "quaternion w x y z {}, velocity {}, angular velocity {} (world axes), angles {}, speeds {}. Collision: the "
                 "contact elements; points are spheres of {} m. An effort or velocity of {} stands for no limit, an effort "
-                "of 0 for no motor.",
+                "of 0 for no motor.{}",
                 text(s_.physics.gravity), left_out(s_), rotors(), text(start.position),
                 text({start.orientation.w(), start.orientation.x(), start.orientation.y(), start.orientation.z()}),
                 text(start.velocity), text(start.angular_velocity), text(start.q), text(start.qd), text({kPointRadius}),
-                text({kUnlimited})));
+                text({kUnlimited}), springs()));
     if (s_.base != Base::floating) write_world(root, {start.orientation.toRotationMatrix(), start.position});
     const std::vector<ContactElement> contacts = contact_elements(robot_, s_.contact.on);
     for (const std::size_t b : tree_.order) {
@@ -58,6 +58,16 @@ class Urdf {
   /// The body's URDF frame in its link: the hinge's, or the body's own.
   [[nodiscard]] Pose frame(std::size_t b) const {
     return tree_.attachments[b].kind == Attachment::Kind::hinge ? Pose{} : robot_.bodies[b].in_link;
+  }
+
+  [[nodiscard]] std::string springs() const {
+    std::string names;
+    for (const Joint& joint : robot_.joints) {
+      if (joint.driven() || !(joint.passive->stiffness > 0)) continue;
+      names += fmt::format("{}{} N m/rad at rest at {} on {}", names.empty() ? "" : ", ", text({joint.passive->stiffness}),
+                           text({joint.passive->rest}), joint.name);
+    }
+    return names.empty() ? "" : fmt::format(" Springs of hinges: {}.", names);
   }
 
   [[nodiscard]] std::string rotors() const {
@@ -95,17 +105,27 @@ class Urdf {
     const bool hinge = at.kind == Attachment::Kind::hinge;
     const Pose step = hinge ? robot_.links[body.link].in_parent : Pose{};
     const std::string name = hinge ? robot_.joints[at.index].name : dock_name(at.index);
-    Xml& e = write_connection(root, name, hinge ? "revolute" : "fixed", robot_.bodies[at.parent].name, body.name,
-                              frame(at.parent).inverse() * step * frame(b));
+    const bool free = hinge && robot_.joints[at.index].turns_freely();
+    Xml& e = write_connection(root, name,
+                              free    ? "continuous"
+                              : hinge ? "revolute"
+                                      : "fixed",
+                              robot_.bodies[at.parent].name, body.name, frame(at.parent).inverse() * step * frame(b));
     if (!hinge) return;
     const Joint& joint = robot_.joints[at.index];
     set(add(e, "axis"), "xyz", text(robot_.links[body.link].axis));
     Xml& limit = add(e, "limit");
     const MotorLimits motor = limits_.empty() ? MotorLimits{} : limits_[at.index];
-    set(limit, "lower", text({joint.lo}));
-    set(limit, "upper", text({joint.hi}));
+    if (!free) {
+      set(limit, "lower", text({joint.lo}));
+      set(limit, "upper", text({joint.hi}));
+    }
     set(limit, "effort", text({std::min(motor.effort, kUnlimited)}));
     set(limit, "velocity", text({motor.speed > 0 ? motor.speed : kUnlimited}));
+    if (joint.driven()) return;
+    Xml& dynamics = add(e, "dynamics");
+    set(dynamics, "damping", text({joint.passive->damping}));
+    set(dynamics, "friction", text({joint.passive->friction}));
   }
 
   void write_link(Xml& root, std::size_t b, const std::vector<ContactElement>& contacts) {

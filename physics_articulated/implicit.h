@@ -12,6 +12,7 @@ template <class T>
 struct StepResult {
   std::vector<T> torque, speed, angle;           ///< of the motors, N m; of the joints at the step's end
   T contact = 0.0, friction = 0.0, stops = 0.0;  ///< work of the robot on them, J
+  T hinges = 0.0;                                ///< and on dampers and friction of passive hinges
   explicit StepResult(std::size_t joints) : torque(joints), speed(joints), angle(joints) {}
 };
 
@@ -32,7 +33,7 @@ class Implicit {
   Implicit(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator)
       : body(tree, environment.gravity),
         contacts(tree, environment),
-        motors(actuator, tree.lo.size()),
+        motors(actuator, tree.lo.size(), tree.passive),
         rotor(tree.lo.size(), T(0.0)),
         done(tree.lo.size()),
         tree_(tree),
@@ -40,6 +41,7 @@ class Implicit {
         place_(StateLayout::kAngles + 2 * joints_, T(0.0)),
         now_(joints_),
         next_(joints_) {
+    passive_.assign(tree.passive.size(), T(0.0));
     for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_}) values->assign(joints_, T(0.0));
     const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
     std::copy(inertia.begin(), inertia.end(), math::numbers(std::span<T>(rotor)).begin());
@@ -79,17 +81,28 @@ class Implicit {
     motors.linearise(command, speeds(x));
     motors.torque = motors.law;
     for (std::size_t j = 0; j < joints_; ++j) stop_[j] = stop_law(x, j).torque;
+    for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
+      const std::size_t j = tree_.passive[k];
+      passive_[k] = tree_.hinges[k].spring(x[StateLayout::kAngles + j]) + tree_.hinges[k].loss(speeds(x)[j]).torque;
+      stop_[j] = stop_[j] + passive_[k];
+    }
     accelerate(0);
   }
   [[nodiscard]] std::span<const T> accelerations() const { return next_.a; }  ///< of evaluate
-  /// After evaluate: W that the robot gives to the ground along its normal, along it, and to the stops.
-  std::array<T, 3> powers(std::span<const T> x) const {
-    std::array<T, 3> sum{T(0.0), T(0.0), T(0.0)};
+  /// After evaluate: W that the robot gives to the ground along its normal, along it, to the stops, and to dampers and friction
+  /// of passive hinges.
+  std::array<T, 4> powers(std::span<const T> x) const {
+    std::array<T, 4> sum{T(0.0), T(0.0), T(0.0), T(0.0)};
     for (const Contact<T>& c : contacts.touching()) {
       sum[0] = sum[0] - c.fn * c.vn;
       sum[1] = sum[1] - dot(c.friction(c.vt), c.vt);
     }
     for (std::size_t j = 0; j < joints_; ++j) sum[2] = sum[2] - stop_[j] * speeds(x)[j];
+    for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
+      const T& w = speeds(x)[tree_.passive[k]];
+      sum[2] = sum[2] + passive_[k] * w;
+      sum[3] = sum[3] - tree_.hinges[k].loss(w).torque * w;
+    }
     return sum;
   }
 
@@ -229,9 +242,22 @@ class Implicit {
     contacts.touch(which, h);
   }
 
+  /// What stop and passive hinge give together where a step of h ends with the speed qd.
+  Stop stopped(std::span<const T> x, std::size_t j, const T& qd, double h) const {
+    Stop both = stop_at_end(x, j, qd, h);
+    for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
+      if (tree_.passive[k] != j) continue;
+      const BasicPassiveHinge<T>& hinge = tree_.hinges[k];
+      const auto loss = hinge.loss(qd);
+      both.torque = both.torque + hinge.spring(x[StateLayout::kAngles + j] + T(h) * qd) + loss.torque;
+      both.slope = both.slope + loss.slope + T(h) * hinge.stiffness;
+    }
+    return both;
+  }
+
   /// A stop's torque where a step of h ends with the speed qd: -ks (q + h qd - q_lim) - cs qd, cut off where it would pull.
   /// From within the range the damping is its mean over the step, -cs (q + h qd - q_lim) / h: at the end alone it would jump.
-  Stop stopped(std::span<const T> x, std::size_t j, const T& qd, double h) const {
+  Stop stop_at_end(std::span<const T> x, std::size_t j, const T& qd, double h) const {
     using math::select;
     const T& q = x[StateLayout::kAngles + j];
     const T &lo = tree_.lo[j], &hi = tree_.hi[j], zero = 0.0;
@@ -252,7 +278,7 @@ class Implicit {
 
   /// The iterate becomes the state; works at the mean of the velocities that the step joins.
   void finish(std::span<T> x, double h, const math::Mask<T>& which) {
-    done.contact = done.friction = done.stops = T(0.0);
+    done.contact = done.friction = done.stops = done.hinges = T(0.0);
     for (const Contact<T>& c : contacts.touching()) {
       const T normal = dot(c.n, c.change);
       const T force = dot(c.n, c.held);
@@ -261,6 +287,16 @@ class Implicit {
     }
     for (std::size_t j = 0; j < joints_; ++j) {
       done.stops = done.stops - h * now_.stop[j] * (speeds(x)[j] + 0.5 * h * now_.a[6 + j]);
+    }
+    for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
+      const std::size_t j = tree_.passive[k];
+      const T change = T(h) * now_.a[6 + j];
+      const T end = speeds(x)[j] + change;
+      const T mean = speeds(x)[j] + T(0.5) * change;
+      const T lost = tree_.hinges[k].loss(end).torque;
+      const T spring = tree_.hinges[k].spring(x[StateLayout::kAngles + j] + T(h) * end);
+      done.hinges = done.hinges - T(h) * lost * mean;
+      done.stops = done.stops + T(h) * (lost + spring) * mean;
     }
     for (std::size_t i = 0; i < 6; ++i) {
       T& v = x[StateLayout::kVelocity + i];
@@ -278,6 +314,7 @@ class Implicit {
 
   const Tree<T>& tree_;
   std::size_t joints_;
+  std::vector<T> passive_;  ///< torques of passive hinges, as evaluate finds them
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
   Iterate now_, next_;
   T missed_ = 0.0;

@@ -23,6 +23,7 @@ inline FourSinCos sincos(const Four& x) {
 inline Four pow(const Four& x, const Four& y) { return Four(Sleef_cinz_powd4_u10avx(x.v, y.v)); }
 inline Four exp(const Four& x) { return Four(Sleef_cinz_expd4_u10avx(x.v)); }
 inline Four log(const Four& x) { return Four(Sleef_cinz_logd4_u10avx(x.v)); }
+inline Four tanh(const Four& x) { return Four(Sleef_cinz_tanhd4_u10avx(x.v)); }
 inline Four sqrt(const Four& x) { return Four(_mm256_sqrt_pd(x.v)); }
 inline bool any_lane(const Bools<4>& mask) {
   return _mm256_movemask_pd(_mm256_castsi256_pd(reinterpret_cast<__m256i>(mask.v))) != 0;

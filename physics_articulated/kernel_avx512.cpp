@@ -23,6 +23,7 @@ inline EightSinCos sincos(const Eight& x) {
 inline Eight pow(const Eight& x, const Eight& y) { return Eight(Sleef_cinz_powd8_u10avx512fnofma(x.v, y.v)); }
 inline Eight exp(const Eight& x) { return Eight(Sleef_cinz_expd8_u10avx512fnofma(x.v)); }
 inline Eight log(const Eight& x) { return Eight(Sleef_cinz_logd8_u10avx512fnofma(x.v)); }
+inline Eight tanh(const Eight& x) { return Eight(Sleef_cinz_tanhd8_u10avx512fnofma(x.v)); }
 inline Eight sqrt(const Eight& x) { return Eight(_mm512_maskz_sqrt_pd(0xFF, x.v)); }
 inline __mmask8 bits(const Bools<8>& mask) {
   const auto as = reinterpret_cast<__m512i>(mask.v);

@@ -35,7 +35,7 @@ class LaneKernel final : public Kernel {
       parts_.push_back(
           {numbers(part.torque), numbers(part.speed), numbers(part.angle), of(part.sum), of(part.share), !(part.h > 0)});
     }
-    return {parts_, of(stepper_.contact), of(stepper_.friction), of(stepper_.stops)};
+    return {parts_, of(stepper_.contact), of(stepper_.friction), of(stepper_.stops), of(stepper_.hinges)};
   }
 
   bool evaluate_motors(In command, In speed, const Actuator::Electrical& out) override {

@@ -75,7 +75,7 @@ Stability LaneModel::stability(In x, const RobotState& state, In command, bool s
     ask(standing ? In(command_) : command, standing ? In(zero_) : In(state.qd));
   }
   for (std::size_t j = 0; j < rotor_.size(); ++j) monitor_.motor[j] = slope_[j * lanes_ + lane_];
-  return monitor_.rule(own_, settings_.base, kinematics_, state, standing, *this, [&] {
+  return monitor_.rule(own_, settings_.base, kinematics_, state, standing, settings_.step, *this, [&] {
     for (const Contact<double>& c : contacts_.touching()) {
       monitor_.contacts.push_back(
           {c.element, c.link, vec3(c.touch.point), vec3(c.n), vec3(c.slip_direction), c.tangential_damping, c.normal_damping});

@@ -16,7 +16,8 @@ namespace gaitlab::articulated {
 template <class T>
 class Motors {
  public:
-  Motors(const Actuator* actuator, std::size_t joints)
+  /// passive: joints without a motor, whose DC motor counts as one without voltage and without torque.
+  Motors(const Actuator* actuator, std::size_t joints, std::span<const std::size_t> passive)
       : law(joints),
         law_slope(joints),
         torque(joints),
@@ -45,6 +46,7 @@ class Motors {
         for (std::size_t k = 0; k < values.size(); ++k) math::lane(*places[k], l) = values[k];
       }
     }
+    for (const std::size_t j : passive) dc_[j] = BasicDcMotor<T>();
   }
 
   [[nodiscard]] bool any() const { return actuator_ != nullptr; }

@@ -55,7 +55,7 @@ class Stepper {
   /// Held commands: joint * lanes + lane.
   void step(std::span<T> x, In command, double h) {
     used_ = 0;
-    contact = friction = stops = T(0.0);
+    contact = friction = stops = hinges = T(0.0);
     if (method_ == Method::rk4) {
       runge_kutta(x, command, h);
     } else {
@@ -74,7 +74,7 @@ class Stepper {
   [[nodiscard]] std::span<const Part<T>> parts() const { return {parts_.data(), used_}; }
 
   Implicit<T> implicit;
-  T contact = 0.0, friction = 0.0, stops = 0.0;  ///< work of the last step, J
+  T contact = 0.0, friction = 0.0, stops = 0.0, hinges = 0.0;  ///< work of the last step, J
   History layout;
 
  private:
@@ -99,7 +99,7 @@ class Stepper {
     part.torque = implicit.motors.law;
     std::ranges::copy(implicit.speeds(x), part.speed.begin());
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, part.angle.begin());
-    part.contact = part.friction = part.stops = T(0.0);
+    part.contact = part.friction = part.stops = part.hinges = T(0.0);
     part.lanes = T(0.0) <= T(0.0);
     part.h = 0;
   }
@@ -219,6 +219,7 @@ class Stepper {
       contact = contact + weight * part.contact;
       friction = friction + weight * part.friction;
       stops = stops + weight * part.stops;
+      hinges = hinges + weight * part.hinges;
       T& off = history_[layout.off()];
       off = off + math::select(part.share > T(0.0), part.off, T(0.0));
     }
@@ -249,16 +250,17 @@ class Stepper {
     part.lanes = T(0.0) <= T(0.0);
     part.h = h;
     part.sum = part.share = T(h);
-    part.contact = part.friction = part.stops = T(0.0);
+    part.contact = part.friction = part.stops = part.hinges = T(0.0);
     std::fill(part.torque.begin(), part.torque.end(), T(0.0));
     std::ranges::copy(implicit.speeds(x), part.speed.begin());
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, part.angle.begin());
     for (std::size_t i = 0; i < 4; ++i) {
       derive(stage_, command, rate_);
-      const auto [normal, along, on_stops] = implicit.powers(stage_);
+      const auto [normal, along, on_stops, on_hinges] = implicit.powers(stage_);
       part.contact = part.contact + kWeight[i] * h * normal;
       part.friction = part.friction + kWeight[i] * h * along;
       part.stops = part.stops + kWeight[i] * h * on_stops;
+      part.hinges = part.hinges + kWeight[i] * h * on_hinges;
       for (std::size_t j = 0; j < joints_; ++j) part.torque[j] = part.torque[j] + kWeight[i] * implicit.motors.law[j];
       for (std::size_t e = 0; e < x.size(); ++e) {
         sum_[e] = sum_[e] + kWeight[i] * h * rate_[e];

@@ -36,9 +36,13 @@ Tree<double> tree(const Robot& robot, Base base, const std::vector<ContactElemen
   for (const ContactElement& element : contacts) {
     all.points.push_back({element.link, vec(frames[element.link].transpose() * element.centre), element.radius});
   }
-  for (const Joint& joint : robot.joints) {
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const Joint& joint = robot.joints[j];
     all.lo.push_back(joint.lo);
     all.hi.push_back(joint.hi);
+    if (joint.driven()) continue;
+    all.passive.push_back(j);
+    all.hinges.push_back(law(*joint.passive));
   }
   return all;
 }

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/laws/passive_hinge.h"
 #include "core/model/base.h"
 #include "physics_articulated/vector.h"
 
@@ -36,9 +37,11 @@ struct TreePoint {
 template <class T>
 struct Tree {
   Base base = Base::floating;
-  std::vector<TreeLink<T>> links;    ///< a parent before its children
-  std::vector<TreePoint<T>> points;  ///< one a contact element
-  std::vector<T> lo, hi;             ///< range of each joint, rad
+  std::vector<TreeLink<T>> links;            ///< a parent before its children
+  std::vector<TreePoint<T>> points;          ///< one a contact element
+  std::vector<T> lo, hi;                     ///< range of each joint, rad; infinite: it turns freely
+  std::vector<std::size_t> passive;          ///< joints without a motor
+  std::vector<BasicPassiveHinge<T>> hinges;  ///< theirs
 };
 
 Tree<double> tree(const Robot& robot, Base base, const std::vector<ContactElement>& contacts);
@@ -79,6 +82,8 @@ Tree<T> side_by_side(std::span<const Tree<double>* const> lanes) {
   all.points.resize(first.points.size());
   all.lo.resize(first.lo.size());
   all.hi.resize(first.hi.size());
+  all.passive = first.passive;
+  all.hinges.resize(first.hinges.size());
   for (std::size_t l = 0; l < lanes.size(); ++l) {
     const Tree<double>& one = *lanes[l];
     for (std::size_t i = 0; i < all.links.size(); ++i) {
@@ -102,6 +107,15 @@ Tree<T> side_by_side(std::span<const Tree<double>* const> lanes) {
     for (std::size_t j = 0; j < all.lo.size(); ++j) {
       put(all.lo[j], l, one.lo[j]);
       put(all.hi[j], l, one.hi[j]);
+    }
+    for (std::size_t k = 0; k < all.passive.size(); ++k) {
+      BasicPassiveHinge<T>& to = all.hinges[k];
+      const PassiveHinge& from = one.hinges[k];
+      put(to.stiffness, l, from.stiffness);
+      put(to.rest, l, from.rest);
+      put(to.damping, l, from.damping);
+      put(to.friction, l, from.friction);
+      put(to.friction_speed, l, from.friction_speed);
     }
   }
   return all;

@@ -8,6 +8,7 @@
 #include "core/dynamics/rotor_inertia.h"
 #include "core/errors.h"
 #include "core/laws/hinge_stop.h"
+#include "core/laws/passive_hinge.h"
 #include "core/simulation/stability.h"
 #include "physics_bullet/multibody.h"
 #include "physics_bullet/solver_plant.h"
@@ -38,6 +39,9 @@ class BulletPlant final : public Plant, private InverseMass {
     at_rest_.resize(n);
     start_speed_.resize(n);
     start_angle_.resize(n);
+    for (std::size_t j = 0; j < n; ++j) {
+      if (!robot_.joints[j].driven()) passive_.push_back(j);
+    }
     monitor_.contacts.reserve(s.contacts.size());
     const In inertia = s.actuator == nullptr ? In() : s.actuator->reflected_inertia();
     if (std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; })) {
@@ -61,6 +65,12 @@ class BulletPlant final : public Plant, private InverseMass {
         const double stop = stop_at(state, j).torque;
         work_[2] -= weight * h * stop * state.qd[j];
         body_.add_torque(j, torque_[j] + stop);
+      }
+      for (const std::size_t j : passive_) {
+        const PassiveHinge hinge = law(*robot_.joints[j].passive);
+        const double lost = hinge.loss(state.qd[j]).torque;
+        work_[3] -= weight * h * lost * state.qd[j];
+        body_.add_torque(j, hinge.spring(state.q[j]) + lost);
       }
       work_[0] += weight * h * power_[0];
       work_[1] += weight * h * power_[1];
@@ -93,7 +103,7 @@ class BulletPlant final : public Plant, private InverseMass {
     accelerate(state_, acceleration_);  // factorises the mass matrix for apply
     if (standing && settings_.actuator != nullptr) settings_.actuator->effort(at_rest_, at_rest_, torque_, slope_);
     std::copy(slope_.begin(), slope_.end(), monitor_.motor.begin());
-    return monitor_.rule(settings_, settings_.base, kinematics_, state_, standing, *this, [&] {
+    return monitor_.rule(settings_, settings_.base, kinematics_, state_, standing, settings_.step, *this, [&] {
       for_each_contact([&](const Contact& c) {
         monitor_.contacts.push_back({c.element, c.link, c.touch.point, c.touch.normal,
                                      c.force.sliding ? Vec3(c.vt / c.slip) : Vec3::Zero(), c.force.friction_slope,
@@ -176,7 +186,8 @@ class BulletPlant final : public Plant, private InverseMass {
   std::vector<double> torque_, slope_, applied_, at_rest_, start_speed_, start_angle_;
   OnePart part_;
   std::array<double, 2> power_ = {};  ///< given to the ground along its normal and along it, W
-  std::array<double, 3> work_ = {};   ///< of the last step: contact, friction, stops
+  std::array<double, 4> work_ = {};   ///< of the last step: contact, friction, stops, hinges
+  std::vector<std::size_t> passive_;  ///< joints without a motor
   RateMonitor monitor_;
 };
 

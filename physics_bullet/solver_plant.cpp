@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/laws/hinge_stop.h"
+#include "core/laws/passive_hinge.h"
 #include "core/simulation/integrator.h"
 #include "physics_bullet/world.h"
 
@@ -95,6 +96,10 @@ class SolverPlant final : public Plant {
       settings_.actuator->effort(command, state_.qd, limited_, limited_slope_);
     }
     for (std::size_t j = 0; j < torque_.size(); ++j) {
+      if (!robot_.joints[j].driven()) {
+        hang(j, h);
+        continue;
+      }
       const bool damps = slope_[j] > 0;
       if (damps) {
         // The limit in force at this speed, where it binds; else that of any speed.
@@ -109,6 +114,18 @@ class SolverPlant final : public Plant {
       applied_[j] = damps ? 0 : limited_[j];
       stop(j, h);
     }
+  }
+
+  /// The tangent at the start's speed of what a passive hinge gives at the step's end, in the row that has no motor.
+  void hang(std::size_t j, double h) {
+    const PassiveHinge hinge = law(*robot_.joints[j].passive);
+    const double qd = state_.qd[j];
+    const PassiveHinge::Loss loss = hinge.loss(qd);
+    const double torque = hinge.spring(state_.q[j] + h * qd) + loss.torque;
+    const double slope = loss.slope + h * hinge.stiffness;
+    world_.motor(j).set(slope, slope > 0 ? qd + torque / slope : 0, -kUnlimited, kUnlimited);
+    applied_[j] = 0;
+    stop(j, h);
   }
 
   /// -ks (q + h qd+ - q_lim) - cs qd+, only ever opposing.
@@ -126,7 +143,12 @@ class SolverPlant final : public Plant {
     after_.update(robot_, state_);
     work_ = {};
     for (std::size_t j = 0; j < applied_.size(); ++j) {
-      applied_[j] += world_.motor(j).torque(h);
+      if (robot_.joints[j].driven()) {
+        applied_[j] += world_.motor(j).torque(h);
+      } else {
+        const double spring = law(*robot_.joints[j].passive).spring(state_.q[j] + h * state_.qd[j]);
+        work_[3] -= h * (world_.motor(j).torque(h) - spring) * (start_speed_[j] + state_.qd[j]) / 2;
+      }
       work_[2] -= h * world_.stop(j).torque(h) * (start_speed_[j] + state_.qd[j]) / 2;
     }
     for (ContactSample& sample : samples_) sample = {};
@@ -179,7 +201,7 @@ class SolverPlant final : public Plant {
   std::vector<double> torque_, slope_, limited_, limited_slope_, applied_, start_speed_, least_, most_;
   std::vector<ContactSample> samples_;
   std::vector<std::vector<std::size_t>> elements_of_body_;
-  std::array<double, 3> work_ = {};  ///< of the last step: contact, friction, stops
+  std::array<double, 4> work_ = {};  ///< of the last step: contact, friction, stops, hinges
   OnePart part_;
 };
 

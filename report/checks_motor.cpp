@@ -122,6 +122,7 @@ void rated(const CheckedRun& run, Check& made, TickColumn column, const char* no
   made.text = none;
   double worst = -1;
   for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
+    if (!run.scenario.robot->joints[j].driven()) continue;
     const Rated of = rate(j);
     if (!std::isfinite(of.limit) || !(of.limit > 0)) continue;
     const double share = of.value / of.limit;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/dynamics/body_tree.h"
+#include "core/model/docking.h"
 #include "report/number_texts.h"
 
 namespace gaitlab::report {
@@ -87,8 +88,29 @@ DockPeak peak_of(const Window& window, std::size_t module, DockQuantity quantity
 
 }  // namespace
 
-/// No module type states any yet.
-std::vector<double> dock_limits(const Robot& /*robot*/, DockQuantity /*quantity*/) { return {}; }
+namespace {
+
+double stated(const Connector& connector, DockQuantity quantity) {
+  const double limit = quantity == DockQuantity::tension   ? connector.tension
+                       : quantity == DockQuantity::shear   ? connector.shear
+                       : quantity == DockQuantity::bending ? connector.bending
+                                                           : connector.torsion;
+  return limit > 0 ? limit : kUnknown;
+}
+
+/// The connector of a dock that gives way first.
+Connector weaker(const Robot& robot, std::size_t module, DockQuantity quantity) {
+  const auto [own, parents] = connectors_at(robot, module);
+  return stated(parents, quantity) < stated(own, quantity) || std::isnan(stated(own, quantity)) ? parents : own;
+}
+
+}  // namespace
+
+std::vector<double> dock_limits(const Robot& robot, DockQuantity quantity) {
+  std::vector<double> limits;
+  for (std::size_t m = 0; m < robot.modules.size(); ++m) limits.push_back(stated(weaker(robot, m, quantity), quantity));
+  return limits;
+}
 
 void judge_docks(const Scenario& scenario, const Recording& record, const Summary& summary, DockQuantity quantity,
                  const std::vector<double>& limits, Check& made) {
@@ -115,6 +137,7 @@ void judge_docks(const Scenario& scenario, const Recording& record, const Summar
     return;
   }
   made.limit = worst.limit;
+  made.source = weaker(*scenario.robot, worst.module, quantity).source;
   made.joints = static_cast<std::size_t>(std::ranges::count_if(peaks, [](const DockPeak& p) { return p.share() > 1; }));
   made.status = worst.share() <= scenario.limits.margin ? CheckStatus::pass
                 : worst.share() <= 1                    ? CheckStatus::warn

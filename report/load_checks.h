@@ -8,7 +8,8 @@ namespace gaitlab::report {
 
 enum class DockQuantity { tension, shear, bending, torsion };
 
-/// What the docks of the modules hold, by the numbers of modules, N or N m; NaN, and all where it is empty: nobody states it.
+/// What the docks of the modules hold, by the numbers of modules, N or N m: the smaller limit of the connectors of both faces.
+/// NaN, and all where it is empty: nobody states it.
 std::vector<double> dock_limits(const Robot& robot, DockQuantity quantity);
 
 /// The largest load of any dock in the judged window against `limits`: of the dock that comes nearest to its limit, or where no

@@ -1,11 +1,13 @@
 #include "report/motors.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "core/laws/dc_motor.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
-#include "core/scenario/value.h"
+#include "core/scenario/sections.h"
+#include "core/scenario/type_presets.h"
 #include "report/settings_numbers.h"
 
 namespace gaitlab::report {
@@ -22,30 +24,47 @@ std::vector<double> rest_torques(const Scenario& scenario) {
   const DcMotor* const motors = actuator->dc_motors();
   std::vector<double> torques;
   for (std::size_t j = 0; motors != nullptr && j < scenario.robot->joints.size(); ++j)
-    torques.push_back(motors[j](motors[j].u_max, 0.0).torque);
+    torques.push_back(scenario.robot->joints[j].driven() ? motors[j](motors[j].u_max, 0.0).torque : 0);
   return torques;
 }
 
-std::string motor_source(const Scenario& scenario) {
-  if (scenario.actuator.entry == nullptr) return "";
+namespace {
+
+/// What the types that have a motor say of it, each source once; those that are chosen first.
+std::string stated_sources(const Scenario& scenario) {
+  std::vector<std::string> sources;
   for (const Node& document : *scenario.module_documents) {
     const Node* actuator = document.find("actuator");
     const Node* source = actuator == nullptr ? nullptr : actuator->find("source");
-    if (source == nullptr) continue;
-    const Node* type = actuator->find("type");
-    if (type == nullptr || type->text != scenario.actuator.entry->name) return "the scenario";
-    const SettingsNumbers presets({scenario.actuator.entry, default_settings(*scenario.actuator.entry)});
-    std::string given;
-    const SettingsNumbers settings(scenario.actuator);
-    for (const SettingsNumbers::Found& setting : settings.all()) {
-      const Node* stated = actuator->find(setting.key);
-      const auto* preset = presets.find(setting.key);
-      const Reading<double> number = stated != nullptr ? read_number(*stated, "") : Reading<double>{preset->value.common, ""};
-      if (number.ok() && !(setting.value == PerJoint{number.value})) given += (given.empty() ? "" : ", ") + setting.key;
-    }
-    return given.empty() ? source->text : given + kOfTheScenario + source->text;
+    if (source != nullptr && std::ranges::find(sources, source->text) == sources.end()) sources.push_back(source->text);
   }
-  return "";
+  std::ranges::stable_partition(sources, [](const std::string& one) { return chosen(one); });
+  std::string text;
+  for (const std::string& one : sources) text += (text.empty() ? "" : "; ") + one;
+  return text;
+}
+
+}  // namespace
+
+std::string motor_source(const Scenario& scenario) {
+  if (scenario.actuator.entry == nullptr) return "";
+  const std::string stated = stated_sources(scenario);
+  if (stated.empty()) return "";
+  const Entry& entry = *scenario.actuator.entry;
+  const TypePresets types(Kind::actuator, scenario.robot.get(), *scenario.module_documents);
+  if (entry.name != types.type() || !types.agreed()) return "the scenario";
+  const PluginSelection preset{&entry, default_settings(entry)};
+  Problems none;
+  const std::vector<std::string> names = joint_names(*scenario.robot);
+  types.fill(entry, preset.settings.get(), &names, none);
+  const SettingsNumbers presets(preset);
+  std::string given;
+  const SettingsNumbers settings(scenario.actuator);
+  for (const SettingsNumbers::Found& setting : settings.all()) {
+    const SettingsNumbers::Found* of_type = presets.find(setting.key);
+    if (of_type != nullptr && !(setting.value == of_type->value)) given += (given.empty() ? "" : ", ") + setting.key;
+  }
+  return given.empty() ? stated : given + kOfTheScenario + stated;
 }
 
 bool chosen(const std::string& source) {

@@ -53,9 +53,9 @@ Json joints_json(const Scenario& scenario, const RobotTree& tree, const Motors& 
     all.push_back({{"name", joints[j].name},
                    {"module", joints[j].module},
                    {"body", tree.place(tree.moved_by(j))},
-                   {"lo", joints[j].lo},
-                   {"hi", joints[j].hi},
-                   {"motor", motors.of_joint.empty() ? Json() : Json(motors.of_joint[j])}});
+                   {"lo", known(joints[j].lo)},
+                   {"hi", known(joints[j].hi)},
+                   {"motor", motors.of_joint.empty() || !joints[j].driven() ? Json() : Json(motors.of_joint[j])}});
   }
   return all;
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <tuple>
 
+#include "core/model/docking.h"
+
 namespace gaitlab::report {
 
 namespace {
@@ -27,12 +29,10 @@ const char* kind_name(Shape::Kind kind) {
   }
 }
 
-const char* gender_name(Gender gender) { return gender == Gender::active ? "active" : "passive"; }
-
-/// What a body is to the eye: the gender of its first face, or else its own name.
+/// What a body is to the eye: the gender of its first face, or where that has none its own name.
 std::string role_name(const ModuleType& type, std::size_t body) {
   const auto face = std::ranges::find(type.faces, body, &FaceType::body);
-  return face == type.faces.end() ? type.bodies[body].name : gender_name(face->gender);
+  return face == type.faces.end() || face->gender == Gender::none ? type.bodies[body].name : word(face->gender);
 }
 
 std::string key_of(const ModuleType& type, std::size_t body) { return type.name + "/" + type.bodies[body].name; }
@@ -132,7 +132,7 @@ Json RobotTree::faces() const {
     for (std::size_t b = 0; b < type.bodies.size(); ++b) all[key_of(type, b)] = Json::array();
     for (const FaceType& face : type.faces) {
       all[key_of(type, face.body)].push_back({{"id", face.id},
-                                              {"gender", gender_name(face.gender)},
+                                              {"gender", word(face.gender)},
                                               {"origin", json_of(face.origin)},
                                               {"normal", json_of(face.normal)},
                                               {"reference", json_of(face.reference)}});

@@ -33,7 +33,7 @@ JointPanel joint_panel(const Scenario& scenario, const Recording& r, const Summa
   JointPanel panel;
   panel.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
   panel.angle = r.joint(joint, "angle").values();
-  if (scenario.actuator.entry != nullptr) {
+  if (scenario.actuator.entry != nullptr && scenario.robot->joints[joint].driven()) {
     panel.setpoint = r.joint(joint, "setpoint").values();
     panel.torque = r.joint(joint, "torque").values();
     panel.limit = r.joint(joint, "saturation").values();

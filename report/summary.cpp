@@ -145,6 +145,7 @@ std::string joint_table(const Summary& s, const Scenario& scenario) {
   };
   for (const std::size_t j : s.judged.order) {
     const JudgedJoint& joint = s.judged.joints[j];
+    if (!scenario.robot->joints[j].driven()) continue;
     text +=
         fmt::format("  {:<{}} {:>8} {:>8} {:>8.3f}{} {:>8.2f} {:>6.3f}  {:>8.3f} {:>8.2f}\n", scenario.robot->joints[j].name,
                     width, share(joint.voltage_limited), share(joint.current_limited), joint.torque_peak,

@@ -39,6 +39,7 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warni
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
     const DcMotor& m = motors[j];
     const std::string& name = s.robot->joints[j].name;
+    if (!s.robot->joints[j].driven()) continue;
     for (const auto& [key, value] : {std::pair{"Kt", m.Kt}, {"u_max", m.u_max}, {"i_max", m.i_max}}) {
       if (value > 0) continue;
       out.push_back({place_of(s, std::string("actuator.") + key),
@@ -84,7 +85,8 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& 
   double largest = 0;
   std::size_t worst = 0;
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
-    if (!(motors[j].Ks > 0)) continue;  // nothing slows such a motor down: the rule is of another loop
+    if (!s.robot->joints[j].driven() || !(motors[j].Ks > 0))
+      continue;  // nothing slows such a motor down: the rule is of another loop
     const double g = gain->value[j] * s.control_period / (motors[j].Ks * motors[j].gear);
     if (!(g > largest) || damps(settings, j, s.control_period)) continue;
     largest = g;
@@ -123,8 +125,8 @@ void check_degrees(const Scenario& s, std::vector<Warning>& out) {
     if (plugin->entry == nullptr) continue;
     const SettingsNumbers numbers(*plugin);
     for (const SettingsNumbers::Found& one : numbers.all()) {
-      for (std::size_t j = 0; one.unit == "rad" && j < std::max<std::size_t>(1, one.value.each.size()); ++j) {
-        if (!beyond(one.value[j])) continue;
+      for (std::size_t j = 0; one.unit == "rad" && j < s.robot->joints.size(); ++j) {
+        if (!beyond(one.value[j]) || s.robot->joints[j].turns_freely()) continue;
         const std::string key = std::string(word(plugin->entry->kind)) + "." + one.key;
         doubt(key, key, one.value[j]);
         break;

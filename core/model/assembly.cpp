@@ -142,7 +142,8 @@ class Builder {
     robot_.links.push_back({static_cast<int>(from.link), static_cast<int>(number), from.in_link * in_near, hinge.axis, 0,
                             Vec3::Zero(), Mat3::Zero()});
     robot_.joints[number] = {fmt::format("m{}/{}", index, hinge.name), static_cast<std::size_t>(index), link,
-                             reversed ? -hinge.hi : hinge.lo, reversed ? -hinge.lo : hinge.hi};
+                             reversed ? -hinge.hi : hinge.lo,          reversed ? -hinge.lo : hinge.hi, hinge.passive};
+    if (reversed && hinge.passive) robot_.joints[number].passive->rest = -hinge.passive->rest;
     set_body(index, far, link, far_in_link);
   }
 
@@ -211,7 +212,7 @@ RobotInfo info(const Robot& robot) {
     const Link& link = robot.links[joint.link];
     const int parent = robot.links[static_cast<std::size_t>(link.parent)].joint;
     result.joints.push_back({joint.name, static_cast<std::int64_t>(joint.module), parent, joint.lo, joint.hi,
-                             array(kinematics.p[joint.link]), array(kinematics.R[joint.link] * link.axis)});
+                             array(kinematics.p[joint.link]), array(kinematics.R[joint.link] * link.axis), joint.driven()});
   }
   for (std::size_t m = 0; m < robot.modules.size(); ++m) {
     const Module& module = robot.modules[m];

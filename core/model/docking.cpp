@@ -18,6 +18,26 @@ const FaceType* find_face(const ModuleType& type, int id) {
   return nullptr;
 }
 
+bool at_one_place(const FaceType& a, const FaceType& b) {
+  constexpr double kSame = 1e-9;  // m, and of unit vectors: far above what writing a number rounds
+  return a.body == b.body && (a.origin - b.origin).squaredNorm() < kSame * kSame &&
+         (a.normal - b.normal).squaredNorm() < kSame * kSame;
+}
+
+std::array<Connector, 2> connectors_at(const Robot& robot, std::size_t module) {
+  const Module& child = robot.modules[module];
+  std::array<Connector, 2> found;
+  if (child.parent < 0) return found;
+  const auto of = [&](std::size_t type, int id) {
+    const FaceType* face = find_face(robot.types[type], id);
+    const auto known = robot.types[type].connectors.find(face->connector);
+    return known == robot.types[type].connectors.end() ? Connector() : known->second;
+  };
+  found[0] = of(child.type, child.dock.child_face);
+  found[1] = of(robot.modules[static_cast<std::size_t>(child.parent)].type, child.dock.parent_face);
+  return found;
+}
+
 namespace {
 
 std::string face_list(const ModuleType& type, const Gender* only = nullptr) {
@@ -28,7 +48,22 @@ std::string face_list(const ModuleType& type, const Gender* only = nullptr) {
   return text;
 }
 
-const char* word(Gender gender) { return gender == Gender::active ? "active" : "passive"; }
+/// Faces that take one with that gender.
+std::string partners(const ModuleType& type, Gender gender) {
+  const Gender other = gender == Gender::active ? Gender::passive : gender == Gender::passive ? Gender::active : Gender::none;
+  return face_list(type, &other);
+}
+
+std::string in_marks(const std::string& name) { return name.empty() ? "none" : "'" + name + "'"; }
+
+/// `0, 2`
+std::string turn_list(const FaceType& face) {
+  std::string text;
+  for (std::size_t turn = 0; turn < face.turns.size(); ++turn) {
+    if (face.turns[turn]) text += (text.empty() ? "" : ", ") + std::to_string(turn);
+  }
+  return text;
+}
 
 /// Checks of the rows, one problem each.
 class DockRows {
@@ -65,10 +100,19 @@ class DockRows {
   }
 
   void take_face(const Dock& dock, int module, int face) {
-    const auto [at, fresh] = faces_.try_emplace({module, face}, &dock);
+    const std::vector<FaceType>& faces = type(module).faces;
+    const FaceType& taken = *find_face(type(module), face);
+    // Format 1 gives a connector that is neither active nor passive two numbers.
+    const auto place = std::find_if(faces.begin(), faces.end(), [&](const FaceType& one) { return at_one_place(one, taken); });
+    const auto [at, fresh] = faces_.try_emplace({module, place->id}, Taken{&dock, face});
     if (fresh) return;
-    problems_.add(dock.place, fmt::format("face {} of module {} is used twice: a face docks once", face, module))
-        .notes.emplace_back(at->second->place, "it is docked here already");
+    const int other = at->second.face;
+    problems_
+        .add(dock.place, other == face
+                             ? fmt::format("face {} of module {} is used twice: a face docks once", face, module)
+                             : fmt::format("face {} of module {} is used twice: it is where face {} is, and a face docks once",
+                                           face, module, other))
+        .notes.emplace_back(at->second.dock->place, "it is docked here already");
   }
 
   void check_row(const Dock& dock) {
@@ -83,14 +127,8 @@ class DockRows {
       problems_.add(dock.place, fmt::format("loop: module {} is docked to itself", dock.child_module));
       return;
     }
-    if (child->gender == parent->gender) {
-      const Gender other = parent->gender == Gender::active ? Gender::passive : Gender::active;
-      problems_.add(dock.place,
-                    fmt::format("wrong gender: face {} of module {} and face {} of module {} are both {}; active docks on "
-                                "passive, so module {} could take face {}",
-                                dock.child_face, dock.child_module, dock.parent_face, dock.parent_module, word(child->gender),
-                                dock.child_module, face_list(type(dock.child_module), &other)));
-    }
+    check_genders(dock, *child, *parent);
+    check_connectors(dock, *child, *parent);
     take_face(dock, dock.child_module, dock.child_face);
     take_face(dock, dock.parent_module, dock.parent_face);
     if (dock.child_module == 0) {
@@ -109,10 +147,42 @@ class DockRows {
     }
   }
 
+  void check_genders(const Dock& dock, const FaceType& child, const FaceType& parent) {
+    const bool alike = child.gender == parent.gender;
+    if (child.gender == Gender::none || parent.gender == Gender::none ? alike : !alike) return;
+    const std::string able = partners(type(dock.child_module), parent.gender);
+    const std::string genders =
+        alike ? fmt::format("face {} of module {} and face {} of module {} are both {}; active docks on passive",
+                            dock.child_face, dock.child_module, dock.parent_face, dock.parent_module, word(child.gender))
+              : fmt::format(
+                    "face {} of module {} is of gender {}, face {} of module {} of gender {}; active docks on passive, "
+                    "none on none",
+                    dock.child_face, dock.child_module, word(child.gender), dock.parent_face, dock.parent_module,
+                    word(parent.gender));
+    problems_.add(dock.place, fmt::format("wrong gender: {}, so module {} {}", genders, dock.child_module,
+                                          able.empty() ? "has no face that fits" : fmt::format("could take face {}", able)));
+  }
+
+  void check_connectors(const Dock& dock, const FaceType& child, const FaceType& parent) {
+    if (child.connector != parent.connector) {
+      problems_.add(dock.place, fmt::format("face {} of module {} has connector {}, face {} of module {} {}; only like dock",
+                                            dock.child_face, dock.child_module, in_marks(child.connector), dock.parent_face,
+                                            dock.parent_module, in_marks(parent.connector)));
+    }
+    if (dock.orientation < 0 || dock.orientation > 3) return;
+    const auto turn = static_cast<std::size_t>(dock.orientation);
+    for (const auto& [face, module] : {std::pair(&child, dock.child_module), std::pair(&parent, dock.parent_module)}) {
+      if (face->turns[turn]) continue;
+      problems_.add(dock.place, fmt::format("orientation {} is not one of the turns of face {} ({}): {}", dock.orientation,
+                                            face->id, type(module).name, turn_list(*face)));
+      break;
+    }
+  }
+
   static std::string ring_text(const Dock& dock) {
     return fmt::format(
-        "this dock closes a ring: module {} and module {} are joined by others already; closed chains are not "
-        "supported, docks form a tree",
+        "this dock closes a ring: module {} and module {} are joined by others already; a robot stays one tree, closed "
+        "chains are not supported",
         dock.child_module, dock.parent_module);
   }
 
@@ -171,7 +241,11 @@ class DockRows {
   const std::vector<std::size_t>& type_of_;
   const std::vector<Dock>& docks_;
   int rings_asked_ = 0;
-  std::map<std::pair<int, int>, const Dock*> faces_;
+  struct Taken {
+    const Dock* dock;
+    int face;
+  };
+  std::map<std::pair<int, int>, Taken> faces_;  ///< by module and the first face at that place
   std::map<int, const Dock*> parent_;
   std::set<int> children_;
   Problems problems_;

@@ -7,6 +7,15 @@ namespace gaitlab {
 /// The face with that id, or nullptr.
 const FaceType* find_face(const ModuleType& type, int id);
 
+inline constexpr const char* kGenders[] = {"active", "passive", "none"};  ///< names of Gender's values
+inline const char* word(Gender gender) { return kGenders[static_cast<std::size_t>(gender)]; }
+
+/// Whether two faces of a type are one connector.
+bool at_one_place(const FaceType& a, const FaceType& b);
+
+/// The connectors of both faces by which a module is docked, its own first; empty: the face's type does not know it.
+std::array<Connector, 2> connectors_at(const Robot& robot, std::size_t module);
+
 /// Throws InputError with every row that breaks a rule (assemble lists them), but for overlapping cells.
 void check_docks(const std::vector<ModuleType>& types, const std::vector<std::size_t>& type_of, const std::vector<Dock>& docks);
 

@@ -1,10 +1,15 @@
 // What a kind of module is made of: any tree of bodies and revolute hinges, its faces, contact elements and default motor.
 #pragma once
+#include <array>
 #include <cstddef>
+#include <limits>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/model/frames.h"
+#include "core/model/passive.h"
 
 namespace gaitlab {
 
@@ -24,22 +29,34 @@ struct BodyType {
   std::vector<Shape> shapes = {};
 };
 
+inline constexpr double kNoStop = std::numeric_limits<double>::infinity();  ///< hi, and -lo, of a hinge that turns freely
+
 /// The child's frame is the hinge frame at angle 0; positive = right-hand turn of the child relative to the parent.
 struct HingeType {
   std::string name;
   std::size_t parent = 0, child = 0;  ///< indices of bodies
   Pose in_parent = {};
-  Vec3 axis = Vec3::UnitY();  ///< unit vector, hinge frame
-  double lo = 0, hi = 0;      ///< rad
+  Vec3 axis = Vec3::UnitY();            ///< unit vector, hinge frame
+  double lo = 0, hi = 0;                ///< rad; -kNoStop and kNoStop: turns freely
+  std::optional<Passive> passive = {};  ///< `drive: none`; none: a motor drives it
 };
 
-enum class Gender { active, passive };
+/// Active docks on passive, and a face without gender on its like.
+enum class Gender { active, passive, none };
+
+/// What the connector of a face bears, N and N m; 0: nobody states it. `source`: who states it.
+struct Connector {
+  double tension = 0, shear = 0, bending = 0, torsion = 0;
+  std::string source = {};
+};
 
 struct FaceType {
   int id = 0;
   std::size_t body = 0;
   Gender gender = Gender::active;
   Vec3 origin = Vec3::Zero(), normal = Vec3::UnitX(), reference = Vec3::UnitY();  ///< body frame; unit, at right angles
+  std::string connector = {};                         ///< faces dock where their connectors have one name; ""
+  std::array<bool, 4> turns{true, true, true, true};  ///< orientations in which it docks
 };
 
 /// A point (radius 0) or sphere fixed to a body.
@@ -56,8 +73,9 @@ struct ModuleType {
   std::vector<BodyType> bodies;
   std::vector<HingeType> hinges;
   std::vector<FaceType> faces;
-  std::vector<ContactType> feet, all;  ///< feet: those used for `on: feet`, on whichever body is free
-  std::size_t root = 0;                ///< the body that is not a hinge's child; its frame is the module frame
+  std::map<std::string, Connector> connectors = {};  ///< those of the faces whose loads are known, by name
+  std::vector<ContactType> feet, all;                ///< feet: those used for `on: feet`, on whichever body is free
+  std::size_t root = 0;                              ///< the body that is not a hinge's child; its frame is the module frame
 };
 
 }  // namespace gaitlab

@@ -1,6 +1,7 @@
 // The assembled robot: docked bodies fused into links, every body with its name and place. Engine-free.
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,10 @@ struct Joint {
   std::string name;  ///< `m3/passive`
   std::size_t module = 0;
   std::size_t link = 0;   ///< the link it moves
-  double lo = 0, hi = 0;  ///< rad; positive = right-hand turn of the farther body relative to the nearer one
+  double lo = 0, hi = 0;  ///< rad; positive = right-hand turn of the farther body relative to the nearer one; +-kNoStop
+  std::optional<Passive> passive = {};  ///< what it has instead of a motor
+  [[nodiscard]] bool driven() const { return !passive; }
+  [[nodiscard]] bool turns_freely() const { return hi == kNoStop; }
 };
 
 struct Body {
@@ -77,8 +81,9 @@ struct Robot {
 enum class ContactSet { none, feet, all };
 
 /// Builds the robot from `type_of_module` (index into types, one per module) and the docks.
-/// Errors (InputError, all at once, each at its row): wrong gender, face used twice, unknown module or face, two parents, loop,
-/// gap in the numbering, bad orientation, and for lattice types two blocks in one cell at zero angles.
+/// Errors (InputError, all at once, each at its row): wrong gender, connectors that differ, face used twice, unknown module or
+/// face, two parents, loop, gap in the numbering, bad orientation, one that is not among the turns of a face, and for lattice
+/// types two blocks in one cell at zero angles.
 Robot assemble(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of_module, const std::vector<Dock>& docks);
 
 /// The elements of `on`, by body, then in file order. feet: the feet of the free body of every module without children.

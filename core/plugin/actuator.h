@@ -36,7 +36,7 @@ class Actuator {
   /// One per joint * lanes + lane; empty: the maker states none.
   [[nodiscard]] virtual std::span<const DriveRatings> ratings() const { return {}; }
   /// Where effort is nothing but DC motors (core/laws/dc_motor.h): one per joint * lanes + lane, which an engine may then
-  /// evaluate itself, several lanes at once. Else nullptr.
+  /// evaluate itself, several lanes at once; those of joints without a motor (JointInfo::driven) mean nothing. Else nullptr.
   [[nodiscard]] virtual const DcMotor* dc_motors() const { return nullptr; }
 };
 

@@ -25,9 +25,9 @@ struct Coupling {
   }
 };
 
-/// Whom each joint follows. chain: the joint numbered before it; parent: the next one towards the base; siblings: as parent,
-/// and joints with the same parent one another; mirror: joints on the right their mirror image on the left, the others as
-/// parent; all: every joint every other, with the lags of chain.
+/// Whom each joint follows; joints without a motor neither follow nor are followed. chain: the joint numbered before it;
+/// parent: the next one towards the base; siblings: as parent, and joints with the same parent one another; mirror: joints on
+/// the right their mirror image on the left, the others as parent; all: every joint every other, with the lags of chain.
 enum class CouplingRule { chain, parent, siblings, mirror, all };
 
 inline constexpr const char* kCouplingRules[] = {"chain", "parent", "siblings", "mirror", "all"};
@@ -41,13 +41,13 @@ inline std::int64_t mirror_image(const RobotInfo& robot, std::size_t joint) {
   constexpr double kSamePlace = 1e-3;     // m: far above rounding, far below a module
   constexpr double kSameDirection = 0.9;  // cosine
   const JointInfo& own = robot.joints[joint];
-  if (own.origin[1] > -kSamePlace) return -1;
+  if (own.origin[1] > -kSamePlace || !own.driven) return -1;
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const JointInfo& other = robot.joints[j];
     const double off = std::max({std::abs(other.origin[0] - own.origin[0]), std::abs(other.origin[1] + own.origin[1]),
                                  std::abs(other.origin[2] - own.origin[2])});
     const double along = other.axis[0] * own.axis[0] - other.axis[1] * own.axis[1] + other.axis[2] * own.axis[2];
-    if (off < kSamePlace && std::abs(along) > kSameDirection) return static_cast<std::int64_t>(j);
+    if (other.driven && off < kSamePlace && std::abs(along) > kSameDirection) return static_cast<std::int64_t>(j);
   }
   return -1;
 }
@@ -84,26 +84,33 @@ inline std::vector<double> phases_of(const std::vector<Coupling>& graph, std::si
 
 namespace detail {
 
+/// The next joint towards the base that has a motor, -1: none.
+inline std::int64_t driven_parent(const RobotInfo& robot, std::size_t joint) {
+  std::int64_t at = robot.joints[joint].parent;
+  while (at >= 0 && !robot.joints[static_cast<std::size_t>(at)].driven) at = robot.joints[static_cast<std::size_t>(at)].parent;
+  return at;
+}
+
 /// Joints with the same parent lead one another by the difference of their lags, so that nothing contradicts rule parent.
 inline void couple_siblings(const RobotInfo& robot, double weight, const PerJoint& lag, std::vector<Coupling>& graph) {
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-      if (i == j || robot.joints[i].parent != robot.joints[j].parent) continue;
+      if (i == j || !robot.joints[i].driven || !robot.joints[j].driven) continue;
+      if (driven_parent(robot, i) != driven_parent(robot, j)) continue;
       graph.push_back({static_cast<std::int64_t>(j), static_cast<std::int64_t>(i), weight, lag[i] - lag[j]});
     }
   }
 }
 
 /// w / (n - 1) each, so that a joint is pulled as hard by all as by one.
-inline std::vector<Coupling> couple_all(std::size_t joints, double weight, const PerJoint& lag) {
-  std::vector<double> phase(joints, 0.0);
-  for (std::size_t i = 1; i < joints; ++i) phase[i] = phase[i - 1] + lag[i];
+inline std::vector<Coupling> couple_all(const std::vector<std::int64_t>& joints, double weight, const PerJoint& lag) {
+  std::vector<double> phase(joints.size(), 0.0);
+  for (std::size_t i = 1; i < joints.size(); ++i) phase[i] = phase[i - 1] + lag[static_cast<std::size_t>(joints[i])];
   std::vector<Coupling> graph;
-  for (std::size_t i = 0; i < joints; ++i) {
-    for (std::size_t j = 0; j < joints; ++j) {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    for (std::size_t j = 0; j < joints.size(); ++j) {
       if (i == j) continue;
-      graph.push_back({static_cast<std::int64_t>(j), static_cast<std::int64_t>(i), weight / static_cast<double>(joints - 1),
-                       phase[i] - phase[j]});
+      graph.push_back({joints[j], joints[i], weight / static_cast<double>(joints.size() - 1), phase[i] - phase[j]});
     }
   }
   return graph;
@@ -113,12 +120,17 @@ inline std::vector<Coupling> couple_all(std::size_t joints, double weight, const
 
 /// The couplings that a rule makes; `lag[i]` is the lead of joint i over the joint it follows.
 inline std::vector<Coupling> couple(const RobotInfo& robot, CouplingRule rule, double weight, const PerJoint& lag) {
-  const std::size_t joints = robot.joints.size();
-  if (rule == CouplingRule::all) return detail::couple_all(joints, weight, lag);
+  std::vector<std::int64_t> driven;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    if (robot.joints[i].driven) driven.push_back(static_cast<std::int64_t>(i));
+  }
+  if (rule == CouplingRule::all) return detail::couple_all(driven, weight, lag);
   std::vector<Coupling> graph;
-  for (std::size_t i = 0; i < joints; ++i) {
-    const auto to = static_cast<std::int64_t>(i);
-    std::int64_t from = rule == CouplingRule::chain ? to - 1 : robot.joints[i].parent;
+  std::int64_t before = -1;
+  for (const std::int64_t to : driven) {
+    const auto i = static_cast<std::size_t>(to);
+    std::int64_t from = rule == CouplingRule::chain ? before : detail::driven_parent(robot, i);
+    before = to;
     if (const std::int64_t image = rule == CouplingRule::mirror ? mirror_image(robot, i) : -1; image >= 0) {
       graph.push_back({to, image, weight, -lag[i]});  // a pair holds each other
       from = image;

@@ -30,7 +30,7 @@ inline void measure(const RobotInfo& robot, Leg& leg) {
   for (const std::int64_t m : leg.modules) {
     for (const std::int64_t j : robot.modules[static_cast<std::size_t>(m)].joints) {
       const JointInfo& joint = robot.joints[static_cast<std::size_t>(j)];
-      if (!about_y(joint)) continue;
+      if (!about_y(joint) || !joint.driven) continue;
       if (leg.hip < 0) {
         leg.hip = j;
         leg.hip_sign = joint.axis[1] > 0 ? 1 : -1;

@@ -17,17 +17,21 @@ struct OscillatorKeys {
 
   void fields(Fields& f) {
     f.per_joint("frequency", frequency, {"Hz", 0, 20, "Own frequency of the oscillator."});
-    f.per_joint("amplitude", amplitude, {"rad", 0, 3.2, "Peak of the set point about its offset."});
-    f.per_joint("offset", offset, {"rad", -3.2, 3.2, "Mean of the set point."});
+    f.per_joint("amplitude", amplitude,
+                {"rad", 0, 1000, "Peak of the set point about its offset; up to 3.2 where the hinge has a range."});
+    f.per_joint("offset", offset, {"rad", -1000, 1000, "Mean of the set point; +-3.2 where the hinge has a range."});
     f.per_joint("phase_lag", phase_lag, {"rad", -100, 100, "Lead of each joint over the one it follows by the rule."});
     f.rule_or_list("couplings", rule, kCouplingRules, couplings, kCouplingRulesAbout);
   }
 
-  /// Throws std::invalid_argument for a joint that would hold a set point outside its range. One that only passes there is
-  /// reported by the run, not refused.
+  /// Throws std::invalid_argument for a joint that would hold a set point outside its range, or whose keys no hinge with a
+  /// range can mean. A set point that only passes there is reported by the run, not refused.
   void check(const RobotInfo& robot) const {
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
       const JointInfo& joint = robot.joints[j];
+      if (!joint.driven) continue;
+      check_angle(joint, "amplitude", amplitude[j]);
+      check_angle(joint, "offset", offset[j]);
       if (amplitude[j] != 0 || (offset[j] >= joint.lo && offset[j] <= joint.hi)) continue;
       throw std::invalid_argument("joint " + joint.name + " would hold its offset, outside its range (amplitude 0)");
     }

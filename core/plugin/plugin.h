@@ -15,7 +15,7 @@
 #define GAITLAB_ABI_LIBRARY "libstdc++ " GAITLAB_ABI_TEXT(_GLIBCXX_RELEASE) " cxx11 " GAITLAB_ABI_TEXT(_GLIBCXX_USE_CXX11_ABI)
 #endif
 /// Number of the interface, compiler, standard library: a plugin is loaded only where all three are the program's.
-#define GAITLAB_ABI "gaitlab-7, " GAITLAB_ABI_COMPILER ", " GAITLAB_ABI_LIBRARY
+#define GAITLAB_ABI "gaitlab-8, " GAITLAB_ABI_COMPILER ", " GAITLAB_ABI_LIBRARY
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a parameter's name cannot stand in parentheses
 #define GAITLAB_PLUGIN(registry)                               \

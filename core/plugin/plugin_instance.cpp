@@ -83,38 +83,64 @@ class GuardedController final : public Controller {
   std::unique_ptr<Controller> controller_;
 };
 
+/// `passive`: entries, joint * lanes + lane, of joints without a motor, where the plugin's torque is not used.
 class GuardedActuator final : public Actuator {
  public:
-  GuardedActuator(const Entry& entry, std::unique_ptr<Actuator> actuator, std::size_t size)
-      : entry_(entry), actuator_(std::move(actuator)), size_(size) {}
+  GuardedActuator(const Entry& entry, std::unique_ptr<Actuator> actuator, std::size_t size, std::vector<std::size_t> passive)
+      : entry_(entry), actuator_(std::move(actuator)), size_(size), passive_(std::move(passive)) {
+    if (passive_.empty()) return;
+    const auto copy = [](const auto& from, auto& to) { to.assign(from.begin(), from.end()); };
+    copy(own_limit(), limit_);
+    copy(own_inertia(), inertia_);
+    copy(own_ratings(), ratings_);
+    for (const std::size_t i : passive_) {
+      limit_[i] = 0;
+      if (!inertia_.empty()) inertia_[i] = 0;
+      if (!ratings_.empty()) ratings_[i] = {};
+    }
+  }
   [[nodiscard]] std::string_view command_unit() const override {
     return guarded(entry_, "command_unit", [&] { return actuator_->command_unit(); });
   }
-  [[nodiscard]] In command_limit() const override {
-    return sized("command_limit", guarded(entry_, "command_limit", [&] { return actuator_->command_limit(); }));
-  }
-  [[nodiscard]] In reflected_inertia() const override {
-    const In inertia = guarded(entry_, "reflected_inertia", [&] { return actuator_->reflected_inertia(); });
-    return inertia.empty() ? inertia : sized("reflected_inertia", inertia);
-  }
+  [[nodiscard]] In command_limit() const override { return passive_.empty() ? own_limit() : In(limit_); }
+  [[nodiscard]] In reflected_inertia() const override { return passive_.empty() ? own_inertia() : In(inertia_); }
   void effort(In command, In speed, Out torque, Out slope) const override {
     guarded(entry_, "effort", [&] { actuator_->effort(command, speed, torque, slope); });
+    silence({torque, slope});
   }
   void electrical(In command, In speed, Electrical out) const override {
     guarded(entry_, "electrical", [&] { actuator_->electrical(command, speed, out); });
+    silence({out.voltage, out.current, out.saturation, out.power_in, out.copper, out.gear});
   }
   [[nodiscard]] std::span<const DriveRatings> ratings() const override {
-    const std::span<const DriveRatings> stated = guarded(entry_, "ratings", [&] { return actuator_->ratings(); });
-    return stated.empty() ? stated : sized("ratings", stated);
+    return passive_.empty() ? own_ratings() : std::span<const DriveRatings>(ratings_);
   }
   void unlimited(In command, In speed, Out torque, Out slope) const override {
     guarded(entry_, "unlimited", [&] { actuator_->unlimited(command, speed, torque, slope); });
+    silence({torque, slope});
   }
   [[nodiscard]] const DcMotor* dc_motors() const override {
     return guarded(entry_, "dc_motors", [&] { return actuator_->dc_motors(); });
   }
 
  private:
+  [[nodiscard]] In own_limit() const {
+    return sized("command_limit", guarded(entry_, "command_limit", [&] { return actuator_->command_limit(); }));
+  }
+  [[nodiscard]] In own_inertia() const {
+    const In inertia = guarded(entry_, "reflected_inertia", [&] { return actuator_->reflected_inertia(); });
+    return inertia.empty() ? inertia : sized("reflected_inertia", inertia);
+  }
+  [[nodiscard]] std::span<const DriveRatings> own_ratings() const {
+    const std::span<const DriveRatings> stated = guarded(entry_, "ratings", [&] { return actuator_->ratings(); });
+    return stated.empty() ? stated : sized("ratings", stated);
+  }
+  void silence(std::initializer_list<Out> values) const {
+    for (const Out one : values) {
+      for (const std::size_t i : passive_) one[i] = 0;
+    }
+  }
+
   template <class Values>
   [[nodiscard]] Values sized(const char* function, Values values) const {
     if (values.size() == size_) return values;
@@ -125,6 +151,9 @@ class GuardedActuator final : public Actuator {
   const Entry& entry_;
   std::unique_ptr<Actuator> actuator_;
   std::size_t size_;
+  std::vector<std::size_t> passive_;
+  std::vector<double> limit_, inertia_;
+  std::vector<DriveRatings> ratings_;
 };
 
 template <class Guard, class T>
@@ -160,7 +189,12 @@ std::unique_ptr<Actuator> make_actuator(std::span<const PluginSelection* const> 
   if (entry == nullptr) return {};
   std::vector<const void*> settings;
   for (const PluginSelection* lane : lanes) settings.push_back(lane->settings.get());
-  return std::make_unique<GuardedActuator>(*entry, made<Actuator>(*entry, robot, settings), robot.joints.size() * lanes.size());
+  std::vector<std::size_t> passive;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    for (std::size_t l = 0; l < lanes.size() && !robot.joints[j].driven; ++l) passive.push_back(j * lanes.size() + l);
+  }
+  return std::make_unique<GuardedActuator>(*entry, made<Actuator>(*entry, robot, settings), robot.joints.size() * lanes.size(),
+                                           std::move(passive));
 }
 
 std::unique_ptr<Actuator> make_actuator(const PluginSelection& selection, const RobotInfo& robot) {

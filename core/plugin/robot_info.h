@@ -2,6 +2,9 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -11,10 +14,24 @@ struct JointInfo {
   std::string name;                   ///< `m3/passive`
   std::int64_t module = 0;            ///< its module
   std::int64_t parent = -1;           ///< the next joint towards the base, -1: none
-  double lo = 0, hi = 0;              ///< range, rad
+  double lo = 0, hi = 0;              ///< range, rad; -infinity and infinity: it turns freely
   std::array<double, 3> origin = {};  ///< a point of the axis, m, base frame, all angles zero
   std::array<double, 3> axis = {};    ///< unit vector, base frame, all angles zero; positive turn of the farther body
+  bool driven = true;                 ///< false: no motor; what a plugin gives for it is not used
+  [[nodiscard]] bool turns_freely() const { return hi == std::numeric_limits<double>::infinity(); }
 };
+
+/// Throws std::invalid_argument for a set point that only a hinge that turns freely can have: of one with a range it is meant
+/// in degrees, or by mistake.
+inline void check_angle(const JointInfo& joint, const char* what, double angle) {
+  constexpr double kLargest = 3.2;  // rad: half a turn, and a little
+  if (joint.turns_freely() || (angle >= -kLargest && angle <= kLargest)) return;
+  char text[200];
+  (void)std::snprintf(text, sizeof text,
+                      " is %.6g rad; allowed are -3.2 to 3.2 rad where the hinge has a range; %.6g degrees are %.4g rad", angle,
+                      angle, angle * 3.14159265358979323846 / 180);
+  throw std::invalid_argument(std::string(what) + " of joint " + joint.name + text);
+}
 
 struct ModuleInfo {
   std::string type;                       ///< name of the module type

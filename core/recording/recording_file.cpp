@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kHinges = "energy.hinges";
+
 /// Every number of a recording that is not one of a row or of a joint: visit(name, unit, definition, number).
 template <class OfRecording, class Visit>
 void each_number(OfRecording& r, Visit visit) {
@@ -24,7 +26,7 @@ void each_number(OfRecording& r, Visit visit) {
   visit("control_ticks", "", "control ticks", r.control_ticks);
   visit("control_ticks_above_1", "", "control ticks at which h lambda exceeded 1", r.control_ticks_above_1);
   visit("stability.rate", "1/s", "largest lambda seen at a control tick", r.worst.rate);
-  visit("stability.source", "", "0 motor, 1 stop, 2 contact: what has it", r.worst.source);
+  visit("stability.source", "", "0 motor, 1 stop, 2 contact, 3 passive hinge: what has it", r.worst.source);
   visit("stability.index", "", "number of that joint or contact element", r.worst.index);
   visit("stability.time", "s", "when it was seen", r.worst_time);
   visit("energy.electrical", "J", "drawn by the motors", r.ledger.electrical);
@@ -34,6 +36,7 @@ void each_number(OfRecording& r, Visit visit) {
   visit("energy.friction", "J", "given to the ground along it", r.ledger.friction);
   visit("energy.stops", "J", "given to the hinge stops", r.ledger.stops);
   visit("energy.stored", "J", "kinetic and potential, less those at the start", r.ledger.stored);
+  visit(kHinges, "J", "lost in dampers and friction of passive hinges", r.ledger.hinges);
   visit("solves", "", "solves of the equations of motion", r.tally.solves);
   visit("off_law", "", "joint-steps that ended off the law of their motor or stop", r.tally.off);
   visit("coarse_time", "s", "time in which the steps did not reach the accuracy", r.tally.coarse);
@@ -95,9 +98,10 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   }
   each_number(r, [&](const char* name, const char*, const char*, auto& number) {
     using Number = std::remove_reference_t<decltype(number)>;
+    if (name == kHinges && run.find(name) == run.columns.size()) return;  // older folders do not have it
     const double read = value(run, 0, name);
     // Yes or no, a source, and counts, which a double holds to 2^53.
-    constexpr double kMost = std::is_same_v<Number, bool> ? 1 : std::is_enum_v<Number> ? 2 : 0x1p53;
+    constexpr double kMost = std::is_same_v<Number, bool> ? 1 : std::is_enum_v<Number> ? 3 : 0x1p53;
     if (!std::is_floating_point_v<Number> && !(read >= 0 && read <= kMost))
       throw unfit(file, fmt::format("{} is {}", name, read));
     number = static_cast<Number>(read);

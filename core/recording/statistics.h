@@ -71,8 +71,8 @@ struct StepTally {
 /// Largest rate lambda of M^-1 (B + sum J^T G J), 1/s, and what it comes from. A step h is stable for h lambda <= 1 (explicit).
 struct Stability {
   double rate = 0;
-  enum class Source { motor, stop, contact } source = Source::motor;
-  std::size_t index = 0;  ///< joint, or contact element
+  enum class Source { motor, stop, contact, hinge } source = Source::motor;
+  std::size_t index = 0;  ///< joint, or contact element; hinge: what a passive one has
 };
 
 }  // namespace gaitlab

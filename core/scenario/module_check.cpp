@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/model/docking.h"
 #include "core/scenario/wording.h"
 
 namespace gaitlab {
@@ -172,7 +173,34 @@ class ModuleCheck {
         problems_.add(place_of(map, "reference"),
                       fmt::format("reference is not at right angles to the normal of face {}", face.id));
       }
+      if (places_.format > 1) check_twins(i);
+      check_connector(i);
     }
+  }
+
+  /// What format 1 had to write for a connector that is neither active nor passive.
+  void check_twins(std::size_t i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const FaceType& one = type_.faces[k];
+      const FaceType& other = type_.faces[i];
+      if (!at_one_place(one, other)) continue;
+      problems_
+          .add(place_of(places_.faces[i], "origin"),
+               fmt::format("faces {} and {} are at one place; a connector that is neither active nor passive is one face with "
+                           "gender: none",
+                           one.id, other.id))
+          .notes.emplace_back(place_of(places_.faces[k], "origin"), "the first is here");
+      return;
+    }
+  }
+
+  void check_connector(std::size_t i) {
+    const std::string& name = type_.faces[i].connector;
+    if (type_.connectors.empty() || name.empty() || type_.connectors.contains(name)) return;
+    std::vector<std::string> known;
+    for (const auto& [connector, limits] : type_.connectors) known.push_back(connector);
+    problems_.add(place_of(places_.faces[i], "connector"),
+                  "no connector " + in_quotes(name) + offer(name, known, "connectors"));
   }
 
   void duplicate(const SourceLocation& place, const std::string& what, const SourceLocation& first) {

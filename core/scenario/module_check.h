@@ -1,5 +1,6 @@
 // Whether the parts of a module type make one body of hinges, with a physical inertia and faces that can dock.
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "core/model/module_type.h"
@@ -11,6 +12,7 @@ namespace gaitlab {
 struct ModulePlaces {
   std::vector<SourceLocation> bodies;  ///< of their names
   std::vector<Node> hinges, faces;     ///< their maps
+  std::int64_t format = 1;             ///< of the text
 };
 
 /// Checks, normalises directions and sets `type.root`.

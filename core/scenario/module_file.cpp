@@ -7,6 +7,7 @@
 #include <array>
 #include <limits>
 
+#include "core/model/docking.h"
 #include "core/scenario/module_check.h"
 #include "core/scenario/reader.h"
 #include "core/scenario/wording.h"
@@ -15,7 +16,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
-constexpr std::array<const char*, 2> kGenders{"active", "passive"};
+constexpr std::int64_t kNewest = 2;  ///< format
 
 void length(Fields& f, const char* key, Vec3& value, const char* about) {
   f.vector(key, span_of(value), {"m", -kAny, kAny, about});
@@ -59,7 +60,7 @@ class ModuleReader {
 
   ModuleType read(bool versioned) {
     Reader reader = open(document_, "the module type");
-    reader.version("gaitlab_module");
+    places_.format = reader.version("gaitlab_module", kNewest);
     if (versioned) reader.require({"gaitlab_module"});
     reader.require({"name", "bodies"});
     reader.text("name", type_.name, "Name of the type.");
@@ -70,6 +71,7 @@ class ModuleReader {
     each(reader.take("faces"), "faces", [this](const Node& node) { read_face(node); });
     if (const Node* node = reader.take("contacts")) read_contacts(*node);
     reader.take("actuator");  // its keys are known once its type's plugin is
+    if (newer(reader, document_, {"connectors", "controller"})) read_connectors(reader.take("connectors"));
     reader.finish();
     return std::move(type_);
   }
@@ -83,6 +85,42 @@ class ModuleReader {
     std::string source;
     reader.text("source", source, "Where the values come from.");
     return reader;
+  }
+
+  /// Whether the keys of format 2 may be read; in a text of format 1 every one of them is a problem.
+  bool newer(Reader& reader, const Node& map, std::initializer_list<const char*> keys) {
+    for (const char* key : keys) {
+      const Node* value = reader.take(key);
+      if (value != nullptr && places_.format < 2) need_format_2(in_quotes(key) + " is a key", value->place);
+    }
+    return places_.format >= 2 && map.kind == Node::Kind::map;
+  }
+
+  void need_format_2(const std::string& what, const SourceLocation& place) {
+    if (places_.format == 0) return;  // the version itself is wrong
+    problems_.add(place, what + " of module format 2, and this is format 1; write gaitlab_module: 2");
+  }
+
+  void read_connectors(const Node* connectors) {
+    if (connectors == nullptr) return;
+    if (connectors->kind != Node::Kind::map) {
+      problems_.add(connectors->place,
+                    fmt::format("connectors is {}; expected a map NAME: {{tension: ..., shear: ...}}", found(*connectors)));
+      return;
+    }
+    for (std::size_t i = 0; i < connectors->items.size(); ++i) {
+      const auto& [name, place] = connectors->keys[i];
+      check_name(name, Node{Node::Kind::scalar, place});
+      Reader reader(connectors->items[i], in_quotes(name), problems_, nullptr);
+      Connector limits;
+      reader.number("tension", limits.tension, {"N", kPositive, kAny, "Largest pull along the normal."});
+      reader.number("shear", limits.shear, {"N", kPositive, kAny, "Largest force in the plane of the face."});
+      reader.number("bending", limits.bending, {"N m", kPositive, kAny, "Largest moment about axes in that plane."});
+      reader.number("torsion", limits.torsion, {"N m", kPositive, kAny, "Largest moment about the normal."});
+      reader.text("source", limits.source, "Where the values come from.");
+      reader.finish();
+      type_.connectors[name] = limits;
+    }
   }
 
   void check_name(const std::string& name, const Node& node) {
@@ -171,7 +209,6 @@ class ModuleReader {
   void read_hinge(const Node& node) {
     Reader reader = open(node, "hinge");
     HingeType hinge;
-    std::array<double, 2> range{};
     FrameFields frame;
     reader.require({"name", "axis", "range"});
     reader.text("name", hinge.name, "Name of the hinge and of its joint.");
@@ -183,13 +220,65 @@ class ModuleReader {
     hinge.child = body_of(reader, "child");
     frame.fields(reader);
     direction(reader, "axis", hinge.axis, "Axis, hinge frame.");
-    reader.vector("range", range, {"rad", -kAny, kAny, "Smallest and largest angle."});
+    read_range(reader, hinge);
     hinge.in_parent = frame.pose();
-    hinge.lo = range[0];
-    hinge.hi = range[1];
+    if (newer(reader, node,
+              {"drive", "stiffness", "rest", "damping", "friction", "friction_speed", "actuator", "controller"})) {
+      read_drive(reader, hinge);
+    }
     type_.hinges.push_back(hinge);
     places_.hinges.push_back(node);
     reader.finish();
+  }
+
+  void read_range(Reader& reader, HingeType& hinge) {
+    const Node* node = reader.take("range");
+    if (node != nullptr && node->kind == Node::Kind::scalar && node->text == "free") {
+      if (places_.format < 2) need_format_2("range: free is", node->place);
+      hinge.lo = -kNoStop;
+      hinge.hi = kNoStop;
+      return;
+    }
+    if (node != nullptr && node->kind != Node::Kind::list && places_.format >= 2) {
+      problems_.add(node->place, fmt::format("range is {}; expected a list of 2 numbers in rad, or free", found(*node)));
+      return;
+    }
+    std::array<double, 2> range{};
+    reader.vector("range", range, {"rad", -kAny, kAny, "Smallest and largest angle."});
+    hinge.lo = range[0];
+    hinge.hi = range[1];
+  }
+
+  /// A motor, or what a hinge has without one. The keys of `actuator` and `controller` are known once their types' plugins are.
+  void read_drive(Reader& reader, HingeType& hinge) {
+    enum class Drive { motor, none };
+    constexpr std::array<const char*, 2> kDrives{"motor", "none"};
+    Drive drive = Drive::motor;
+    reader.choice("drive", drive, kDrives, "Whether a motor drives the hinge.");
+    for (const char* key : {"actuator", "controller"}) {
+      const Node* own = reader.take(key);
+      if (own == nullptr) continue;
+      if (own->kind != Node::Kind::map) {
+        problems_.add(own->place, fmt::format("{} is {}; expected a map", key, found(*own)));
+      } else if (drive == Drive::none) {
+        problems_.add(own->place, fmt::format("hinge '{}' has {} and drive: none; expected one of them", hinge.name, key));
+      }
+    }
+    Passive passive;
+    reader.number("stiffness", passive.stiffness, {"N m/rad", 0, 1e9, "Of a spring."});
+    reader.number("rest", passive.rest, {"rad", -1000, 1000, "Angle at which the spring is at rest."});
+    reader.number("damping", passive.damping, {"N m s/rad", 0, 1e9, "Of a viscous damper."});
+    reader.number("friction", passive.friction, {"N m", 0, 1e9, "Dry friction."});
+    reader.number("friction_speed", passive.friction_speed, {"rad/s", 1e-6, 1e3, "Speed below which dry friction is viscous."});
+    if (drive == Drive::none) {
+      hinge.passive = passive;
+      return;
+    }
+    for (const char* key : {"stiffness", "rest", "damping", "friction", "friction_speed"}) {
+      if (const Node* own = reader.take(key)) {
+        problems_.add(own->place, fmt::format("{} is of a hinge without a motor; add drive: none, or remove it", key));
+      }
+    }
   }
 
   void read_face(const Node& node) {
@@ -199,7 +288,14 @@ class ModuleReader {
     reader.require({"id", "gender", "origin", "normal", "reference"});
     reader.integer("id", id, {"", 0, 1000, "Number of the face in build files."});
     face.body = body_of(reader, "body");
-    reader.choice("gender", face.gender, kGenders, "An active face docks on a passive one.");
+    const Node* gender = reader.take("gender");
+    if (places_.format < 2 && gender != nullptr && gender->text == "none") {
+      need_format_2("gender: none is", gender->place);
+    } else {
+      reader.choice("gender", face.gender, std::span(kGenders).first(places_.format < 2 ? 2 : 3),
+                    "An active face docks on a passive one, none on none.");
+    }
+    if (newer(reader, node, {"connector", "turns"})) read_docking(reader, face);
     length(reader, "origin", face.origin, "Middle of the face, body frame.");
     direction(reader, "normal", face.normal, "Outward normal, body frame.");
     direction(reader, "reference", face.reference, "In-plane reference direction, body frame.");
@@ -207,6 +303,25 @@ class ModuleReader {
     type_.faces.push_back(face);
     places_.faces.push_back(node);
     reader.finish();
+  }
+
+  void read_docking(Reader& reader, FaceType& face) {
+    reader.text("connector", face.connector, "Name of its connector; faces dock where these are the same.");
+    if (const Node* name = reader.take("connector")) check_name(face.connector, *name);
+    std::vector<double> turns{0, 1, 2, 3};
+    reader.numbers("turns", turns, {"", 0, 3, "Orientations in which it docks."});
+    const Node* list = reader.take("turns");
+    if (list == nullptr || list->kind != Node::Kind::list) return;
+    face.turns = {};
+    for (const double turn : turns) {
+      const auto number = static_cast<std::size_t>(turn);
+      if (turn != static_cast<double>(number)) {
+        problems_.add(list->place, fmt::format("turns has {}; expected some of 0, 1, 2, 3 (times pi/2)", number_text(turn)));
+        return;
+      }
+      face.turns[number] = true;
+    }
+    if (turns.empty()) problems_.add(list->place, "turns is empty; expected some of 0, 1, 2, 3 (times pi/2)");
   }
 
   void read_contacts(const Node& node) {

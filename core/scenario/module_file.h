@@ -8,7 +8,8 @@
 namespace gaitlab {
 
 /// Reads and checks a module type; findings go to `problems`, and then the type is not to be used. `versioned`: the map stands
-/// in a file of its own, which must say `gaitlab_module: 1`.
+/// in a file of its own, which must say `gaitlab_module: 1` or 2 (docs/modules.md); one in the scenario that does not is of
+/// format 1.
 ModuleType read_module(const Node& document, bool versioned, Problems& problems);
 
 struct ModuleFile {

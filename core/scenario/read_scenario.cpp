@@ -19,32 +19,10 @@
 #include "core/scenario/section_places.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/text_file.h"
+#include "core/scenario/type_presets.h"
 #include "core/scenario/wording.h"
 
 namespace gaitlab {
-
-/// The default motor that the module types name.
-struct TypeMotor {
-  std::string type = describe(Kind::actuator).default_type;
-  const Node* map = nullptr;  ///< its keys, where all types that have a motor agree
-  bool agreed = true;
-};
-
-static TypeMotor motor_of(const std::vector<Node>& documents) {
-  TypeMotor motor;
-  for (const Node& document : documents) {
-    const Node* map = document.find("actuator");
-    if (map == nullptr || map->kind != Node::Kind::map) continue;
-    const Node* type = map->find("type");
-    if (motor.map == nullptr) {
-      motor.map = map;
-      if (type != nullptr) motor.type = type->text;
-    } else if (print_yaml(*map) != print_yaml(*motor.map)) {
-      motor.agreed = false;
-    }
-  }
-  return motor;
-}
 
 class ScenarioReader {
  public:
@@ -193,27 +171,31 @@ class ScenarioReader {
     for (const char* known : {"gaitlab", "name", "plugins", "robot", "controller", "cpg"}) reader.take(known);
     reader.require({"duration"});
     if (const Node* sensors = reader.take("sensors")) check_sensors(*sensors);
-    const TypeMotor motor = motor_of(*scenario_.module_documents);
-    SectionFields sections(scenario_, &catalog_, &problems_, motor.type);
+    const TypePresets motors(Kind::actuator, scenario_.robot.get(), *scenario_.module_documents);
+    const TypePresets gains(Kind::controller, scenario_.robot.get(), *scenario_.module_documents);
+    SectionFields sections(scenario_, &catalog_, &problems_, without_motors() ? "none" : motors.type());
+    sections.controller.type = gains.type();
     sections.has_cpg = root_.find("cpg") != nullptr;
     sections.physics.solver = asks_for_solver();
-    sections.actuator.presets = [&](const Entry& entry, void* settings) {
-      if (motor.map == nullptr || !motor.agreed || entry.name != motor.type) return;
-      Reader preset(*motor.map, "actuator", problems_, joints);
-      preset.take("type");
-      preset.take("source");
-      visit_settings(entry, settings, preset);
-      preset.finish();
-    };
+    sections.actuator.presets = [&](const Entry& entry, void* settings) { motors.fill(entry, settings, joints, problems_); };
+    sections.controller.presets = [&](const Entry& entry, void* settings) { gains.fill(entry, settings, joints, problems_); };
     sections.actuator.none = !reads("actuator") && scenario_.actuator.entry == nullptr;
     sections.fields(reader);
     reader.finish();
     if (const Node* ground = root_.find("ground"); ground != nullptr && reads("ground"))
       finish_ground(*ground, folder_, scenario_, problems_);
     ScenarioChecks checks(root_, scenario_, catalog_, problems_);
-    check_motors(motor);
+    if (!motors.agreed() && !given(root_, "actuator")) motors.refuse(given(root_, "robot").value_or(root_.place), problems_);
+    if (!gains.agreed() && !given(root_, "controller") && !sections.actuator.none) {
+      gains.refuse(given(root_, "robot").value_or(root_.place), problems_);
+    }
     checks.law();
-    if (sections.actuator.none) refuse_controller();
+    if (sections.actuator.none) {
+      refuse_controller();
+    } else if (without_motors()) {
+      problems_.add(place_of(root_, "actuator", "type"),
+                    "an actuator is given, but every hinge of the robot has drive: none; remove this section");
+    }
     checks.initial_angles();
     checks.figure_joints();
     checks.base_velocity();
@@ -236,14 +218,10 @@ class ScenarioReader {
     return law != nullptr && law->text == "bullet";
   }
 
-  void check_motors(const TypeMotor& motor) {
-    if (motor.agreed || given(root_, "actuator")) return;
-    Problem& problem =
-        problems_.add(given(root_, "robot").value_or(root_.place),
-                      "the module types have different actuators; say which one holds: add actuator: {type: ...}");
-    for (const Node& document : *scenario_.module_documents) {
-      if (const Node* map = document.find("actuator")) problem.notes.emplace_back(map->place, "one is here");
-    }
+  /// The robot has hinges, and none of them has a motor.
+  [[nodiscard]] bool without_motors() const {
+    return scenario_.robot && !scenario_.robot->joints.empty() &&
+           std::ranges::none_of(scenario_.robot->joints, [](const Joint& joint) { return joint.driven(); });
   }
 
   void refuse_controller() {

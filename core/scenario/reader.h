@@ -29,7 +29,9 @@ class Reader final : public Fields {
   const Node* take(const char* key);
   [[nodiscard]] bool has(const char* key) const { return map_->find(key) != nullptr; }
   /// A format version, of which this program reads 1; false with a problem where it is another one.
-  bool version(const char* key);
+  bool version(const char* key) { return version(key, 1) != 0; }
+  /// The same, of versions 1 to `newest`: the version, 1 where none is given, 0 with a problem.
+  std::int64_t version(const char* key, std::int64_t newest);
   /// From now on only these keys are read; the fields of others keep their values.
   void only(std::vector<std::string> keys) { only_ = std::move(keys); }
   /// Reports the keys that are missing.

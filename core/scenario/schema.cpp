@@ -32,7 +32,7 @@ constexpr const char* kParts = R"json({
     "body": {"type": "string"}, "point": {"$ref": "#/definitions/vector"}, "sphere": {"$ref": "#/definitions/vector"},
     "radius": {"type": "number"}, "source": {"$ref": "#/definitions/source"}}},
   "module_type": {"type": "object", "additionalProperties": false, "required": ["name", "bodies"], "properties": {
-    "gaitlab_module": {"const": 1, "description": "Format version."},
+    "gaitlab_module": {"enum": [1, 2], "description": "Format version."},
     "name": {"type": ["string", "number", "boolean"], "description": "Name of the type."},
     "lattice": {"type": "boolean", "description": "Bodies with faces fill cells of a cubic lattice."},
     "source": {"$ref": "#/definitions/source"},
@@ -49,21 +49,41 @@ constexpr const char* kParts = R"json({
         "name": {"type": ["string", "number", "boolean"]}, "parent": {"type": "string"}, "child": {"type": "string"},
         "origin": {"$ref": "#/definitions/vector"}, "rpy": {"$ref": "#/definitions/vector"},
         "axis": {"$ref": "#/definitions/vector"},
-        "range": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2,
-                  "description": "Smallest and largest angle. [rad]"},
+        "range": {"description": "Smallest and largest angle, or free. [rad]", "anyOf": [{"const": "free"},
+          {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}]},
+        "drive": {"enum": ["motor", "none"], "default": "motor", "description": "Whether a motor drives the hinge."},
+        "stiffness": {"type": "number", "minimum": 0, "description": "Of a spring; drive: none. [N m/rad]"},
+        "rest": {"type": "number", "description": "Angle at which it is at rest. [rad]"},
+        "damping": {"type": "number", "minimum": 0, "description": "Of a viscous damper; drive: none. [N m s/rad]"},
+        "friction": {"type": "number", "minimum": 0, "description": "Dry friction; drive: none. [N m]"},
+        "friction_speed": {"type": "number", "exclusiveMinimum": 0,
+                           "description": "Speed below which dry friction is viscous. [rad/s]"},
+        "actuator": {"type": "object", "description": "Of this hinge, over the type's key by key."},
+        "controller": {"type": "object", "description": "Of this hinge, over the type's key by key."},
         "source": {"$ref": "#/definitions/source"}}}},
     "faces": {"type": "array", "items": {
       "type": "object", "additionalProperties": false,
       "required": ["id", "body", "gender", "origin", "normal", "reference"], "properties": {
         "id": {"type": "integer", "minimum": 0, "maximum": 1000, "description": "Number of the face in build files."},
-        "body": {"type": "string"}, "gender": {"enum": ["active", "passive"]},
+        "body": {"type": "string"}, "gender": {"enum": ["active", "passive", "none"]},
+        "connector": {"type": "string", "description": "Name of its connector; like docks on like."},
+        "turns": {"type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 3}, "minItems": 1,
+                  "description": "Orientations in which it docks."},
         "origin": {"$ref": "#/definitions/vector"}, "normal": {"$ref": "#/definitions/vector"},
         "reference": {"$ref": "#/definitions/vector"}, "source": {"$ref": "#/definitions/source"}}}},
     "contacts": {"type": "object", "additionalProperties": false, "properties": {
       "feet": {"type": "array", "items": {"$ref": "#/definitions/contact"}},
       "all": {"type": "array", "items": {"$ref": "#/definitions/contact"}},
       "source": {"$ref": "#/definitions/source"}}},
-    "actuator": {"type": "object", "description": "The default motor."}}},
+    "connectors": {"type": "object", "description": "What connectors bear, by name.", "additionalProperties": {
+      "type": "object", "additionalProperties": false, "properties": {
+        "tension": {"type": "number", "exclusiveMinimum": 0, "description": "Largest pull along the normal. [N]"},
+        "shear": {"type": "number", "exclusiveMinimum": 0, "description": "Largest force in the plane of the face. [N]"},
+        "bending": {"type": "number", "exclusiveMinimum": 0, "description": "Largest moment about axes in it. [N m]"},
+        "torsion": {"type": "number", "exclusiveMinimum": 0, "description": "Largest moment about the normal. [N m]"},
+        "source": {"$ref": "#/definitions/source"}}}},
+    "actuator": {"type": "object", "description": "The default motor."},
+    "controller": {"type": "object", "description": "The default controller."}}},
   "module_choice": {"anyOf": [{"type": "string"}, {"$ref": "#/definitions/module_type"}]}
 })json";
 

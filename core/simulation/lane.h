@@ -26,6 +26,9 @@ struct Simulation::Lane {
         sample(*s.robot, contacts.size(), cpg == nullptr ? 0 : cpg->states()) {
     const std::size_t n = info.joints.size();
     for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit}) values->assign(n, 0.0);
+    for (std::size_t j = 0; j < n; ++j) {
+      if (!robot.joints[j].driven()) passive.push_back(j);
+    }
     touching.assign(info.modules.size(), 0.0);
     for (auto* values : {&k1, &k2, &k3, &k4, &stage}) values->assign(sample.cpg.size(), 0.0);
   }
@@ -57,6 +60,7 @@ struct Simulation::Lane {
   bool closed = false;  ///< its record is complete
   std::string failure;  ///< why it ended early
   std::vector<ContactElement> contacts;
+  std::vector<std::size_t> passive = {};  ///< joints without a motor
   std::unique_ptr<Cpg> cpg;
   std::unique_ptr<Controller> controller;
   Out cpg_state, controller_state, ledger;                                       // parts of the one state array

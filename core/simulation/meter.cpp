@@ -23,6 +23,7 @@ Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()), time_(lane
     for (const Scenario& lane : lanes) {
       lo_.push_back(lane.robot->joints.at(j).lo);
       hi_.push_back(lane.robot->joints.at(j).hi);
+      driven_.push_back(lane.robot->joints.at(j).driven());
     }
   }
   for (auto& sums : sums_) sums.assign(lo_.size(), 0.0);
@@ -65,7 +66,7 @@ void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Ac
     double* const to = at(sums_, member);
     for (std::size_t i = 0; i < n; ++i) to[i] += share_[i] * value(i);
   };
-  const auto error = [&](std::size_t i) { return setpoint[i] - angle[i]; };
+  const auto error = [&](std::size_t i) { return driven_[i] ? setpoint[i] - angle[i] : 0.0; };
   const auto excess = [&](std::size_t i) { return std::max(std::max(angle[i] - hi_[i], lo_[i] - angle[i]), 0.0); };
   const auto shaft = [&](std::size_t i) { return torque[i] * speed[i]; };
   const auto first = [&](double F::*member, double F::*of, auto value) {  // before the peak itself, which decides
@@ -100,7 +101,8 @@ void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Ac
   share(&F::saturated_current, [&](std::size_t i) { return report.saturation[i] == 2 ? 1.0 : 0.0; });
   share(&F::range_share, [&](std::size_t i) { return excess(i) > 0 ? 1.0 : 0.0; });
   peak(&F::range_worst, excess);
-  share(&F::setpoint_outside, [&](std::size_t i) { return setpoint[i] > hi_[i] || setpoint[i] < lo_[i] ? 1.0 : 0.0; });
+  share(&F::setpoint_outside,
+        [&](std::size_t i) { return driven_[i] && (setpoint[i] > hi_[i] || setpoint[i] < lo_[i]) ? 1.0 : 0.0; });
   sum(&F::electrical, [&](std::size_t i) { return report.power_in[i]; });
   sum(&F::copper, [&](std::size_t i) { return report.copper[i]; });
   sum(&F::gear, [&](std::size_t i) { return report.gear[i]; });

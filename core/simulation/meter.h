@@ -24,6 +24,7 @@ class Meter {
   void tick(std::size_t lane, Out row);
 
  private:
+  std::vector<bool> driven_;
   std::vector<double> lo_, hi_;
   std::array<std::vector<double>, kJointStatistics.size()> sums_;  // plain loops over all joints and lanes
   // Since the last tick: N m, rad, saturation at that torque, rad/s, share of the torque that there is, V, A.

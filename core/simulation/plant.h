@@ -46,6 +46,7 @@ struct PlantSettings : LaneSettings {
   const Actuator* actuator = nullptr;  ///< joint * lanes + lane; nullptr: no motors
   std::string integrator;              ///< one of the engine's by name; "": its default
   bool solver = false;                 ///< contact.law: bullet; `law` is not used
+  double step = 0;                     ///< s: the longest that advance is given
 };
 
 /// Stateless but for caches, unless it says otherwise (state_is_complete): the simulation owns the numbers and binds them once;
@@ -68,7 +69,7 @@ class Plant {
   /// Whether the bound numbers are all it goes by, so that a copy of them is a snapshot and forces follow from them.
   [[nodiscard]] virtual bool state_is_complete() const { return true; }
   /// Forward dynamics by the engine's own algorithm at `state`, not the bound one: accelerations under these joint torques, N
-  /// m, and wrenches on bodies. Weight acts; motors, stops and contacts do not, but for the motors' rotors.
+  /// m, and wrenches on bodies. Weight acts; motors, stops, passive hinges and contacts do not, but for the motors' rotors.
   virtual void accelerate(std::size_t lane, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
                           Acceleration& out) = 0;
   /// Takes the present state for contacts and com, all lanes at once.

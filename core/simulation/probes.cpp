@@ -19,7 +19,7 @@ Sample::Sample(const Robot& robot, std::size_t contacts_count, std::size_t cpg_s
       cpg(cpg_states),
       reactions(robot) {
   for (auto* values : {&state.q, &state.qd, &setpoint, &command, &voltage, &current, &saturation, &torque, &stop_torque,
-                       &acceleration_.joints, &applied_, &tally.torque_error, &tally.torque_peak}) {
+                       &passive_torque, &acceleration_.joints, &applied_, &tally.torque_error, &tally.torque_peak}) {
     values->assign(robot.joints.size(), 0.0);
   }
   ground_.reserve(contacts_count);
@@ -53,7 +53,7 @@ void Sample::place_boxes(const Plant& plant) {
 }
 
 void Sample::compute_reactions(const std::vector<ContactElement>& elements, Plant& plant, std::size_t lane) {
-  for (std::size_t j = 0; j < applied_.size(); ++j) applied_[j] = torque[j] + stop_torque[j];
+  for (std::size_t j = 0; j < applied_.size(); ++j) applied_[j] = torque[j] + stop_torque[j] + passive_torque[j];
   ground_.clear();
   for (std::size_t c = 0; c < elements.size(); ++c) {
     if (contacts[c].fn > 0) ground_.push_back({elements[c].body, contacts[c].point, contacts[c].force});
@@ -94,7 +94,7 @@ void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>
   for (std::size_t i = 0; cpg != nullptr && i < cpg->states(); ++i) {
     add("cpg." + cpg->state_name(i), "", "state of the CPG", [i](const Sample& s) { return s.cpg[i]; });
   }
-  add_energy();
+  add_energy(robot);
   add_steps(robot);
   add_reactions(robot);
 }
@@ -131,9 +131,10 @@ void Probes::add_vector(const std::string& name, const std::string& unit, const 
   }
 }
 
-void Probes::add_joints(const Robot& robot, bool driven, std::string_view command_unit) {
+void Probes::add_joints(const Robot& robot, bool motors, std::string_view command_unit) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const std::string of = " of joint " + robot.joints[j].name;
+    const bool driven = motors && robot.joints[j].driven();
     const auto joint = [&](const char* quantity, std::string_view unit, const char* definition,
                            std::vector<double> Sample::*values) {
       add(fmt::format("joint.{}.{}", j, quantity), std::string(unit), definition + of, (sample_.*values)[j]);
@@ -146,6 +147,10 @@ void Probes::add_joints(const Robot& robot, bool driven, std::string_view comman
       joint("voltage", "V", "terminal voltage of the motor", &Sample::voltage);
       joint("current", "A", "current of the motor", &Sample::current);
       joint("torque", "N m", "motor torque on the joint, positive along the axis,", &Sample::torque);
+    }
+    if (!robot.joints[j].driven()) {
+      joint("passive_torque", "N m", "torque of spring, damper and friction of the hinge, positive along the axis,",
+            &Sample::passive_torque);
     }
     joint("stop_torque", "N m", "torque of the hinge stop, positive along the axis,", &Sample::stop_torque);
     if (driven) joint("saturation", "", "0 none, 1 voltage, 2 current:", &Sample::saturation);
@@ -224,7 +229,7 @@ void Probes::add_boxes(const Ground& ground) {
   }
 }
 
-void Probes::add_energy() {
+void Probes::add_energy(const Robot& robot) {
   add("energy.kinetic", "J", "kinetic energy of all links", [](const Sample& s) { return s.sums.kinetic; });
   add("energy.potential", "J", "weight times height of the centre of mass", [](const Sample& s) { return s.sums.potential; });
   const auto ledger = [&](const char* entry, const char* definition, double Ledger::*value) {
@@ -238,6 +243,9 @@ void Probes::add_energy() {
   ledger("contact", "given to the ground along its normal", &Ledger::contact);
   ledger("friction", "given to the ground along it", &Ledger::friction);
   ledger("stops", "given to the hinge stops", &Ledger::stops);
+  if (!std::ranges::all_of(robot.joints, [](const Joint& joint) { return joint.driven(); })) {
+    ledger("hinges", "lost in dampers and friction of passive hinges", &Ledger::hinges);
+  }
   add("energy.residual", "J", "electrical less all the others: the integration's error, from t = 0",
       [](const Sample& s) { return s.ledger.residual(); });
   add_vector("momentum", "N s", "linear momentum, world axes", [](const Sample& s) { return s.sums.momentum; });

@@ -27,13 +27,14 @@ struct Sample {
   std::vector<Quat> orientation;  ///< of every link frame; sign continuous in time
   Sums sums;
   Vec3 gravity = Vec3::Zero();
-  std::vector<double> setpoint, command, voltage, current, saturation, torque, stop_torque;
+  std::vector<double> setpoint, command, voltage, current, saturation, torque, stop_torque, passive_torque;
   std::vector<ContactSample> contacts;
   std::vector<BoxMotion> boxes;  ///< of Ground::boxes
   std::vector<double> cpg;
   Ledger ledger;
   StepTally tally;
-  InverseDynamics reactions;  ///< at hinges, docks and base: motors, stops and contacts acting; only after react
+  InverseDynamics
+      reactions;  ///< at hinges, docks and base: motors, stops, passive hinges and contacts acting; only after react
 
  private:
   Acceleration acceleration_;
@@ -71,13 +72,13 @@ class Probes {
   void add(std::string name, std::string unit, std::string definition, const double& number);
   void add_vector(const std::string& name, const std::string& unit, const std::string& definition,
                   const std::function<Vec3(const Sample&)>& read);
-  void add_joints(const Robot& robot, bool driven, std::string_view command_unit);
+  void add_joints(const Robot& robot, bool motors, std::string_view command_unit);
   void add_base();
   void add_contacts(const std::vector<ContactElement>& contacts);
   void add_loads(const Robot& robot, const std::vector<ContactElement>& contacts);
   void add_bodies(const Robot& robot, const Sample& first);
   void add_boxes(const Ground& ground);
-  void add_energy();
+  void add_energy(const Robot& robot);
   void add_steps(const Robot& robot);
   void add_wrench(const std::string& name, const std::string& of, const std::function<const Wrench&(const Sample&)>& read);
   void add_reactions(const Robot& robot);

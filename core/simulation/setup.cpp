@@ -20,12 +20,14 @@ constexpr double kTickRows = 2e-3;  // s, between rows of Recording::ticks at le
 
 bool can_share(const Scenario& a, const Scenario& b) {
   const auto same_link = [](const Link& x, const Link& y) { return x.parent == y.parent && x.joint == y.joint; };
+  const auto same_drive = [](const Joint& x, const Joint& y) { return x.driven() == y.driven(); };
   const auto same_place = [](const ContactElement& x, const ContactElement& y) { return x.link == y.link; };
   const auto elements = [](const Scenario& s) { return contact_elements(*s.robot, s.contact.on); };
   return a.physics.engine == b.physics.engine && a.physics.integrator == b.physics.integrator &&
          a.physics.step == b.physics.step && a.physics.adaptive_step == b.physics.adaptive_step &&
          a.control_period == b.control_period && a.actuator.entry == b.actuator.entry && a.base == b.base &&
          a.contact.solver() == b.contact.solver() && std::ranges::equal(a.robot->links, b.robot->links, same_link) &&
+         std::ranges::equal(a.robot->joints, b.robot->joints, same_drive) &&
          std::ranges::equal(elements(a), elements(b), same_place);
 }
 
@@ -76,6 +78,7 @@ PlantSettings Simulation::plant_settings() const {
   settings.actuator = actuator_.get();
   settings.integrator = scenarios_[0].physics.integrator->name;
   settings.solver = scenarios_[0].contact.solver();
+  settings.step = h_;
   return settings;
 }
 

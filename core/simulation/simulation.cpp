@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/laws/hinge_stop.h"
+#include "core/laws/passive_hinge.h"
 #include "core/simulation/cpg_check.h"
 #include "core/simulation/lane.h"
 
@@ -112,7 +113,7 @@ void Simulation::evaluate_available(In speeds, In torques) {
   }
 }
 
-/// Kinetic and potential, rotors included, J.
+/// Kinetic and potential, rotors and springs of passive hinges included, J.
 double Simulation::energy(const Lane& lane) const {
   const Sample& sample = lane.sample;
   double rotors = 0;
@@ -120,7 +121,17 @@ double Simulation::energy(const Lane& lane) const {
   for (std::size_t j = 0; j < layout_.joints && !inertia.empty(); ++j) {
     rotors += inertia[j * lanes_.size() + lane.index] * sample.state.qd[j] * sample.state.qd[j] / 2;
   }
-  return sample.sums.kinetic + sample.sums.potential + rotors;
+  double stored = sample.sums.kinetic + sample.sums.potential + rotors;
+  for (const std::size_t j : lane.passive) stored += law(*lane.robot.joints[j].passive).energy(sample.state.q[j]);
+  return stored;
+}
+
+/// What passive hinges give at the state of a sample.
+void Simulation::take_passive(const Lane& lane, Sample& s) {
+  for (const std::size_t j : lane.passive) {
+    const PassiveHinge hinge = law(*lane.robot.joints[j].passive);
+    s.passive_torque[j] = hinge.spring(s.state.q[j]) + hinge.loss(s.state.qd[j]).torque;
+  }
 }
 
 double Simulation::stop_torque(const Lane& lane, const RobotState& state, std::size_t joint) {
@@ -150,6 +161,7 @@ Sample& Simulation::take_sample(Lane& lane, bool whole) {
     s.torque[j] = torque_[i];
     s.stop_torque[j] = stop_torque(lane, s.state, j);
   }
+  take_passive(lane, s);
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
   plant_->tally(l, s.tally);
   if (step_error_) {
@@ -316,6 +328,7 @@ void Simulation::record_loads(Lane& lane) {
     s.torque[j] = torque_[j * lanes_.size() + lane.index];
     s.stop_torque[j] = stop_torque(lane, s.state, j);
   }
+  take_passive(lane, s);
   if (lane.loads->want_reactions()) s.compute_reactions(lane.contacts, *plant_, lane.index);
   Trace& loads = lane.recording.loads;
   loads.values.resize(loads.values.size() + loads.columns.size());
@@ -332,9 +345,11 @@ void Simulation::command(Lane& lane) {
   } else {
     for (std::size_t j = 0; j < lane.setpoint.size(); ++j) lane.setpoint[j] = lane.scenario.initial.angles[j];
   }
+  for (const std::size_t j : lane.passive) lane.setpoint[j] = lane.angle[j];
   if (lane.controller != nullptr) {
     lane.controller->update(measured, lane.setpoint, lane.limit, lane.controller_state, lane.command);
   }
+  for (const std::size_t j : lane.passive) lane.command[j] = 0;
   for (std::size_t j = 0; j < lane.setpoint.size(); ++j) {
     setpoint_[j * lanes + lane.index] = lane.setpoint[j];
     command_[j * lanes + lane.index] = lane.command[j];
@@ -383,6 +398,7 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
     sums[3] += applied.contact[l];
     sums[4] += applied.friction[l];
     sums[5] += applied.stops[l];
+    sums[6] += applied.hinges[l];
   }
 }
 

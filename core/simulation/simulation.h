@@ -92,6 +92,7 @@ class Simulation {
   void observe();
   [[nodiscard]] double energy(const Lane& lane) const;
   [[nodiscard]] static double stop_torque(const Lane& lane, const RobotState& state, std::size_t joint);
+  static void take_passive(const Lane& lane, Sample& sample);
   Sample& take_sample(Lane& lane, bool whole);
   template <class Work>
   void guard(Lane& lane, Work work);

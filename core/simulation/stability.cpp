@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/laws/hinge_stop.h"
+#include "core/laws/passive_hinge.h"
 #include "core/simulation/support.h"
 
 namespace gaitlab {
@@ -34,6 +35,7 @@ void static_contact_slopes(const LaneSettings& s, const Kinematics& k, std::vect
 RateMonitor::RateMonitor(const Robot& robot)
     : motor(robot.joints.size(), 0.0),
       stop(robot.joints.size(), 0.0),
+      hinge(robot.joints.size(), 0.0),
       x_(6 + robot.joints.size()),
       kx_(x_.size()),
       y_(x_.size()),
@@ -45,6 +47,15 @@ RateMonitor::RateMonitor(const Robot& robot)
 void RateMonitor::stop_at(const Robot& robot, const RobotState& state) {
   for (std::size_t j = 0; j < stop.size(); ++j) {
     stop[j] = HingeStop::at(state.q[j], state.qd[j], robot.joints[j].lo, robot.joints[j].hi).damping;
+  }
+}
+
+/// At rest dry friction is steepest.
+void RateMonitor::hinge_at(const Robot& robot, const RobotState& state, bool standing, double step) {
+  for (std::size_t j = 0; j < hinge.size(); ++j) {
+    if (robot.joints[j].driven()) continue;
+    const PassiveHinge own = law(*robot.joints[j].passive);
+    hinge[j] = own.loss(standing ? 0 : state.qd[j]).slope + step * own.stiffness;
   }
 }
 
@@ -71,7 +82,7 @@ void RateMonitor::damp(const Robot& robot, const Kinematics& k, In x, Out f) {
   for (std::size_t i = robot.links.size() - 1; i > 0; --i) {
     const auto parent = static_cast<std::size_t>(robot.links[i].parent);
     const auto joint = static_cast<std::size_t>(robot.links[i].joint);
-    f[6 + joint] = (k.R[i] * robot.links[i].axis).dot(moment_[i]) + (motor[joint] + stop[joint]) * x[6 + joint];
+    f[6 + joint] = (k.R[i] * robot.links[i].axis).dot(moment_[i]) + (motor[joint] + stop[joint] + hinge[joint]) * x[6 + joint];
     force_[parent] += force_[i];
     moment_[parent] += moment_[i] + (k.p[i] - k.p[parent]).cross(force_[i]);
   }
@@ -94,6 +105,7 @@ Stability RateMonitor::attribute(const Kinematics& k, In x, double rate) const {
   for (std::size_t j = 0; j < motor.size(); ++j) {
     offer(motor[j] * x[6 + j] * x[6 + j], Stability::Source::motor, j);
     offer(stop[j] * x[6 + j] * x[6 + j], Stability::Source::stop, j);
+    offer(hinge[j] * x[6 + j] * x[6 + j], Stability::Source::hinge, j);
   }
   for (const ContactSlope& c : contacts) {
     const Vec3 v = velocity_at(k, c);

@@ -42,15 +42,18 @@ class RateMonitor {
 
   /// Fill before each call; sized by the joints, and cleared of contacts.
   std::vector<double> motor, stop;     ///< damping slopes, N m s/rad
+  std::vector<double> hinge;           ///< the same of passive hinges, and what a step's length makes of their stiffness
   std::vector<ContactSlope> contacts;  ///< capacity is reserved by the caller
 
   /// The rate that limits the step, of an engine that has filled `motor` (standing: with the slopes at rest, for a robot that
   /// stands does not turn its motors, and at speed they may be saturated, their slope 0). `touching` fills `contacts` at the
-  /// present state; a robot that stands has those that carry it, whatever touches at the start.
+  /// present state; a robot that stands has those that carry it, whatever touches at the start. A spring of stiffness K counts
+  /// as a damper of step K, so that step^2 K / inertia is kept below 1 with it.
   template <class Touching>
   [[nodiscard]] Stability rule(const LaneSettings& lane, Base base, const Kinematics& kinematics, const RobotState& state,
-                               bool standing, InverseMass& inverse_mass, Touching touching) {
+                               bool standing, double step, InverseMass& inverse_mass, Touching touching) {
     stop_at(*lane.robot, state);
+    hinge_at(*lane.robot, state, standing, step);
     contacts.clear();
     if (standing && base != Base::fixed) {
       static_contact_slopes(lane, kinematics, contacts);
@@ -67,6 +70,7 @@ class RateMonitor {
 
  private:
   void stop_at(const Robot& robot, const RobotState& state);
+  void hinge_at(const Robot& robot, const RobotState& state, bool standing, double step);
   void damp(const Robot& robot, const Kinematics& k, In velocity, Out force);
   [[nodiscard]] Vec3 velocity_at(const Kinematics& k, const ContactSlope& c) const;
   [[nodiscard]] Stability attribute(const Kinematics& k, In velocity, double rate) const;

@@ -38,6 +38,7 @@ struct StepEffort {
   };
   std::span<const Part> parts;
   In contact, friction, stops;  ///< a lane: J that the robot gave the ground along its normal, along it, and the hinge stops
+  In hinges;                    ///< a lane: J that dampers and friction of passive hinges took
 };
 
 /// StepEffort of a plant of one lane that takes its step in one.
@@ -47,9 +48,9 @@ class OnePart {
     h_ = h;
     part_ = {torque, speed, angle, {&h_, 1}, {&h_, 1}};
   }
-  /// works: contact, friction, stops, J
+  /// works: contact, friction, stops, hinges, J
   [[nodiscard]] StepEffort applied(In works) const {
-    return {{&part_, 1}, works.subspan(0, 1), works.subspan(1, 1), works.subspan(2, 1)};
+    return {{&part_, 1}, works.subspan(0, 1), works.subspan(1, 1), works.subspan(2, 1), works.subspan(3, 1)};
   }
 
  private:

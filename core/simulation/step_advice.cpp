@@ -37,6 +37,8 @@ std::string source_of(const Stability& stability, const Robot& robot, const std:
       return "the hinge stop of joint " + robot.joints[stability.index].name;
     case Stability::Source::contact:
       return "the contact " + contacts[stability.index].name;
+    case Stability::Source::hinge:
+      return "spring, damper and friction of joint " + robot.joints[stability.index].name;
   }
   return "";
 }

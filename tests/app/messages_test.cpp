@@ -112,8 +112,8 @@ TEST_F(Messages, ARingOfModules) {
   const std::string chain = "gaitlab: 1\nrobot: {modules: mtran, docks: [";
   const std::string end = "]}\nduration: 1\n";
   const std::string ring =
-      "error: this dock closes a ring: module 0 and module {} are joined by others already; closed chains are not "
-      "supported, docks form a tree";
+      "error: this dock closes a ring: module 0 and module {} are joined by others already; a robot stays one tree, closed "
+      "chains are not supported";
   refused_text(chain + "[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 0, 4, 2, 0]" + end,
                "s.yaml:2:67: " + fmt::format(fmt::runtime(ring), 2));
   refused_text(chain + "[1, 0, 4, 1, 0], [1, 1, 4, 2, 0], [1, 2, 4, 0, 0]" + end,

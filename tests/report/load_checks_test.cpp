@@ -87,6 +87,40 @@ TEST(LoadChecks, HoldDocksAgainstTheirLimits) {
   EXPECT_EQ(with(kUnknownLimit, kUnknownLimit).value, 5);
 }
 
+/// The same robot with connectors of these limits on its faces: those of the active ones, those of the passive ones.
+LoadCase connected(const Connector& active, const Connector& passive) {
+  LoadCase made = crawl();
+  Robot robot = *made.scenario.robot;
+  for (ModuleType& type : robot.types) {
+    type.connectors = {{"hook", active}, {"eye", passive}};
+    for (FaceType& face : type.faces) face.connector = face.gender == Gender::active ? "hook" : "eye";
+  }
+  made.scenario.robot = std::make_shared<const Robot>(std::move(robot));
+  return made;
+}
+
+TEST(LoadChecks, TakeTheSmallerLimitOfBothConnectors) {
+  const LoadCase free = crawl();
+  const double tension = free.check("dock_tension").value;  // 11.3 N at m5
+  ASSERT_NEAR(tension, 11.3, 0.6);
+  EXPECT_NEAR(free.check("dock_shear").value, 9.34, 0.5) << "at m6";
+  const LoadCase held =
+      connected({.tension = 110, .shear = 50, .source = "rofi.fi.muni.cz"}, {.tension = 20, .source = "chosen: test"});
+  EXPECT_EQ(held.check("dock_tension").status, CheckStatus::pass);
+  EXPECT_EQ(held.check("dock_tension").limit, 20);
+  EXPECT_EQ(held.check("dock_tension").source, "chosen: test");
+  EXPECT_EQ(held.check("dock_shear").limit, 50) << "the other states none";
+  EXPECT_EQ(held.check("dock_shear").source, "rofi.fi.muni.cz");
+  EXPECT_EQ(held.check("dock_bending").status, CheckStatus::not_judged);
+  EXPECT_TRUE(contains(held.check("dock_bending").text, "do not state"));
+  const double limit = 0.97 * tension;  // of 11.3 N: 11 N
+  const LoadCase weak = connected({.tension = limit}, {.tension = 1000});
+  EXPECT_EQ(weak.check("dock_tension").status, CheckStatus::fail);
+  EXPECT_TRUE(contains(weak.check("dock_tension").text, "m5/dock is pulled apart")) << weak.check("dock_tension").text;
+  const Verdict made = verdict(weak.scenario, weak.record, weak.summary(), overlaps(weak.scenario, weak.record));
+  EXPECT_EQ(made.word, "infeasible");
+}
+
 TEST(LoadChecks, OfATensionOnlyThePullCounts) {
   LoadCase made = crawl();
   for (int m = 1; m < 8; ++m) {

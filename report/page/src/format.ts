@@ -8,8 +8,8 @@ export interface Joint {
   name: string;
   module: number;
   body: number; // that it moves; index in bodies
-  lo: number;
-  hi: number;
+  lo: number | null; // null: it turns freely
+  hi: number | null;
   motor: number | null; // index in motors
 }
 
@@ -35,7 +35,7 @@ export interface Shape {
 
 export interface Face {
   id: number;
-  gender: "active" | "passive";
+  gender: "active" | "passive" | "none";
   origin: Vec3;
   normal: Vec3;
   reference: Vec3;

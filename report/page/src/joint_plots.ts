@@ -7,6 +7,7 @@ import { second, TimePlot, type Level, type Tube } from "./timeplot";
 import { limited } from "./motor";
 
 type Cell = "angle" | "error" | "speed" | "torque" | "use";
+const SOURCE: Record<Cell, string> = { angle: "angle", error: "setpoint", speed: "speed", torque: "torque", use: "torque" };
 
 export class JointPlots implements Panel {
   private plots: TimePlot[] = [];
@@ -15,7 +16,7 @@ export class JointPlots implements Panel {
   constructor(private readonly desk: Desk) {
     const names: [Cell, string][] = [["angle", "angle"], ["error", "error"], ["speed", "speed"], ["torque", "torque"], ["use", "of its motor"]];
     for (const [key, name] of names) {
-      if (!this.has({ angle: "angle", error: "setpoint", speed: "speed", torque: "torque", use: "torque" }[key])) continue;
+      if (!this.some(SOURCE[key])) continue;
       const cell = make("dd");
       this.cells.set(key, cell);
       element("now").append(make("div", make("dt", name), cell));
@@ -29,7 +30,7 @@ export class JointPlots implements Panel {
     const { recording } = desk, zero: Level = { value: 0, axis: "left", colour: ink.line }, bands = this.saturated(), name = desk.recording.meta.joints[joint].name;
     if (this.has("angle")) {
       const torque = this.has("torque"), setpoint = this.has("setpoint"), range = desk.recording.meta.joints[joint], reached = this.nearStops();
-      const stops: Level[] = reached ? [range.lo, range.hi].map((value) => ({ value, axis: "left", colour: ink.fail, dash: [2, 3] })) : [];
+      const stops: Level[] = reached ? [range.lo ?? 0, range.hi ?? 0].map((value) => ({ value, axis: "left", colour: ink.fail, dash: [2, 3] })) : [];
       const other = (quantity: string) => desk.ghost?.values(`joint.${joint}.${quantity}`) ?? null, angleB = other("angle"), torqueB = torque ? other("torque") : null, label = desk.ghost?.label ?? "";
       const tube = (quantity: string, axis: Tube["axis"], colour: string): Tube[] => {
         const stray = desk.ghost?.stray(`joint.${joint}.${quantity}`);
@@ -69,13 +70,15 @@ export class JointPlots implements Panel {
       angle: `${fixed(now("angle"), 3)} rad`, error: `${fixed(now("setpoint") - now("angle"), 3)} rad`, speed: `${fixed(now("speed"), 2)} rad/s`,
       torque: `${fixed(now("torque"), this.decimals)} N m`, use: limited(motor) ? percent(Math.round(100 * loads.shareAt(joint, t)) / 100) : "no limit",
     };
-    for (const [key, cell] of this.cells) cell.textContent = texts[key];
+    for (const [key, cell] of this.cells) cell.textContent = this.has(SOURCE[key]) ? texts[key] : "–";
   }
 
   /** So that a small motor's torque has three digits. */
   get decimals(): number { return Math.max(2, Math.ceil(-Math.log10(this.desk.loads.peak)) + 1); }
 
-  private has(name: string): boolean { return this.desk.recording.has(`joint.0.${name}`); }
+  // Of the chosen joint, for hinges without a motor have no set point and no current; in the list of numbers of any.
+  private has(name: string): boolean { return this.desk.recording.has(`joint.${this.desk.state.joint}.${name}`); }
+  private some(name: string): boolean { return this.desk.recording.meta.joints.some((_, j) => this.desk.recording.has(`joint.${j}.${name}`)); }
 
   // What the motor is told (volts, or N m of those that take a torque) and the current it draws.
   private drive(bands: Span[]): void {
@@ -122,7 +125,9 @@ export class JointPlots implements Panel {
   }
 
   private nearStops(): boolean {
-    const { recording, state: { joint } } = this.desk, { lo, hi } = recording.meta.joints[joint], room = 0.05 * (hi - lo);
+    const { recording, state: { joint } } = this.desk, { lo, hi } = recording.meta.joints[joint];
+    if (lo === null || hi === null) return false;
+    const room = 0.05 * (hi - lo);
     return recording.channel(`joint.${joint}.angle`).some((a) => a < lo + room || a > hi - room);
   }
 }

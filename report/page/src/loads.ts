@@ -72,6 +72,7 @@ export class Loads {
       return this.limited ? out : out.map((_, i) => Math.abs(torque[i]) / this.peak);
     }
     const scale = this.scale(quantity), setpoint = one("setpoint"), angle = one("angle"), values = one(quantity);
+    if (quantity === "error" && !recording.has(`joint.${joint}.setpoint`)) return out;
     if (quantity === "error") return out.map((_, i) => Math.abs(setpoint[i] - angle[i]) / scale);
     return out.map((_, i) => Math.abs(values[i]) / scale);
   }

@@ -97,11 +97,11 @@ export class Marks {
   }
 }
 
-/** A face's number: on a filled disc of an active one, in a ring of a passive one; the wedge points along the reference direction. */
+/** A face's number: on a filled disc of an active one, in a ring of a passive one, in a grey ring of one without gender; the wedge points along the reference direction. */
 function plate({ id, gender }: Face, quarters: number): CanvasTexture {
   const canvas = document.createElement("canvas"), g = canvas.getContext("2d")!, c = 64;
   canvas.width = canvas.height = 2 * c;
-  const fill = gender === "active" ? "#0a3f66" : "#fff8e8", stroke = gender === "active" ? "#ffffff" : "#6b4300";
+  const fill = gender === "active" ? "#0a3f66" : "#fff8e8", stroke = { active: "#ffffff", passive: "#6b4300", none: "#444444" }[gender];
   g.fillStyle = fill;
   g.strokeStyle = stroke;
   g.lineWidth = 6;

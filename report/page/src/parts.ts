@@ -20,7 +20,7 @@ export function parts(desk: Desk): void {
     const name = make("button.link", joint.name), motor = desk.loads.motor(j), head = make("th", name);
     head.scope = "row";
     name.type = "button";
-    const made = make("tr", head, make("td", `${degrees(joint.lo)} to ${degrees(joint.hi)}`), make("td", motor?.rest ? `${number(motor.rest)} N m` : "–"), make("td", motor?.no_load ? `${number(motor.no_load)} rad/s` : "–"));
+    const made = make("tr", head, make("td", joint.lo === null || joint.hi === null ? "free" : `${degrees(joint.lo)} to ${degrees(joint.hi)}`), make("td", motor?.rest ? `${number(motor.rest)} N m` : "–"), make("td", motor?.no_load ? `${number(motor.no_load)} rad/s` : "–"));
     made.addEventListener("click", () => desk.choose(j));
     return made;
   });

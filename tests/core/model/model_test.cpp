@@ -223,8 +223,8 @@ TEST(DockingErrors, NameTheRowTheMistakeAndARemedy) {
             "robot.dat:2:1: error: unknown parent module 7: it is neither module 0 nor the child of a row");
   EXPECT_EQ(
       error_of({{1, 1, 4, 0, 0}, {1, 2, 4, 1, 0}, {0, 2, 3, 0, 0}}),
-      "robot.dat:3:1: error: this dock closes a ring: module 2 and module 0 are joined by others already; closed chains are "
-      "not supported, docks form a tree\n"
+      "robot.dat:3:1: error: this dock closes a ring: module 2 and module 0 are joined by others already; a robot stays one "
+      "tree, closed chains are not supported\n"
       "robot.dat:2:1: note: it has its first parent here");
   EXPECT_EQ(error_of({{1, 1, 4, 0, 0}, {1, 2, 4, 3, 0}, {1, 3, 4, 2, 0}}),
             "robot.dat:2:1: error: loop: modules 2 on 3 on 2 hang on one another and none on module 0");

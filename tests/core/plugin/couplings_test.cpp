@@ -66,6 +66,27 @@ TEST(Couplings, TheRightLegsFollowTheLeftOnes) {
   }
 }
 
+// A hinge without a motor is passed over: who followed it follows whom it would.
+TEST(Couplings, PassOverJointsWithoutAMotor) {
+  RobotInfo robot = hexapod();
+  robot.joints[5].driven = false;
+  for (const CouplingRule rule :
+       {CouplingRule::chain, CouplingRule::parent, CouplingRule::siblings, CouplingRule::mirror, CouplingRule::all}) {
+    bool seen = false;
+    for (const Coupling& c : couple(robot, rule, 1, {0.5})) {
+      EXPECT_TRUE(c.from != 5 && c.to != 5) << static_cast<int>(rule);
+      seen = seen || (c.to == 6 && c.from == 4);
+    }
+    EXPECT_TRUE(seen || rule != CouplingRule::chain);
+    if (rule == CouplingRule::all) EXPECT_EQ(couple(robot, rule, 1, {0.5}).size(), 21U * 20U);
+    EXPECT_EQ(phases_of(couple(robot, rule, 1, {0.5}), 22).size(), 22U) << "no rule contradicts itself";
+  }
+  ASSERT_EQ(robot.joints[6].parent, 5);
+  for (const Coupling& c : couple(robot, CouplingRule::parent, 1, {0.5})) {
+    if (c.to == 6) EXPECT_EQ(c.from, 4);
+  }
+}
+
 TEST(Couplings, AllPullTogetherAsHardAsOne) {
   double pull = 0;
   for (const Coupling& c : couple(hexapod(), CouplingRule::all, 2, {0.5})) {

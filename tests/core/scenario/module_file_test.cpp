@@ -48,8 +48,8 @@ TEST_F(ModuleFileTest, ShippedTypesAreValid) {
 
 TEST_F(ModuleFileTest, KeysAndVersion) {
   EXPECT_EQ(error("gaitlab_module: 1\n", ""), "DIR/m.yaml:1:1: error: missing key 'gaitlab_module'");
-  EXPECT_EQ(error("gaitlab_module: 1", "gaitlab_module: 2"),
-            "DIR/m.yaml:1:17: error: gaitlab_module is 2; this program reads format version 1");
+  EXPECT_EQ(error("gaitlab_module: 1", "gaitlab_module: 3"),
+            "DIR/m.yaml:1:17: error: gaitlab_module is 3; this program reads format versions 1 to 2");
   EXPECT_EQ(error("name: duo", "name: my duo"),
             "DIR/m.yaml:2:7: error: name 'my duo' is not allowed; expected letters, digits, _ and -");
   EXPECT_EQ(error("mass: 0.5", "mas: 0.5"), "DIR/m.yaml:6:5: error: unknown key 'mas'; did you mean 'mass'?");
@@ -62,6 +62,65 @@ TEST_F(ModuleFileTest, KeysAndVersion) {
   EXPECT_EQ(error("faces:", "faces: 3\nfaces2:"),
             "DIR/m.yaml:13:8: error: faces is 3; expected a list of maps\n"
             "DIR/m.yaml:14:1: error: unknown key \'faces2\'; did you mean \'faces\'?");
+}
+
+TEST_F(ModuleFileTest, Format2) {
+  const auto read = [&](const std::string& from, const std::string& to) {
+    std::string text = fakes::kDuo;
+    text.replace(text.find("gaitlab_module: 1"), 17, "gaitlab_module: 2");
+    text.replace(text.find(from), from.size(), to);
+    return read_module_file(folder_.write("m.yaml", text)).type;
+  };
+  const auto wrong = [&](const std::string& from, const std::string& to) {
+    return folder_.shown(fakes::error_of([&] { read(from, to); }));
+  };
+  const std::string range = "range: [-1.5, 1.5]";
+  EXPECT_EQ(read(range, "range: free").hinges[0].hi, kNoStop);
+  EXPECT_EQ(read(range, "range: free").hinges[0].lo, -kNoStop);
+  EXPECT_FALSE(read(range, range).hinges[0].passive);
+  const ModuleType sprung = read(range, range + ", drive: none, stiffness: 2, rest: 0.1, damping: 0.3, friction: 4");
+  ASSERT_TRUE(sprung.hinges[0].passive);
+  EXPECT_EQ(sprung.hinges[0].passive->stiffness, 2);
+  EXPECT_EQ(sprung.hinges[0].passive->rest, 0.1);
+  EXPECT_EQ(sprung.hinges[0].passive->damping, 0.3);
+  EXPECT_EQ(sprung.hinges[0].passive->friction, 4);
+  EXPECT_EQ(sprung.hinges[0].passive->friction_speed, 0.1);
+  const ModuleType docks = read("gender: active", "gender: none, connector: hook, turns: [2, 0]");
+  EXPECT_EQ(docks.faces[0].gender, Gender::none);
+  EXPECT_EQ(docks.faces[0].connector, "hook");
+  EXPECT_EQ(docks.faces[0].turns, (std::array{true, false, true, false}));
+  EXPECT_EQ(docks.faces[1].turns, (std::array{true, true, true, true}));
+  const ModuleType known = read("faces:", "connectors: {hook: {tension: 110, shear: 50, source: paper}, eye: {}}\nfaces:");
+  EXPECT_EQ(known.connectors.at("hook").shear, 50);
+  EXPECT_EQ(known.connectors.at("hook").bending, 0) << "not stated";
+  EXPECT_EQ(known.connectors.at("hook").source, "paper");
+
+  EXPECT_EQ(wrong(range, "range: loose"),
+            "DIR/m.yaml:12:83: error: range is 'loose'; expected a list of 2 numbers in rad, or free");
+  EXPECT_EQ(wrong(range, range + ", stiffness: 2"),
+            "DIR/m.yaml:12:114: error: stiffness is of a hinge without a motor; add drive: none, or remove it");
+  EXPECT_EQ(wrong(range, range + ", drive: none, damping: -1"),
+            "DIR/m.yaml:12:127: error: damping is -1 N m s/rad; allowed are 0 to 1e9 N m s/rad");
+  EXPECT_EQ(wrong(range, range + ", drive: none, actuator: {R: 1}"),
+            "DIR/m.yaml:12:128: error: hinge 'h' has actuator and drive: none; expected one of them");
+  EXPECT_EQ(wrong(range, range + ", drive: loose"),
+            "DIR/m.yaml:12:110: error: drive 'loose' is unknown; known names: motor, none");
+  EXPECT_EQ(wrong("gender: active", "gender: active, turns: [0, 1.5]"),
+            "DIR/m.yaml:14:45: error: turns has 1.5; expected some of 0, 1, 2, 3 (times pi/2)");
+  EXPECT_EQ(wrong("gender: active", "gender: active, turns: []"),
+            "DIR/m.yaml:14:45: error: turns is empty; expected some of 0, 1, 2, 3 (times pi/2)");
+  EXPECT_EQ(wrong("gender: active", "gender: active, turns: [4]"),
+            "DIR/m.yaml:14:46: error: turns[0] is 4; allowed are 0 to 3");
+  EXPECT_EQ(wrong("faces:", "connectors: {hook: {tension: 0}}\nfaces:"),
+            "DIR/m.yaml:13:29: error: tension is 0 N; allowed are more than 0 N");
+  // What only format 2 has is said of it in format 1.
+  const std::string old = "is a key of module format 2, and this is format 1; write gaitlab_module: 2";
+  EXPECT_EQ(error(range, range + ", drive: none"), "DIR/m.yaml:12:110: error: 'drive' " + old);
+  EXPECT_EQ(error("faces:", "connectors: {}\nfaces:"), "DIR/m.yaml:13:13: error: 'connectors' " + old);
+  EXPECT_EQ(error(range, "range: free"),
+            "DIR/m.yaml:12:83: error: range: free is of module format 2, and this is format 1; write gaitlab_module: 2");
+  EXPECT_EQ(error("gender: active", "gender: none"),
+            "DIR/m.yaml:14:30: error: gender: none is of module format 2, and this is format 1; write gaitlab_module: 2");
 }
 
 TEST_F(ModuleFileTest, BodiesByName) {

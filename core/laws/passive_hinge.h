@@ -1,0 +1,32 @@
+// A hinge without a motor: spring, damper and dry friction, with their slopes.
+#pragma once
+#include "core/math/functions.h"
+#include "core/math/lanes.h"
+#include "core/model/passive.h"
+
+namespace gaitlab {
+
+/// T = -K (q - rest) - D w - F tanh(w / w_s)  (chosen: docs/equations.md, 2) q rad, w rad/s, N m on the joint. Friction is
+/// viscous below w_s, so that it has a slope; a torque below F makes the hinge creep. T: double or lanes.
+template <class T>
+struct BasicPassiveHinge {
+  T stiffness = 0.0, rest = 0.0, damping = 0.0, friction = 0.0, friction_speed = 1.0;
+
+  /// What damper and friction give, N m, and -d/dw of it, N m s/rad.
+  struct Loss {
+    T torque, slope;
+  };
+  [[nodiscard]] Loss loss(const T& w) const {
+    using math::tanh;
+    const T t = tanh(w / friction_speed);
+    return {-(damping * w + friction * t), damping + friction / friction_speed * (T(1.0) - t * t)};
+  }
+  [[nodiscard]] T spring(const T& q) const { return -(stiffness * (q - rest)); }                     ///< N m
+  [[nodiscard]] T energy(const T& q) const { return T(0.5) * stiffness * (q - rest) * (q - rest); }  ///< J, of the spring
+};
+
+using PassiveHinge = BasicPassiveHinge<double>;
+
+inline PassiveHinge law(const Passive& p) { return {p.stiffness, p.rest, p.damping, p.friction, p.friction_speed}; }
+
+}  // namespace gaitlab
