@@ -6,9 +6,11 @@
 
 #include "app/commands.h"
 #include "core/scenario/manual.h"
+#include "core/scenario/read_scenario.h"
 #include "core/scenario/schema.h"
 #include "core/scenario/text_file.h"
 #include "core/scenario/wording.h"
+#include "report/module_table.h"
 #include "report/recipe.h"
 
 namespace gaitlab::app {
@@ -57,18 +59,19 @@ report::PanelKind panel_kind(const std::string& name) {
 
 std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
 
-std::string about(const std::string& kind, const std::string& name, const Catalog& catalog) {
+std::string about(const std::string& kind, const std::string& name, Catalog& catalog) {
   if (const PluginKind* plugin = find_kind(kind)) {
     const Entry& entry = *catalog.find(plugin->kind, name);
     return first_line(entry.manual) + (entry.origin == kBuiltIn ? "" : fmt::format(" ({})", entry.origin));
   }
   if (kind == "engine") return first_line(catalog.engine(name)->manual);
   if (kind == "figure") return first_line(report::about_panel(panel_kind(name)));
-  return shipped_files(kind).at(name);
+  const std::string file = shipped_files(kind).at(name);
+  return kind == "module" ? report::module_row(read_module(file, catalog)) : file;
 }
 
 int list(const ManualArguments& arguments) {
-  const Catalog catalog = standard_catalog(arguments.plugins);
+  Catalog catalog = standard_catalog(arguments.plugins);
   const std::string& kind = arguments.kind;
   const std::vector<std::string> known = kinds();
   if (!kind.empty() && std::find(known.begin(), known.end(), kind) == known.end()) unknown("kind", kind, known);
@@ -80,8 +83,20 @@ int list(const ManualArguments& arguments) {
   return 0;
 }
 
+/// A shipped type by its name, or one's own by its file.
+int explain_module(const std::string& name, Catalog& catalog) {
+  const std::map<std::string, std::string> shipped = shipped_files("module");
+  const auto known = shipped.find(name);
+  if (known == shipped.end() && !name.ends_with(".yaml")) {
+    unknown("module", name, names("module", catalog), "; one of your own goes by its file, NAME.yaml");
+  }
+  const std::string& file = known == shipped.end() ? name : known->second;
+  fmt::print("{}\nfile: {}\n", report::module_table(read_module(file, catalog)), file);
+  return 0;
+}
+
 int explain(const ManualArguments& arguments) {
-  const Catalog catalog = standard_catalog(arguments.plugins);
+  Catalog catalog = standard_catalog(arguments.plugins);
   const auto& [kind, name, plugins] = arguments;
   if (kind.empty()) {
     fmt::print("{}", explain_scenario(catalog));
@@ -89,6 +104,7 @@ int explain(const ManualArguments& arguments) {
   }
   const std::vector<std::string> known = kinds();
   if (std::find(known.begin(), known.end(), kind) == known.end()) unknown("kind", kind, known);
+  if (kind == "module") return explain_module(name, catalog);
   const std::vector<std::string> all = names(kind, catalog);
   if (std::find(all.begin(), all.end(), name) == all.end()) {
     unknown(kind, name, all, find_kind(kind) != nullptr && plugins.empty() ? "; one of your own needs --plugin LIBRARY" : "");
@@ -101,7 +117,7 @@ int explain(const ManualArguments& arguments) {
                                    engine.integrators.front().name, default_step(engine))));
   }
   if (kind == "figure") fmt::print("{}", report::explain_panel(panel_kind(name)));
-  if (kind == "module" || kind == "robot") fmt::print("{}", read_text(shipped_files(kind).at(name)));
+  if (kind == "robot") fmt::print("{}", read_text(shipped_files(kind).at(name)));
   return 0;
 }
 
@@ -131,7 +147,7 @@ void add_manuals(Commands& commands) {
                                explain, [](CLI::App& command, ManualArguments& arguments) {
                                  CLI::Option* kind = command.add_option(
                                      "KIND", arguments.kind, "cpg, controller, actuator, engine, module, robot, figure");
-                                 kind->needs(command.add_option("NAME", arguments.name, "name as `gaitlab list` prints it"));
+                                 kind->needs(command.add_option("NAME", arguments.name, "name as `gaitlab list` prints it; of a module also its file, NAME.yaml"));
                                  add_plugins(command, arguments);
                                });
   add_command<ManualArguments>(commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,

@@ -32,9 +32,8 @@ class ScenarioReader {
     if (folder_.empty()) folder_ = ".";
   }
 
-  /// Reads the file; afterwards with() makes rollouts of it.
-  const Scenario& read(const std::vector<std::string>& sets) {
-    const std::string text = read_text(path_);
+  /// Reads the file's text; afterwards with() makes rollouts of it.
+  const Scenario& read(const std::string& text, const std::vector<std::string>& sets) {
     std::optional<Node> root = parse_yaml(text, path_, problems_);
     if (!root) raise();
     root_ = std::move(*root);
@@ -308,7 +307,16 @@ class ScenarioReader {
 };
 
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog) {
-  return ScenarioReader(path, catalog).read(sets);
+  return ScenarioReader(path, catalog).read(read_text(path), sets);
+}
+
+Scenario read_module(const std::string& path, Catalog& catalog) {
+  Node file{Node::Kind::scalar};
+  file.text = path;
+  file.quoted = true;
+  const std::string alone = "gaitlab: 1\nname: module\nduration: 1\nground: {type: none}\ncontact: {on: none}\n"
+                            "robot:\n  modules: " + print_yaml(file);
+  return ScenarioReader("module", catalog).read(alone, {});
 }
 
 ScenarioTemplate::ScenarioTemplate(std::string path, std::vector<std::string> sets, Catalog& catalog)
@@ -316,7 +324,7 @@ ScenarioTemplate::ScenarioTemplate(std::string path, std::vector<std::string> se
       sets_(std::move(sets)),
       catalog_(catalog),
       reader_(std::make_unique<ScenarioReader>(path_, catalog)) {
-  reader_->read(sets_);
+  reader_->read(read_text(path_), sets_);
 }
 
 ScenarioTemplate::~ScenarioTemplate() = default;

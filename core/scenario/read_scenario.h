@@ -14,6 +14,9 @@ class ScenarioReader;
 /// Throws InputError with every problem found, each at FILE:LINE:COL.
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog);
 
+/// One module of the type in a file, alone, without ground. Throws InputError with every problem found.
+Scenario read_module(const std::string& path, Catalog& catalog);
+
 /// A scenario that is parsed, assembled and checked once, for many rollouts that differ in a few settings.
 class ScenarioTemplate {
  public:
