@@ -1,4 +1,5 @@
-// Runs scenarios and compares them with their goldens: a table, the columns that strayed, a figure of them, JUnit XML.
+// Runs scenarios and compares them with their goldens: a table, the columns that strayed, a figure and a page of them, JUnit
+// XML.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <system_error>
 
 #include "app/commands.h"
+#include "app/failure_page.h"
 #include "app/progress.h"
 #include "core/errors.h"
 #include "core/recording/atomic_file.h"
@@ -78,18 +80,6 @@ std::string counts(const std::vector<GoldenCase>& cases) {
 
 // ---- what failed
 
-template <class Check>
-std::size_t failing(const std::vector<Check>& checks) {
-  return static_cast<std::size_t>(std::count_if(checks.begin(), checks.end(), [](const Check& c) { return !c.passed(); }));
-}
-
-/// One line, the same on screen and in XML.
-std::string outside(const GoldenDifference& d) {
-  return fmt::format("{} of {} and {} of {} outside their bands", failing(d.columns), plural(d.columns.size(), "column"),
-                     failing(d.numbers), plural(d.numbers.size(), "number")) +
-         (d.findings.empty() ? "" : ", and a run of another form");
-}
-
 /// Of the columns outside their bands the worst, the first to stray first; where only numbers are, the column nearest to its
 /// band.
 std::vector<const ColumnCheck*> strayed(const GoldenCase& c) {
@@ -134,21 +124,24 @@ class Figures {
     if (out) folder_.emplace(*out, "");
   }
 
-  /// The file's name, or "" where there is nothing to draw.
-  std::string write(const GoldenCase& c) {
+  /// Names both files in the case; none where there is nothing to draw.
+  void write(GoldenCase& c) {
     const std::vector<report::OverlayPanel> shown = panels(c);
-    if (shown.empty()) return "";
+    if (shown.empty()) return;
     if (!folder_) folder_.emplace(std::nullopt, "test");
     fs::path file = folder_->path() / (c.scenario->name + ".svg");
     for (int k = 2; fs::exists(file); ++k) file.replace_filename(fmt::format("{}-{}.svg", c.scenario->name, k));
-    const std::size_t all = failing(c.difference.columns);
+    const std::size_t all = strayed_columns(c.difference);
     const std::string title =
         all == 0 ? fmt::format("{}: no column outside its band, shown is the nearest", c.scenario->name)
                  : fmt::format("{}: {}{} of {} outside their bands, the first to stray on top", c.scenario->name,
                                all > shown.size() ? "the worst " : "", shown.size(), plural(all, "column"));
     write_file(file, report::overlay_svg(title, shown));
     folder_->keep();
-    return file.string();
+    c.figure = file.string();
+    file.replace_extension(".failure.html");
+    write_file(file, failure_page(c));
+    c.page = file.string();
   }
 
  private:
@@ -159,7 +152,8 @@ class Figures {
 std::string failure(const GoldenCase& c) {
   const std::string changes = origin_changes(*c.golden, golden_origin(*c.scenario));
   return since_approval(*c.golden) + (changes.empty() ? "  build, engine, step and scenario are the same\n" : changes) +
-         differences(c.difference, Shown::failing) + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n");
+         differences(c.difference, Shown::failing) + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n") +
+         (c.page.empty() ? "" : "  page: " + c.page + ", opens in a browser\n");
 }
 
 /// What is not a failure: numbers of which little is seen; and another text than was approved, which explains a failure.
@@ -253,7 +247,7 @@ int test_goldens(const TestArguments& arguments) {
   print_notes(cases);
   for (GoldenCase& c : cases) {
     if (c.verdict == Verdict::regression) {
-      write([&] { c.figure = figures.write(c); });
+      write([&] { figures.write(c); });
       fmt::print("\n{}: {}\n{}", c.file, outside(c.difference), failure(c));
     }
     if (!c.problem.empty()) fmt::print(stderr, "{}\n", c.problem);
@@ -281,7 +275,7 @@ void add_test(Commands& commands) {
                            "on the method, are left out");
         command.add_option("--golden", arguments.golden, "golden folder to compare one scenario with, not its own")
             ->check(not_empty);
-        command.add_option("--out", arguments.out, "folder for figures of what failed (default runs/test)");
+        command.add_option("--out", arguments.out, "folder for figures and pages of what failed (default runs/test)");
         command.add_flag("--fail-infeasible", arguments.fail_infeasible,
                          "exit code 3 where the verdict on a run is infeasible, and nothing worse came up");
         command.add_flag("--strict", arguments.strict, "in a folder, too, a scenario without a golden is an error");

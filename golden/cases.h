@@ -37,6 +37,7 @@ struct GoldenCase {
   Verdict verdict = Verdict::passed;
   std::string problem = {};  ///< what prevented the comparison: a whole text for stderr
   std::string figure = {};   ///< file that shows what strayed
+  std::string page = {};     ///< file that shows both runs
   double seconds = 0;        ///< that the run took: for reports alone
 
   void fail(Verdict as, std::string text);

@@ -29,6 +29,11 @@ std::vector<const Check*> chosen(const std::vector<Check>& checks, Shown shown) 
 }
 
 template <class Check>
+std::size_t failing(const std::vector<Check>& checks) {
+  return static_cast<std::size_t>(std::count_if(checks.begin(), checks.end(), [](const Check& c) { return !c.passed(); }));
+}
+
+template <class Check>
 std::size_t width(const std::vector<const Check*>& checks, std::size_t least) {
   for (const Check* check : checks) least = std::max(least, check->name.size());
   return least;
@@ -124,6 +129,14 @@ std::string band_changes(const Golden& before, const Golden& now) {
     text += fmt::format("  band of {}: then {}, now {}\n", changes[i].name, percent(changes[i].then), percent(changes[i].now));
   if (changes.size() > kMostShown) text += fmt::format("  ... and {} more bands\n", changes.size() - kMostShown);
   return text;
+}
+
+std::size_t strayed_columns(const GoldenDifference& difference) { return failing(difference.columns); }
+
+std::string outside(const GoldenDifference& d) {
+  return fmt::format("{} of {} and {} of {} outside their bands", failing(d.columns), plural(d.columns.size(), "column"),
+                     failing(d.numbers), plural(d.numbers.size(), "number")) +
+         (d.findings.empty() ? "" : ", and a run of another form");
 }
 
 std::string differences(const GoldenDifference& difference, Shown shown) {

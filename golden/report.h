@@ -1,5 +1,6 @@
 // A golden difference as text for people.
 #pragma once
+#include <cstddef>
 #include <string>
 
 #include "golden/compare.h"
@@ -17,6 +18,12 @@ std::string origin_changes(const Golden& golden, const GoldenProvenance& now);
 
 /// Bands that are wider or narrower by more than a fifth than before: the ten that changed most, a line each, indented by two.
 std::string band_changes(const Golden& before, const Golden& now);
+
+/// How many columns are outside their bands.
+std::size_t strayed_columns(const GoldenDifference& difference);
+
+/// `3 of 29 columns and 1 of 70 numbers outside their bands`: the same on screen, in XML and on a page.
+std::string outside(const GoldenDifference& difference);
 
 /// Findings, then a table of columns, then one of numbers, each line indented by two; "" where nothing of it is to be shown.
 std::string differences(const GoldenDifference& difference, Shown shown);

@@ -130,6 +130,12 @@ std::string without_folders(std::string text, const std::vector<PluginFile>& plu
   return text;
 }
 
+nlohmann::ordered_json channels_json(const Packing& packing) {
+  Json all = Json::array();
+  for (const Channel& channel : packing.channels()) all.push_back({channel.name, channel.unit, channel.quantum, channel.count});
+  return all;
+}
+
 std::string json_text(const nlohmann::ordered_json& json) {
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
@@ -195,9 +201,7 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   meta["command"] = "gaitlab rerun FOLDER";
   meta["missing"] = missing;
   meta["scenario"] = resolved(scenario);
-  meta["channels"] = Json::array();
-  for (const Channel& channel : packing.channels())
-    meta["channels"].push_back({channel.name, channel.unit, channel.quantum, channel.count});
+  meta["channels"] = channels_json(packing);
   leave_folders_out(meta, scenario.plugins);
 
   return {scenario.name, json_text(meta), std::move(data)};

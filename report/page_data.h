@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "report/packing.h"
 #include "report/verdict.h"
 
 namespace gaitlab::report {
@@ -24,6 +25,9 @@ PageData page_data(const Scenario& scenario, const Recording& record, const Summ
 
 /// A folder is not part of a run: plugin libraries go by the names of their files.
 std::string without_folders(std::string text, const std::vector<PluginFile>& plugins);
+
+/// What a page needs to unpack it.
+nlohmann::ordered_json channels_json(const Packing& packing);
 
 /// JSON that may stand in a script of a page: without any `<`.
 std::string json_text(const nlohmann::ordered_json& json);

@@ -1,14 +1,22 @@
 #include "report/page_overlay.h"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
+
+#include "report/packing.h"
 
 namespace gaitlab::report {
 
 PageData overlaid(const PageData& a, const PageData& b, const PageOverlay& overlay) {
   using Json = nlohmann::ordered_json;
   Json strays = Json::array();
+  Packing differences;
   for (const Stray& stray : overlay.strays) {
+    double largest = 0;
+    for (const double d : stray.difference) largest = std::isfinite(d) ? std::max(largest, std::abs(d)) : largest;
+    differences.add(stray.signal, stray.unit, quantum_of(largest, 1), stray.difference);
     strays.push_back({{"signal", stray.signal},
                       {"unit", stray.unit},
                       {"ratio", stray.ratio},
@@ -20,8 +28,10 @@ PageData overlaid(const PageData& a, const PageData& b, const PageOverlay& overl
                      {"differs", overlay.differs},
                      {"strayed", overlay.strayed.empty() ? Json() : Json(overlay.strayed)},
                      {"strays", std::move(strays)},
+                     {"differences", channels_json(differences)},
                      {"run", Json::parse(b.meta)}};
-  return {a.name == b.name ? a.name : a.name + ", " + b.name, json_text(meta), a.data + "\n" + b.data};
+  return {a.name == b.name ? a.name : a.name + ", " + b.name, json_text(meta),
+          a.data + "\n" + b.data + (overlay.strays.empty() ? "" : "\n" + differences.text())};
 }
 
 }  // namespace gaitlab::report

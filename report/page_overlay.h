@@ -15,6 +15,9 @@ struct Stray {
   double ratio = 0;              ///< RMS of the difference, in bands
   double tolerance = 0;          ///< in the unit: how far it may be away at a time
   std::optional<double> from{};  ///< s: the first time beyond the tolerance
+  /// The second run less the first, at the first one's rows; fewer where the second run has fewer. Channels are too coarse for
+  /// it.
+  std::vector<double> difference = {};
 };
 
 /// What a page says of its two runs together.

@@ -68,7 +68,7 @@ TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   expect_contains(result.out, ": \"  Kt: 0.0039895\", was \"  Kt: 0.00395\"\n  column ");
   expect_contains(result.out, "\n  joint.3.torque ");
   expect_contains(result.out, "\n  m1/passive.torque.peak ");
-  expect_contains(result.out, "\n  figure: runs/test/good.svg\n");
+  expect_contains(result.out, "\n  figure: runs/test/good.svg\n  page: runs/test/good.failure.html, opens in a browser\n");
   expect_contains(result.out, "\n0 passed, 1 failed\n");
   const std::string figure = read(folder / "runs/test/good.svg");
   expect_contains(figure, "good: ");
@@ -78,6 +78,12 @@ TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   std::size_t panels = 0;
   for (std::size_t at = figure.find(bands); at != std::string::npos; at = figure.find(bands, at + 1)) ++panels;
   EXPECT_EQ(panels, 6U);
+  const std::string page = read(folder / "runs/test/good.failure.html");
+  expect_contains(
+      page, "\"overlay\":{\"labels\":[\"golden\",\"now\"],\"differs\":[\"scenario: its resolved text is another:\",\"line ");
+  expect_contains(page, " numbers outside their bands. The golden is of approval 1 (first golden)\",\"strays\":[{\"signal\":");
+  expect_contains(page, "{\"signal\":\"joint.3.torque\",\"unit\":\"N m\",\"ratio\":");
+  EXPECT_EQ(page.find(folder / ""), std::string::npos);
   const std::string junit = without_times(read(folder / "result.xml"));
   EXPECT_NE(junit, read(folder / "result.xml"));
   expect_contains(junit,

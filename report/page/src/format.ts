@@ -162,6 +162,7 @@ export interface Overlay {
   differs: string[]; // settings
   strayed: string | null; // a run that strayed from its golden; null: a page of two runs
   strays: Stray[];
+  differences: Channel[]; // second less own, of each stray by its signal
   run: Meta;
 }
 

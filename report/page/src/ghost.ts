@@ -3,7 +3,7 @@ import type { Values } from "./channels";
 import type { Overlay, Stray } from "./format";
 import { Loads } from "./loads";
 import { fixed } from "./numbers";
-import type { Recording } from "./recording";
+import type { Recording, Second } from "./recording";
 
 type Kind = "joint" | "foot" | "dock";
 
@@ -14,7 +14,11 @@ export class Ghost {
   private readonly numbers: Record<Kind, number[]>; // of the page's own things in this run; -1: it has none of that name
   private readonly known = new Map<string, Values | null>();
 
-  constructor(readonly recording: Recording, private readonly own: Recording) {
+  readonly recording: Recording;
+
+  constructor(private readonly second: Second, private readonly own: Recording) {
+    const { recording } = second;
+    this.recording = recording;
     this.overlay = own.meta.overlay!;
     this.loads = new Loads(recording);
     const { joints, feet, docks } = own.meta, places = (ours: { name: string }[], theirs: { name: string }[]) => ours.map(({ name }) => theirs.findIndex((one) => one.name === name));
@@ -62,6 +66,9 @@ export class Ghost {
   atRows(values: Values): Values {
     return Float32Array.from(this.own.times, (t) => (this.covers(t) ? this.recording.at(values, this.time(t)) : NaN));
   }
+
+  /** This run less the golden one, row by row of that; finer than channels are. */
+  difference(signal: string): Values | null { return this.second.differences.get(signal) ?? null; }
 
   /** How far a signal may be away from the golden; null: it has kept its band. */
   stray(signal: string): Stray | null { return this.overlay.strays.find((s) => s.signal === signal) ?? null; }

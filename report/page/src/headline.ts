@@ -32,7 +32,7 @@ export function headline(desk: Desk): void {
   const both = element("pair"), list = both.querySelector("ul")!;
   both.hidden = false;
   if (overlay.strayed) {
-    card(own, desk, strayed(desk, overlay, overlay.strayed), []);
+    card(own, desk, strayed(desk, overlay, overlay.strayed), ["A golden keeps the torque, current and angle of every joint and the pose of the base, and this page shows no more."]);
   } else {
     const second = own.cloneNode(true) as HTMLElement;
     second.removeAttribute("id");
@@ -54,15 +54,15 @@ export function headline(desk: Desk): void {
 }
 
 function card(host: HTMLElement, run: Run, { mood, said, why, facts }: Judgement, beside: string[]): void {
-  const part = (name: string) => host.querySelector<HTMLElement>(`.${name}`)!, { missing } = run.recording.meta;
+  const part = (name: string) => host.querySelector<HTMLElement>(`.${name}`)!, { missing, overlay } = run.recording.meta;
   host.dataset.mood = mood;
   part("badge").append(icon(badges[mood], 24));
   part("said").textContent = said;
   part("reason").textContent = why.join(" ");
   part("aside").textContent = beside.join(" ");
   part("facts").dataset.count = String(facts.length);
-  part("facts").append(...facts.map(([name, value, small]) => make("div", make("dt", name), make("dd", value, ...(small ? [make("small", small)] : [])))));
-  part("lacks").hidden = !missing.length;
+  part("facts").append(...facts.map(([name, value, small]) => make("div", make("dt", name), make("dd", value, ...(small ? [" ", make("small", small)] : [])))));
+  part("lacks").hidden = !missing.length || !!overlay?.strayed;
   part("lacks").append(...missing.map((m) => make("li", ended(m))));
 }
 

@@ -14,7 +14,7 @@ export class JointPlots implements Panel {
   private readonly cells = new Map<Cell, HTMLElement>();
 
   constructor(private readonly desk: Desk) {
-    const names: [Cell, string][] = [["angle", "angle"], ["error", "error"], ["speed", "speed"], ["torque", "torque"], ["use", "of its motor"]];
+    const names: [Cell, string][] = [["angle", "angle"], ["error", "error"], ["speed", "speed"], ["torque", "torque"], ...(desk.loads.limited ? [["use", "of its motor"] as [Cell, string]] : [])];
     for (const [key, name] of names) {
       if (!this.some(SOURCE[key])) continue;
       const cell = make("dd");

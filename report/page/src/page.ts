@@ -20,7 +20,7 @@ import type { Desk, Panel, Run, Span, State } from "./panel";
 import { parts } from "./parts";
 import { Path } from "./path";
 import { Phases } from "./phases";
-import type { Recording } from "./recording";
+import type { Recording, Second } from "./recording";
 import { Stage } from "./stage";
 import { Strays } from "./strays";
 import { Transport } from "./transport";
@@ -42,7 +42,7 @@ export class Page implements Desk {
   private last: number | null = null; // ms, of the frame before, while playing
   private late = 0; // frames
 
-  constructor(readonly recording: Recording, second: Recording | null) {
+  constructor(readonly recording: Recording, second: Second | null) {
     const { meta } = recording, { cycle, verdict } = meta;
     this.link = new URLSearchParams(location.hash.slice(1));
     const dark = this.link.get("theme") ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
@@ -172,13 +172,20 @@ export class Page implements Desk {
     element("name").textContent = title(this.runs);
     element("about").textContent = this.ghost ? (this.ghost.overlay.strayed ? about(meta) : "") : about(meta);
     headline(this);
-    element("foot-text").textContent = [`gaitlab ${meta.build}.`, ...(ran ? [`Trace hash ${meta.summary.trace_hash ?? "unknown"}.`, "Values on this page are rounded; the trace beside it has them in full.",
-      `The same run again: ${meta.command}`] : [])].join(" ");
+    element("foot-text").textContent = this.origin().join(" ");
     element("scenario").textContent = meta.scenario;
     const { window, checks: all } = meta.verdict;
-    element("definitions").parentElement!.hidden = !ran;
+    element("definitions").parentElement!.hidden = !ran || !all.length;
     if (ran) element("definitions").append(make("p", `Judged from ${number(window.from, 4)} to ${number(window.to, 4)} s; the start is shown, and not judged.`),
       make("ul", ...all.filter((c) => c.definition).map((c) => make("li", make("b", c.title), `: ${c.definition}${c.source ? ` (limit: ${c.source})` : ""}`))));
+  }
+
+  /** Which program made the runs, and how they can be made again. */
+  private origin(): string[] {
+    const { meta } = this.recording, overlay = this.ghost?.overlay, builds = new Set(this.runs.map((r) => r.recording.meta.build)), made = `gaitlab ${[...builds].join(" and ")}.`;
+    if (meta.outcome === "not run" || overlay?.strayed) return [made];
+    const hashes = this.runs.map((r, n) => `${overlay ? `${overlay.labels[n]} ` : ""}${r.recording.meta.summary.trace_hash ?? "unknown"}`);
+    return [made, `Trace hash: ${hashes.join(", ")}.`, "Values on this page are rounded. The trace has them in full.", `The same run again: ${meta.command}`];
   }
 
   private arrange(): void {
@@ -202,9 +209,11 @@ export class Page implements Desk {
     if (keep("heat", recording.ran && jointed)) this.panels.push(new HeatMap(this));
     if (keep("foot", recording.ran && meta.ground.kind !== "none")) this.panels.push(new Footfalls(this));
     if (keep("path", recording.ran && meta.ground.kind !== "none")) this.panels.push(new Path(this), new Balance(this));
-    if (keep("docks", recording.ran && meta.docks.length > 0)) docks(this);
+    if (keep("docks", recording.ran && meta.docks.length > 0 && !this.ghost?.overlay.strayed)) docks(this);
     if (keep("phase", recording.ran && jointed)) this.panels.push(new Phases(this));
     if (keep("energy", recording.ran && jointed)) this.panels.push(new Energy(this));
+    // A golden lacks on purpose what its page leaves out.
+    if (this.ghost?.overlay.strayed) element("left-out").hidden = true;
     // Those that have nothing to show are left out by now.
     for (const row of document.querySelectorAll<HTMLElement>(".row")) {
       const shown = [...row.children].filter((c) => !(c as HTMLElement).hidden).length;

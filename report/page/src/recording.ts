@@ -1,6 +1,12 @@
 // A run as the page reads it: what the program says of it, and its channels over time.
 import { inflate, unpack, type Values } from "./channels";
-import type { Meta } from "./format";
+import type { Channel, Meta } from "./format";
+
+/** The run that is laid over the page's own. */
+export interface Second {
+  recording: Recording;
+  differences: ReadonlyMap<string, Values>;
+}
 
 export class Recording {
   readonly times: Float64Array;
@@ -12,13 +18,14 @@ export class Recording {
     this.times.forEach((time, i) => { if (Math.abs(time - i * meta.period) < 1e-3 * meta.period) this.times[i] = i * meta.period; });
   }
 
-  /** The runs of a page: its own, and the one that is laid over it where there is one. */
-  static async of(page: Document): Promise<[Recording, Recording | null]> {
+  /** The runs of a page: its own, and the one that is laid over it where there is one, with what they differ by. */
+  static async of(page: Document): Promise<[Recording, Second | null]> {
     const text = (id: string) => page.getElementById(id)?.textContent?.trim() ?? "";
     const meta = JSON.parse(text("meta")) as Meta, data = text("data").split("\n");
     if (meta.format !== 1) throw new Error(`it is of format ${meta.format}, this page reads format 1`);
-    const read = async (of: Meta, packed: string) => new Recording(of, unpack(of.channels, of.channels.length ? await inflate(packed) : new Uint8Array()));
-    return [await read(meta, data[0]), meta.overlay ? await read(meta.overlay.run, data[1]) : null];
+    const values = async (channels: Channel[], packed: string) => unpack(channels, channels.length ? await inflate(packed) : new Uint8Array());
+    const read = async (of: Meta, packed: string) => new Recording(of, await values(of.channels, packed)), { overlay } = meta;
+    return [await read(meta, data[0]), overlay ? { recording: await read(overlay.run, data[1]), differences: await values(overlay.differences, data[2]) } : null];
   }
 
   get rows(): number { return this.times.length; }

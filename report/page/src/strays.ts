@@ -48,14 +48,14 @@ export class Strays implements Panel {
   paint(): void {
     this.plot?.destroy();
     this.plot = null;
-    const { desk, shown } = this, { ink, recording } = desk, was = shown && recording.find(shown.signal), is = shown && desk.ghost!.values(shown.signal);
-    if (!shown || !was || !is) return;
+    const { desk, shown } = this, { ink, recording } = desk, difference = shown && desk.ghost!.difference(shown.signal);
+    if (!shown || !difference) return;
     const [golden, now] = desk.ghost!.overlay.labels, dash = [6, 4], name = signalName(desk, shown.signal);
     element("drift-note").textContent = name;
     this.plot = new TimePlot(element("drift"), desk, {
       label: `Difference of ${name}, ${now} less ${golden}, over time`, left: { name: `difference (${shown.unit || "1"})`, colour: ink.ink2 },
       levels: [{ value: 0, axis: "left", colour: ink.line }, ...[1, -1].map((sign) => ({ value: sign * shown.tolerance, axis: "left" as const, colour: ink.green, dash }))],
-      curves: [{ values: is.map((v, i) => v - was[i]), label: "difference", colour: ink.vermillion, axis: "left" }],
+      curves: [{ values: Float32Array.from(recording.times, (_, i) => difference[i] ?? NaN), label: "difference", colour: ink.vermillion, axis: "left" }],
     });
     keys("drift-key", [["", "--vermillion", `${now} less ${golden}`], ["dash", "--green", "three bands"]]);
     this.seek(desk.state.t);
