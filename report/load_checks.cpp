@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/dynamics/body_tree.h"
+#include "core/model/pattern.h"
 #include "report/number_texts.h"
 
 namespace gaitlab::report {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/scenario/number_syntax.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 namespace {
