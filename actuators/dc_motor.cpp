@@ -40,13 +40,7 @@ void DcMotorActuator::Settings::fields(Fields& f) {
   f.limit("u_max", u_max, {"V", 0, 1e6, "Driver supply: the command is cut to +- this."});
   f.limit("i_max", i_max, {"A", 0, 1e6, "Absolute rating: the current is cut to +- this."});
   f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1, "Of the rotor (J); acts on the joint as n^2 J."});
-  f.rating("i_continuous", i_continuous, {"A", 0, 1e6, "RMS current that the motor bears for good, a verdict's limit."});
-  f.rating("gear_torque_peak", gear_torque_peak,
-           {"N m", 0, 1e9, "Largest torque that the gear bears, at the joint, a verdict's limit."});
-  f.rating("gear_torque_continuous", gear_torque_continuous,
-           {"N m", 0, 1e9, "RMS torque that the gear bears for good, at the joint, a verdict's limit."});
-  f.rating("speed_max", speed_max,
-           {"rad/s", 0, 1e6, "Largest speed of the joint that motor and gear bear, a verdict's limit."});
+  RatingKeys::fields(f);
   const auto useless = [](double eta) { return !(eta > 0); };
   if (efficiency_model == EfficiencyModel::directional &&
       (useless(efficiency.common) || std::any_of(efficiency.each.begin(), efficiency.each.end(), useless)))
@@ -56,40 +50,10 @@ void DcMotorActuator::Settings::fields(Fields& f) {
 DcMotorActuator::DcMotorActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     for (const Settings* s : lanes) {
-      motors_.push_back({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], s->efficiency[j], s->u_max[j], s->i_max[j],
-                         s->efficiency_model == EfficiencyModel::directional ? s->turn_speed : 0.0});
-      ratings_.push_back({s->i_continuous[j], s->gear_torque_peak[j], s->gear_torque_continuous[j], s->speed_max[j]});
-      limit_.push_back(s->u_max[j]);
-      inertia_.push_back(s->gear[j] * s->gear[j] * s->rotor_inertia[j]);
+      add({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], s->efficiency[j], s->u_max[j], s->i_max[j],
+           s->efficiency_model == EfficiencyModel::directional ? s->turn_speed : 0.0},
+          s->rotor_inertia[j], s->of(j));
     }
-  }
-}
-
-void DcMotorActuator::effort(In command, In speed, Out torque, Out slope) const {
-  for (std::size_t i = 0; i < motors_.size(); ++i) {
-    const DcMotor::Effort e = motors_[i](command[i], speed[i]);
-    torque[i] = e.torque;
-    slope[i] = e.slope;
-  }
-}
-
-void DcMotorActuator::unlimited(In command, In speed, Out torque, Out slope) const {
-  for (std::size_t i = 0; i < motors_.size(); ++i) {
-    const DcMotor::Effort e = motors_[i].unlimited(command[i], speed[i]);
-    torque[i] = e.torque;
-    slope[i] = e.slope;
-  }
-}
-
-void DcMotorActuator::electrical(In command, In speed, Electrical out) const {
-  for (std::size_t i = 0; i < motors_.size(); ++i) {
-    const DcMotor::Effort e = motors_[i](command[i], speed[i]);
-    out.voltage[i] = e.voltage;
-    out.current[i] = e.current;
-    out.saturation[i] = e.saturation();
-    out.power_in[i] = e.drawn;
-    out.copper[i] = e.copper;
-    out.gear[i] = e.gear;
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "core/errors.h"
+#include "core/model/pattern.h"
 #include "core/recording/run_files.h"
 #include "report/numbers.h"
 

@@ -15,6 +15,7 @@
 #include "core/recording/run_files.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/changed_lines.h"
+#include "core/scenario/joint_patterns.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
 #include "report/demand.h"
@@ -228,18 +229,22 @@ void add_shown(CLI::App& command, SummaryOptions& shown) {
 }
 
 void add_joint(CLI::App& command, std::vector<std::string>& joints) {
-  command.add_option("--joint", joints, "joint to draw in figure.svg, by name; once per joint (default: the most loaded one)")
+  command
+      .add_option("--joint", joints,
+                  "joint to draw in figure.svg, by name or pattern ('m3/*'); once per joint (default: the most loaded one)")
       ->allow_extra_args(false);
 }
 
 void draw_joints(Scenario& scenario, const std::vector<std::string>& joints) {
+  if (joints.empty()) return;
+  const std::vector<std::string> known = joint_names(*scenario.robot);
   std::vector<Problem> problems;
   for (const std::string& name : joints) {
-    if (const std::string wrong = no_joint(name, joint_names(*scenario.robot)); !wrong.empty())
+    if (const std::string wrong = no_joint(name, known); !wrong.empty())
       problems.push_back({SourceLocation{"--joint " + name}, wrong});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  if (!joints.empty()) scenario.figure.joints = joints;
+  scenario.figure.joints = joints_meant(joints, known);
 }
 
 void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/model/pattern.h"
 #include "core/scenario/read_scenario.h"
 
 namespace gaitlab::versus {

@@ -6,6 +6,7 @@
 
 #include "core/scenario/wording.h"
 #include "report/checks.h"
+#include "report/motors.h"
 #include "report/number_texts.h"
 #include "report/row_statistics.h"
 #include "report/trust.h"
@@ -179,9 +180,9 @@ void created(const CheckedRun& run, Check& made) {
   judge(made, "energy_created", &Limits::energy_created, run);
   made.value = texts::created(run.record) / energy_scale(run.scenario, run.record);
   made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // not a number: a warning
-  made.text =
-      fmt::format("gears that are driven backwards give {} of the energy too much (eq. 2){}", texts::percent(made.value),
-                  made.status == CheckStatus::warn ? "; actuator.efficiency_model: directional does not" : "");
+  const std::string remedy = made.status == CheckStatus::warn ? no_created_energy(run.scenario) : "";
+  made.text = fmt::format("gears that are driven backwards give {} of the energy too much (eq. 2){}{}",
+                          texts::percent(made.value), remedy.empty() ? "" : "; ", remedy);
 }
 
 }  // namespace checks

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/model/pattern.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/wording.h"
 #include "report/paper_panel.h"

@@ -8,6 +8,7 @@
 
 #include "core/dynamics/body_tree.h"
 #include "core/model/docking.h"
+#include "core/model/pattern.h"
 #include "report/number_texts.h"
 
 namespace gaitlab::report {

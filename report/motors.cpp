@@ -6,6 +6,7 @@
 #include "core/laws/dc_motor.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
+#include "core/scenario/explainer.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/type_presets.h"
 #include "report/settings_numbers.h"
@@ -14,7 +15,7 @@ namespace gaitlab::report {
 
 namespace {
 const std::string kOfTheScenario = " of the scenario; the rest: ";
-}
+}  // namespace
 
 bool dc_motors(const Scenario& scenario) { return !rest_torques(scenario).empty(); }
 
@@ -65,6 +66,14 @@ std::string motor_source(const Scenario& scenario) {
     if (of_type != nullptr && !(setting.value == of_type->value)) given += (given.empty() ? "" : ", ") + setting.key;
   }
   return given.empty() ? stated : given + kOfTheScenario + stated;
+}
+
+std::string no_created_energy(const Scenario& scenario) {
+  if (scenario.actuator.entry == nullptr) return "";
+  const std::string key = "efficiency_model";
+  Explainer settings;
+  visit_settings(*scenario.actuator.entry, default_settings(*scenario.actuator.entry).get(), settings);
+  return std::ranges::find(settings.keys(), key) != settings.keys().end() ? "actuator." + key + ": directional does not" : "";
 }
 
 bool chosen(const std::string& source) {

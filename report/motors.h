@@ -18,6 +18,10 @@ std::vector<double> rest_torques(const Scenario& scenario);
 /// scenario gives instead (`i_max of the scenario; the rest: chosen ...`); empty: nobody does.
 std::string motor_source(const Scenario& scenario);
 
+/// What would keep the gears from creating energy (eq. 2): `actuator.efficiency_model: directional does not`; empty where the
+/// actuator has no such key.
+std::string no_created_energy(const Scenario& scenario);
+
 /// Whether a source says that its figures, or the rest of them, are chosen, not a maker's.
 bool chosen(const std::string& source);
 

@@ -253,8 +253,10 @@ Lines ledger(const RunData& run) {
 Lines created_energy(const RunData& run) {
   const double energy = created(run.record);
   if (!has_motors(run) || !(energy > kVisible * run.record.ledger.electrical)) return {};
-  return {fmt::format("the gears created {:.3g} J: eq. 2 on back-driven joints;", energy),
-          "actuator.efficiency_model: directional does not"};
+  const std::string remedy = no_created_energy(run.scenario);
+  Lines lines{fmt::format("the gears created {:.3g} J: eq. 2 on back-driven joints{}", energy, remedy.empty() ? "" : ";")};
+  if (!remedy.empty()) lines.push_back(remedy);
+  return lines;
 }
 
 Lines range(const RunData& run) {

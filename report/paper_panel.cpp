@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/model/pattern.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/wording.h"
 #include "report/helvetica.h"

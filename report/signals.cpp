@@ -8,6 +8,8 @@
 #include <cmath>
 #include <span>
 
+#include "core/model/pattern.h"
+
 namespace gaitlab::report {
 
 namespace {

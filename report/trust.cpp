@@ -105,7 +105,7 @@ std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
   const double residual = std::abs(r.ledger.residual());
   const double drawn = std::abs(r.ledger.electrical);
   const double judged = energy_scale(s, r);
-  if (s.actuator.entry != nullptr && residual > s.limits.energy_residual * judged) {
+  if (s.actuator.entry != nullptr && !s.robot->joints.empty() && residual > s.limits.energy_residual * judged) {
     warnings.push_back(fmt::format("the energy does not add up: {:.3g} J are missing of {:.3g} J drawn; take {}", residual,
                                    drawn, s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step"));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/scenario/joint_patterns.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/wording.h"
 #include "report/helvetica.h"
@@ -107,7 +108,7 @@ class ViewsOfPanel final : public PaperPanel {
     if (!panel.joint.empty()) {
       const std::vector<std::string> names = joint_names(robot);
       joint = static_cast<std::size_t>(std::ranges::find(names, panel.joint) - names.begin());
-      if (const std::string wrong = no_joint(panel.joint, names); !wrong.empty()) {
+      if (const std::string wrong = not_one_joint(panel.joint, names); !wrong.empty()) {
         source.problem({"joint"}, wrong);
         return;
       }

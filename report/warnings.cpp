@@ -96,11 +96,12 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& 
   const bool severe = largest > kCannotSettle;
   out.push_back(
       {place_of(s, "controller.Kp"),
-       fmt::format("Kp {:.4g} of joint {} is {} for commands every {:.4g} s: Kp period / (Ks gear) is {:.3g}, and above {} the "
-                   "joint {}; take Kp: {:.4g} or less, or a shorter controller.period",
-                   gain->value[worst], s.robot->joints[worst].name, severe ? "too large" : "large", s.control_period, largest,
-                   severe ? kCannotSettle : kOvershoots, severe ? "cannot settle" : "overshoots",
-                   two_digits(gain->value[worst] / largest)),
+       fmt::format(
+           "Kp {:.4g} of joint {} is {} for commands every {:.4g} s: the share of its error that the joint goes per command is "
+           "{:.3g}, and above {} it {}; take Kp: {:.4g} or less, or a shorter controller.period",
+           gain->value[worst], s.robot->joints[worst].name, severe ? "too large" : "large", s.control_period, largest,
+           severe ? kCannotSettle : kOvershoots, severe ? "cannot settle" : "overshoots",
+           two_digits(gain->value[worst] / largest)),
        severe});
 }
 

@@ -19,8 +19,9 @@ struct Warning {
 /// - a motor without torque: Kt, u_max or i_max is 0;
 /// - a motor that makes energy: Kt and Ks, which are one constant in SI units, are more than 1.3 apart, or eta Kt > Ks;
 /// - a position loop that cannot settle: sampled every Ts, an angle moves by u Ts / (Ks n) per tick, so that the error is
-///   multiplied by 1 - g, g = Kp Ts / (Ks n). g > 2 diverges until the motor's limits stop it (warning), g > 1 overshoots
-///   (note). Of controllers with a gain `Kp` in V, whose `Kd` does not move that bound, and DC motors;
+///   multiplied by 1 - g, g = Kp Ts / (Ks n), the share of its error that the joint goes (of a servo Ks n = V / w0). g > 2
+///   diverges until the motor's limits stop it (warning), g > 1 overshoots (note). Of controllers with a gain `Kp` in V, whose
+///   `Kd` does not move that bound, and DC motors;
 /// - angles that only degrees would explain: beyond two turns (ranges of hinges beyond 360 turn for ever, and are meant);
 /// - a robot that starts beside its heightfield.
 std::vector<Warning> setup_warnings(const Scenario& scenario);

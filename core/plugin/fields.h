@@ -26,7 +26,7 @@ struct Spec {
 
 inline constexpr double kPositive = std::numeric_limits<double>::denorm_min();  ///< as the least number of a range: more than 0
 
-/// A value per joint: in YAML a number, a list, or {default: x, m3/passive: y}.
+/// A value per joint: in YAML a number, a list, or {default: x, m3/passive: y, "*/active": z}.
 struct PerJoint {
   double common = 0;
   std::vector<double> each = {};  ///< empty: `common` everywhere
@@ -81,7 +81,8 @@ struct OneOf {
 };
 /// What a value per joint is to a verdict. limit: of what the actuator gives; a run without it shows what a gait demands.
 /// rating: what its maker states; 0 everywhere means that nobody does, and the resolved scenario leaves it out.
-enum class Role { setting, limit, rating };
+/// required: nothing a plugin could assume; its initial value 0 means "not given", which its range excludes.
+enum class Role { setting, limit, rating, required };
 struct EachJoint {
   PerJoint& value;
   Spec spec;
@@ -177,7 +178,11 @@ class Fields {
   void limit(const char* key, PerJoint& value, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::limit}});
   }
-  /// What a maker states or does not (0): it limits verdicts, not the simulation.
+  /// A number that has no default: its initial value is 0 and its range is above 0. A joint without one is an error.
+  void required(const char* key, PerJoint& value, Spec spec) {
+    visit({key, spec.about, field::EachJoint{value, spec, field::Role::required}});
+  }
+  /// What a maker states or does not (0). Most ratings limit verdicts, not the simulation.
   void rating(const char* key, PerJoint& value, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::rating}});
   }

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/model/pattern.h"
 #include "core/recording/time_shift.h"
 
 namespace gaitlab {

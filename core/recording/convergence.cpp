@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/functions.h"
+#include "core/model/pattern.h"
 
 namespace gaitlab {
 

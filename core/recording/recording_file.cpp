@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "core/errors.h"
+#include "core/model/pattern.h"
 #include "core/recording/csv.h"
 #include "core/recording/run_files.h"
 

@@ -55,28 +55,4 @@ std::string hash_words(std::string_view bytes) {
 
 std::string hash(std::string_view bytes) { return fmt::format("{:016x}", absorb(kOffset, bytes)); }
 
-bool glob(const std::string& pattern, const std::string& text) {
-  constexpr std::size_t kNone = std::string::npos;
-  std::size_t p = 0;
-  std::size_t t = 0;
-  std::size_t star = kNone;  // the last `*` met, and the text it has to swallow at least up to
-  std::size_t swallowed = 0;
-  while (t < text.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      swallowed = t;
-    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
-      ++p;
-      ++t;
-    } else if (star != kNone) {
-      p = star + 1;
-      t = ++swallowed;
-    } else {
-      return false;
-    }
-  }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
-}
-
 }  // namespace gaitlab

@@ -38,7 +38,4 @@ std::string hash(std::string_view bytes);
 /// last one filled up with zeros; prime and start are those of FNV-1a (64 bit), the length is the first word. 16 hex digits.
 std::string hash_words(std::string_view bytes);
 
-/// `*` stands for any run of characters, `?` for one.
-bool glob(const std::string& pattern, const std::string& text);
-
 }  // namespace gaitlab

@@ -110,7 +110,11 @@ void Explainer::on(const char* key, const char* about, const field::OneOf& field
 void Explainer::on(const char* key, const char* about, const field::EachJoint& field) {
   const std::string range = range_without_unit(field.spec);
   const std::string preset = field.value.each.empty() ? number_text(field.value.common) : list_text(field.value.each);
-  row(key, field.spec.unit, field.role == field::Role::rating && field.value == PerJoint() ? "not stated" : preset,
+  const bool absent = field.value == PerJoint();
+  row(key, field.spec.unit,
+      absent && field.role == field::Role::rating     ? "not stated"
+      : absent && field.role == field::Role::required ? ""
+                                                      : preset,
       range.empty() ? "per joint" : range + ", per joint", about);
 }
 

@@ -185,8 +185,11 @@ std::optional<Node> build(const std::string& text, const std::string& file, Prob
       return {};
     }
     const bool placed = !e.mark.is_null();
+    const char at = placed && e.mark.pos >= 0 && static_cast<std::size_t>(e.mark.pos) < text.size()
+                        ? text[static_cast<std::size_t>(e.mark.pos)]
+                        : '\0';
     problems.add(placed ? SourceLocation{file, e.mark.line + 1, e.mark.column + 1} : SourceLocation{file},
-                 "not valid YAML: " + e.msg);
+                 "not valid YAML: " + e.msg + (at == '*' || at == '?' ? "; a pattern goes in quotes: \"*/active\"" : ""));
     return {};
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/model/pattern.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/explainer.h"
 #include "core/scenario/value.h"
@@ -101,6 +102,17 @@ Node& map_item(Node& map, const std::string& key, const SourceLocation& place) {
   return map.items.emplace_back(Node{Node::Kind::null, place});
 }
 
+/// Whether a key can only be one of a value per joint: `m3/active`, a pattern, or `default`.
+bool of_joints(const std::string& key) { return key == "default" || is_pattern(key) || key.find('/') != std::string::npos; }
+
+/// A number as the map that means the same for every joint.
+void spread(Node& number) {
+  Node map{Node::Kind::map, number.place};
+  map.keys.emplace_back("default", number.place);
+  map.items.push_back(std::move(number));
+  number = std::move(map);
+}
+
 void apply(Node& root, Setting& setting, Problems& problems) {
   Node* node = &root;
   std::string where;
@@ -109,6 +121,7 @@ void apply(Node& root, Setting& setting, Problems& problems) {
       node->kind = Node::Kind::map;
       node->place = setting.place;
     }
+    if (of_joints(key) && node->kind == Node::Kind::scalar && read_number(*node, "").ok()) spread(*node);
     if (node->kind == Node::Kind::scalar) {
       problems.add(setting.place,
                    fmt::format("{} is {}, a single value; it has no key {}", where, found(*node), in_quotes(key)));

@@ -10,6 +10,7 @@
 
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/ground_section.h"
+#include "core/scenario/joint_patterns.h"
 #include "core/scenario/overlay.h"
 #include "core/scenario/periods.h"
 #include "core/scenario/plugin_files.h"
@@ -197,6 +198,7 @@ class ScenarioReader {
     }
     checks.initial_angles();
     checks.figure_joints();
+    if (joints != nullptr) scenario_.figure.joints = joints_meant(scenario_.figure.joints, *joints);
     checks.base_velocity();
     check_all_periods();
     const auto concerns = [&](const char* section) { return reads(section); };

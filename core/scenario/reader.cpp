@@ -297,11 +297,11 @@ void Reader::read_named_numbers(const Node& node, const std::string& what, PerJo
     read_joint_list(node, what, kAny, value);
     return;
   }
+  const std::size_t before = problems_.size();
+  const bool every = read_joint_map(node, what, kAny, value);
+  if (every || problems_.size() > before) return;
   // There is no default that a joint left out could keep.
-  if (node.find("default") == nullptr && (joints_ == nullptr || node.keys.size() < joints_->size())) {
-    problems_.add(node.place, what + " names some joints only; add default: for the others");
-  }
-  read_joint_map(node, what, kAny, value);
+  problems_.add(node.place, what + " names some joints only; add default: for the others");
 }
 
 void Reader::visit(const Field& field) {

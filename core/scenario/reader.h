@@ -62,8 +62,12 @@ class Reader final : public Fields {
   void read_elements(const char* key, const Node& node, const field::List& list);
   bool read_one(const Node& node, const std::string& what, const Spec& spec, double& value);
   void read_each(const Node& node, const std::string& key, const Spec& spec, std::span<double> value);
+  void read_each_joint(const Node& node, const char* key, const field::EachJoint& field);
+  /// Of a field without a default: reports the first joint that has no value.
+  void require_each(const char* key, const Node* node, const PerJoint& value);
   void read_joint_list(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
-  void read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
+  /// Whether every joint has a value there, by name, pattern or default.
+  bool read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
   void read_named(const Node& node, const std::string& what, NamedValues kind, Named& value);
   void read_named_numbers(const Node& node, const std::string& what, PerJoint& value);
   /// Number of a joint by its name, or -1 with a problem.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "core/model/pattern.h"
+#include "core/scenario/joint_patterns.h"
 #include "core/scenario/section_places.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/wording.h"
@@ -38,7 +40,11 @@ SourceLocation ScenarioChecks::angle_place(std::size_t joint) const {
   const Node* angles = initial == nullptr ? nullptr : initial->find("angles");
   if (angles == nullptr) return place_of(root_, "initial", "angles");
   if (angles->kind == Node::Kind::list && joint < angles->items.size()) return angles->items[joint].place;
-  if (const Node* own = angles->find(scenario_.robot->joints[joint].name)) return own->place;
+  const std::string& name = scenario_.robot->joints[joint].name;
+  if (const Node* own = angles->find(name)) return own->place;
+  for (std::size_t i = 0; i < angles->keys.size(); ++i) {
+    if (is_pattern(angles->keys[i].first) && glob(angles->keys[i].first, name)) return angles->items[i].place;
+  }
   if (const Node* common = angles->find("default")) return common->place;
   return angles->place;
 }
@@ -76,10 +82,11 @@ void ScenarioChecks::initial_angles() {
 void ScenarioChecks::figure_joints() {
   if (!scenario_.robot) return;
   const std::vector<std::string>& named = scenario_.figure.joints;
+  const std::vector<std::string> joints = joint_names(*scenario_.robot);
   const Node* figure = root_.find("figure");
   const Node* list = figure == nullptr ? nullptr : figure->find("joints");
   for (std::size_t i = 0; i < named.size(); ++i) {
-    const std::string wrong = no_joint(named[i], joint_names(*scenario_.robot));
+    const std::string wrong = no_joint(named[i], joints);
     const bool placed = list != nullptr && i < list->items.size();
     if (!wrong.empty()) problems_.add(placed ? list->items[i].place : place_of(root_, "figure", "joints"), wrong);
   }

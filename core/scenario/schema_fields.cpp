@@ -88,9 +88,12 @@ void SchemaFields::on(const char* key, const char* about, const field::EachJoint
   json["type"] = {"number", "array", "object"};
   json["items"] = one;
   json["additionalProperties"] = one;
-  const std::string text = std::string(about) + " One number, a list, or {default: x, JOINT: y}.";
-  properties_[key] = preset(described(std::move(json), text.c_str(), field.spec.unit),
-                            field.value.each.empty() ? Json(field.value.common) : Json(field.value.each));
+  const std::string text =
+      std::string(about) + " One number, a list, or {default: x, JOINT: y}; JOINT may be a pattern: \"*/active\".";
+  properties_[key] = described(std::move(json), text.c_str(), field.spec.unit);
+  if (field.role == field::Role::required) return;
+  properties_[key] =
+      preset(std::move(properties_[key]), field.value.each.empty() ? Json(field.value.common) : Json(field.value.each));
 }
 
 void SchemaFields::on(const char* key, const char* about, const field::Joint&) {

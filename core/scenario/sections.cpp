@@ -173,10 +173,10 @@ void TraceSettings::fields(Fields& f) {
 }
 
 void FigureSettings::fields(Fields& f) {
-  f.texts(
-      "joints", joints,
-      "Names of the joints to draw, from top to bottom; none: the most loaded one, and of a robot on legs also the middle of "
-      "its spine.");
+  f.texts("joints", joints,
+          "Names of the joints to draw, or patterns with * and ?, from top to bottom; none: the most loaded one, and of a "
+          "robot on legs also the middle of "
+          "its spine.");
 }
 
 void Limits::fields(Fields& f) {
@@ -270,10 +270,6 @@ std::vector<std::string> joint_names(const Robot& robot) {
   std::vector<std::string> names;
   for (const Joint& joint : robot.joints) names.push_back(joint.name);
   return names;
-}
-
-std::string no_joint(const std::string& name, const std::vector<std::string>& joints) {
-  return std::ranges::find(joints, name) != joints.end() ? "" : "no joint " + in_quotes(name) + offer(name, joints, "joints");
 }
 
 }  // namespace gaitlab

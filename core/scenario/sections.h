@@ -59,7 +59,5 @@ struct SectionFields {
 
 /// Names of a robot's joints.
 std::vector<std::string> joint_names(const Robot& robot);
-/// What to say of a name; empty where it is that of a joint.
-std::string no_joint(const std::string& name, const std::vector<std::string>& joints);
 
 }  // namespace gaitlab

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/model/pattern.h"
+
 namespace gaitlab {
 
 namespace {

@@ -85,6 +85,10 @@ RUNS = {
     "torque": (THROWN + GAINS.replace("type: pid", "type: pid\n  unit: N m").replace("60, 40", "6, 4") + "duration: 1\n"
                "actuator: {type: torque, limit: 0.6}\ncpg: {type: sine, frequency: 1, amplitude: 0.6}\n",
                ["physics.engine=articulated"], checks.ALL),
+    "servo": (THROWN + GAINS + "actuator: {type: servo, voltage: 7.4, stall_torque: [0.8, 1.5, 1.5, 1.5, 1.5, 1.5, 0.6, 1.5], "
+              "no_load_speed: 3, stall_current: [0.6, 0, 0, 0, 0, 0, 0.5, 0], efficiency: [0, 0.5, 0, 0, 0, 0, 0, 0], rotor_inertia: 1e-4, "
+              "u_max: 6, i_max: {default: 0.5, m1/passive: 0.3}}\n"
+              "cpg: {type: sine, frequency: 1, amplitude: 1.2}\nduration: 1\n", ["physics.engine=articulated"], checks.ALL),
     "steps, bullet": (STEPS, ["trace.period=2.5e-5", "physics.step=2.5e-5", "actuator.rotor_inertia=1e-9"],
                       checks.ALL + (steps.steps,)),
     "steps, implicit": (STEPS, ["duration=0.6", "trace.period=5e-4", "physics.engine=articulated",
@@ -172,6 +176,8 @@ MUTANTS = (
     ("i_max + 0.1 %", "limits, bullet", checks.motors, "eq. 1", scaled("actuator", "i_max", by=1.001)),
     ("Kt + 0.1 %", "caterpillar, bullet", checks.motors, "eq. 2", scaled("actuator", "Kt", by=1.001)),
     ("efficiency 0.7 both ways", "limits, adaptive", checks.motors, "eq. 2", put("actuator", "efficiency_model", value="paper")),
+    ("stall_torque + 0.1 %", "servo", checks.motors, "eq. 2", scaled("actuator", "stall_torque", by=1.001)),
+    ("no_load_speed + 0.1 %", "servo", checks.motors, "eq. 1", scaled("actuator", "no_load_speed", by=1.001)),
     ("turn_speed + 1 %", "limits, adaptive", checks.motors, "eq. 2, directional", scaled("actuator", "turn_speed", by=1.01)),
     ("Kp + 0.1 %", "limits, adaptive", checks.controllers, "eq. 3", scaled("controller", "Kp", by=1.001)),
     ("Ki + 0.1 %", "limits, adaptive", checks.controllers, "eq. 4", scaled("controller", "Ki", by=1.001)),

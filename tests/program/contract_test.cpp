@@ -37,7 +37,7 @@ class Numbers final : public Fields {
     bool whole;
   };
   std::map<std::string, Found> found;
-  std::vector<std::string> empty_abouts;
+  std::vector<std::string> empty_abouts, required;
 
   void visit(const Field& field) override {
     if (std::string_view(field.about).size() < 4 || !std::string_view(field.about).ends_with('.')) {
@@ -49,7 +49,10 @@ class Numbers final : public Fields {
     if (const auto* one = std::get_if<field::Number>(&field.value)) note(one->value, one->spec, false);
     if (const auto* one = std::get_if<field::NumberOr>(&field.value)) note(one->value, one->spec, false);
     if (const auto* one = std::get_if<field::Integer>(&field.value)) note(static_cast<double>(one->value), one->spec, true);
-    if (const auto* one = std::get_if<field::EachJoint>(&field.value)) note(one->value.common, one->spec, false);
+    if (const auto* one = std::get_if<field::EachJoint>(&field.value)) {
+      note(one->value.common, one->spec, false);
+      if (one->role == field::Role::required) required.push_back(prefix_ + field.key);
+    }
     if (const auto* one = std::get_if<field::Group>(&field.value)) {
       const std::string before = prefix_;
       prefix_ += std::string(field.key) + ".";
@@ -101,8 +104,11 @@ class Contract : public ::testing::TestWithParam<Plugin> {
   /// With the plugin's settings `{}` and what goes with it.
   [[nodiscard]] std::string plain() const {
     const auto& [kind, name] = GetParam();
-    std::string own = section(kind) + ": {type: " + name + "}\n";
-    const bool volts = kind != Kind::actuator || name == "dc_motor";
+    std::string own = section(kind) + ": {type: " + name;
+    // So small that a stall current a little above 0 needs no efficiency above 1.
+    for (const std::string& key : numbers_of(entry(), entry().settings().get()).required) own += ", " + key + ": 1e-7";
+    own += "}\n";
+    const bool volts = kind != Kind::actuator || name == "dc_motor" || name == "servo";
     return text(own, volts ? "" : "controller: {type: pid, unit: N m, Kp: 5, Kd: 0.05}\n");
   }
   [[nodiscard]] const PluginSelection& choice(const Scenario& s) const {
@@ -123,6 +129,7 @@ TEST_P(Contract, ExplainsItself) {
   const Numbers numbers = numbers_of(entry(), entry().settings().get());
   EXPECT_EQ(numbers.empty_abouts, std::vector<std::string>{}) << "fields need a sentence";
   for (const auto& [path, number] : numbers.found) {
+    if (std::ranges::find(numbers.required, path) != numbers.required.end()) continue;
     EXPECT_TRUE(number.value >= number.spec.min && number.value <= number.spec.max) << path << ": default out of range";
   }
 }
@@ -224,8 +231,9 @@ class ActuatorContract : public Contract {};
 
 TEST_P(ActuatorContract, WithoutItsLimitTheLawIsTheSameOrMore) {
   for (const char* model : {"", ", efficiency_model: directional"}) {
-    const bool motor = GetParam().name == "dc_motor";
-    const Scenario s = motor ? scenario(text("actuator: {type: dc_motor" + std::string(model) + "}\n")) : scenario(plain());
+    const bool dc_motor = GetParam().name == "dc_motor";
+    const bool motor = dc_motor || GetParam().name == "servo";
+    const Scenario s = dc_motor ? scenario(text("actuator: {type: dc_motor" + std::string(model) + "}\n")) : scenario(plain());
     const void* settings = s.actuator.settings.get();
     const std::unique_ptr<Actuator> actuator(static_cast<Actuator*>(s.actuator.entry->make(info(*s.robot), {&settings, 1})));
     int limited = 0;

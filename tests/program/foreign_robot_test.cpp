@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/model/pattern.h"
 #include "tests/program/fixture.h"
 #include "tests/validation.h"
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/model/pattern.h"
 #include "core/recording/recording_file.h"
 #include "tests/oracles/blocks.h"
 #include "tests/program/engines.h"

@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 
+#include "core/model/pattern.h"
 #include "core/simulation/batch.h"
 #include "tests/program/bits.h"
 #include "tests/program/fixture.h"

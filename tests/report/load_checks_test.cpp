@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "core/model/pattern.h"
 #include "report/verdict.h"
 #include "tests/program/fixture.h"
 

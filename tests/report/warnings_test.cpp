@@ -99,6 +99,15 @@ TEST(RunWarnings, AreSilentOnShippedScenarios) {
     EXPECT_EQ(warnings_of(shipped(file, {"duration=4", "physics.engine=articulated"})), "") << file;
 }
 
+/// A robot without joints runs with the default columns, and has no energy balance of motors that could be off.
+TEST(RunWarnings, AreSilentOnAStone) {
+  const Scenario stone = scenario(
+      "gaitlab: 1\nrobot: {modules: {name: rigid, bodies: {block: {mass: 1, com: [0, 0, 0], inertia: [1, 1, 1, 0, 0, 0]}}}}\n"
+      "contact: {on: none}\nduration: 0.1\n");
+  EXPECT_EQ(warnings_of(stone), "");
+  EXPECT_EQ(trust_warnings(stone, run(stone)), std::vector<std::string>{});
+}
+
 TEST(RunWarnings, TellASetPointThatJumps) {
   const std::vector<std::string> sine{"duration=0.3", "physics.engine=articulated", "cpg.type=sine"};
   const auto with = [&](const std::string& set) {

@@ -37,6 +37,17 @@ TEST(Overlay, ReplacesAddsAndCreatesMaps) {
             "duration: 2\ninitial:\n  angles:\n    m3/passive: 1\n");
 }
 
+TEST(Overlay, ANumberIsTheDefaultOfAValuePerJoint) {
+  EXPECT_EQ(after({"cpg.frequency.m3/active=0", "cpg.model.rate.*/passive=2", "cpg.amplitude.m1/x=4"}).substr(50),
+            "cpg:\n  frequency:\n    default: 1\n    m3/active: 0\n"
+            "  model: {rate: {default: 3, \"*/passive\": 2}}\n"
+            "  amplitude:\n    m1/x: 4\n"
+            "duration: 1\n");
+  EXPECT_EQ(after({"cpg.frequency.default=4"}).substr(50, 33), "cpg:\n  frequency:\n    default: 4\n");
+  EXPECT_EQ(after({"cpg.frequency=4", "cpg.frequency.m0/x=2"}).substr(50, 45),
+            "cpg:\n  frequency:\n    default: 4\n    m0/x: 2\n");
+}
+
 TEST(Overlay, ThePlaceIsTheOption) {
   Node root = parse_yaml(kText, "f");
   Problems problems;

@@ -115,6 +115,72 @@ TEST(Reader, PerJointErrors) {
             "f:1:24: error: frequency of 'm0/active' is 30 Hz; allowed are 0 to 20 Hz");
 }
 
+TEST(Reader, PatternsOfJoints) {
+  fakes::CommonKeys s;
+  // A name beats patterns, and patterns beat the default, whatever their order.
+  EXPECT_EQ(read("frequency: {m0/active: 3, \"*/active\": 2, default: 1}\namplitude: {\"m?/active\": 0.25}\n", s), "no error");
+  EXPECT_EQ(s.frequency.each, (std::vector<double>{3, 1, 2}));
+  EXPECT_EQ(s.amplitude.each, (std::vector<double>{0.25, 0.6, 0.25}));
+  // Patterns that agree, or disagree only where a name decides.
+  EXPECT_EQ(read("frequency: {\"*/active\": 2, m0/*: 2, m0/passive: 5}\n", s), "no error");
+  EXPECT_EQ(s.frequency.each, (std::vector<double>{2, 5, 2}));
+  EXPECT_EQ(read("frequency: {\"*/active\": 2, m0/*: 4, m0/active: 3}\n", s), "no error");
+  EXPECT_EQ(s.frequency.each, (std::vector<double>{3, 4, 2}));
+  EXPECT_EQ(read("frequency: {\"*\": 7}\n", s), "no error");
+  EXPECT_EQ(s.frequency.each, (std::vector<double>{7, 7, 7}));
+}
+
+TEST(Reader, PatternErrors) {
+  fakes::CommonKeys s;
+  EXPECT_EQ(read("frequency: {\"*/active\": 2, m0/*: 3}\n", s),
+            "f:1:28: error: joint 'm0/active' is given 2 by '*/active' and 3 by 'm0/*'; give it by its name, which beats "
+            "patterns\nf:1:13: note: '*/active' is here");
+  EXPECT_EQ(
+      read("frequency: {\"*/active\": 2, \"*\": 3}\n", s),
+      "f:1:28: error: joint 'm0/active' is given 2 by '*/active' and 3 by '*' (and so 1 joint more); give it by its name, "
+      "which beats patterns\nf:1:13: note: '*/active' is here");
+  // Three that disagree pairwise: each with the first that was there.
+  EXPECT_EQ(read("frequency: {\"*/p*\": 1, m0/p*: 2, \"*ssive\": 3}\n", s),
+            "f:1:24: error: joint 'm0/passive' is given 1 by '*/p*' and 2 by 'm0/p*'; give it by its name, which beats "
+            "patterns\nf:1:13: note: '*/p*' is here\n"
+            "f:1:34: error: joint 'm0/passive' is given 1 by '*/p*' and 3 by '*ssive'; give it by its name, which beats "
+            "patterns\nf:1:13: note: '*/p*' is here");
+  EXPECT_EQ(read("frequency: {\"*/activ\": 2}\n", s), "f:1:13: error: no joint matches '*/activ'; did you mean '*/active'?");
+  EXPECT_EQ(read("frequency: {m7/*: 2}\n", s), "f:1:13: error: no joint matches 'm7/*'; did you mean 'm0/*'?");
+  EXPECT_EQ(read("frequency: {\"*hip*\": 2}\n", s),
+            "f:1:13: error: no joint matches '*hip*'; known joints: m0/active, m0/passive, m1/active");
+  EXPECT_EQ(read("frequency: {\"*/active\": 30}\n", s),
+            "f:1:25: error: frequency of '*/active' is 30 Hz; allowed are 0 to 20 Hz");
+  EXPECT_EQ(read("frequency: {\"*/x\": 30}\n", s, nullptr),
+            "f:1:20: error: frequency of '*/x' is 30 Hz; allowed are 0 to 20 Hz");
+  const std::string quotes = "; a pattern goes in quotes: \"*/active\"";
+  const auto unquoted = [](const std::string& text) { return fakes::error_of([&] { parse_yaml(text, "f"); }); };
+  EXPECT_EQ(unquoted("frequency: {*/active: 2}\n"),
+            "f:1:13: error: not valid YAML: the referenced anchor is not defined" + quotes);
+  EXPECT_EQ(unquoted("frequency: {m?/active: 2}\n"), "f:1:14: error: not valid YAML: unknown token" + quotes);
+  Gains gains;
+  EXPECT_EQ(read("leader: \"*/active\"\n", gains), "f:1:9: error: '*/active' is a pattern; expected the name of one joint");
+}
+
+/// A motor without which nothing runs.
+struct Required {
+  PerJoint torque;
+  void fields(Fields& f) { f.required("torque", torque, {"N m", kPositive, 10, "At rest; required."}); }
+};
+
+TEST(Reader, RequiredPerJoint) {
+  Required s;
+  EXPECT_EQ(read("{}\n", s), "f:1:1: error: missing key 'torque'");
+  EXPECT_EQ(read("torque: 0\n", s), "f:1:9: error: torque is 0 N m; allowed are more than 0 and up to 10 N m");
+  EXPECT_EQ(read("torque: {m0/active: 1, m1/*: 2}\n", s),
+            "f:1:9: error: torque is missing for joint 'm0/passive'; add it, or default:");
+  EXPECT_EQ(read("torque: {default: 1, m1/*: 2}\n", s), "no error");
+  EXPECT_EQ(read("{}\n", s), "no error") << "given before, by the module type";
+  s = {};
+  EXPECT_EQ(read("torque: {\"*/active\": 1, \"*/passive\": 2}\n", s), "no error");
+  EXPECT_EQ(s.torque.each, (std::vector<double>{1, 2, 1}));
+}
+
 TEST(Reader, RuleOrList) {
   fakes::CommonKeys s;
   EXPECT_EQ(read("couplings: [{from: m0/active, to: 1, weight: 2}, {to: 2}]\n", s), "no error");

@@ -19,9 +19,16 @@ class Motor:
             self.R, self.Kt, self.Ks, self.n, self.eta = (get(key) for key in ("R", "Kt", "Ks", "gear", "efficiency"))
             self.u_max, self.i_max, self.rotor = get("u_max"), get("i_max"), get("rotor_inertia")
             self.directional, self.turn_speed = section["efficiency_model"] == "directional", float(section["turn_speed"])
-        self.reflected = self.n**2 * self.rotor if self.type == "dc_motor" else np.zeros(run.n)  # on the joint's inertia
-        self.command_limit = {"dc_motor": lambda: self.u_max, "torque": lambda: self.limit}.get(
-            self.type, lambda: np.full(run.n, np.inf))()
+        if self.type == "servo":  # docs/equations.md, 3
+            get = lambda key, absent=0.0: run.per_joint(section.get(key, absent))
+            V, T0, k, I0, eta = get("voltage"), get("stall_torque"), get("voltage") / get("no_load_speed"), get("stall_current"), get("efficiency")
+            I0 = np.where(I0 > 0, I0, T0 / (np.where(eta > 0, eta, 0.7) * k))
+            self.R, self.Kt, self.Ks, self.n, self.eta = V / I0, k, k, np.ones(run.n), T0 / (I0 * k)
+            self.u_max, self.i_max, self.rotor = get("u_max"), get("i_max"), get("rotor_inertia")
+            self.directional, self.turn_speed = False, None
+        motor = self.type in ("dc_motor", "servo")
+        self.reflected = self.n**2 * self.rotor if motor else np.zeros(run.n)  # on the joint's inertia
+        self.command_limit = self.u_max if motor else self.limit if self.type == "torque" else np.full(run.n, np.inf)
 
     def current(self, command, w):
         """Eq. 1 with both limits: the current, and 0, 1 or 2 for none, the voltage limit, the current limit."""

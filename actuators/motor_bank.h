@@ -1,0 +1,29 @@
+// The law of core/laws/dc_motor.h for every joint and lane: what actuators are that differ in their settings only.
+#pragma once
+#include "core/laws/dc_motor.h"
+#include "core/plugin/actuator.h"
+
+namespace gaitlab::actuators {
+
+class MotorBank : public Actuator {
+ public:
+  [[nodiscard]] std::string_view command_unit() const override { return "V"; }
+  [[nodiscard]] In command_limit() const override { return limit_; }
+  [[nodiscard]] In reflected_inertia() const override { return inertia_; }
+  void effort(In command, In speed, Out torque, Out slope) const override;
+  void electrical(In command, In speed, Electrical out) const override;
+  void unlimited(In command, In speed, Out torque, Out slope) const override;
+  [[nodiscard]] std::span<const DriveRatings> ratings() const override { return ratings_; }
+  [[nodiscard]] const DcMotor* dc_motors() const override { return motors_.data(); }
+
+ protected:
+  /// The next motor, in the order joint * lanes + lane. `inertia`: of its rotor, kg m^2.
+  void add(const DcMotor& motor, double inertia, const DriveRatings& ratings);
+
+ private:
+  std::vector<DcMotor> motors_;
+  std::vector<DriveRatings> ratings_;
+  std::vector<double> limit_, inertia_;
+};
+
+}  // namespace gaitlab::actuators

@@ -1,0 +1,16 @@
+// What the maker of a drive states of it: keys that every motor with a data sheet has.
+#pragma once
+#include "core/plugin/actuator.h"
+
+namespace gaitlab::actuators {
+
+/// Part of a motor's Settings; 0: not stated.
+struct RatingKeys {
+  PerJoint i_continuous, gear_torque_peak, gear_torque_continuous, speed_max;
+  void fields(Fields& f);
+  [[nodiscard]] DriveRatings of(std::size_t joint) const {
+    return {i_continuous[joint], gear_torque_peak[joint], gear_torque_continuous[joint], speed_max[joint]};
+  }
+};
+
+}  // namespace gaitlab::actuators

@@ -1,0 +1,122 @@
+#include "actuators/servo.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gaitlab::actuators {
+
+namespace {
+
+constexpr double kUsualEfficiency = 0.7;  // chosen: that of dc_motor
+constexpr double kRounding = 1e-9;        // of a data sheet whose numbers give an efficiency of exactly 1
+
+/// `make(joint)` for every joint that one of the values tells from others.
+template <class Make>
+PerJoint of_each(std::initializer_list<const PerJoint*> values, Make make) {
+  PerJoint made;
+  std::size_t joints = 0;
+  for (const PerJoint* value : values) joints = std::max(joints, value->each.size());
+  for (std::size_t j = 0; j < joints; ++j) made.each.push_back(make(j));
+  if (joints == 0) made.common = make(0);
+  return made;
+}
+
+/// A limit that is `usual` where it is not stated: shown, written and raised as the number that holds, but kept as not stated
+/// where nobody changes it, so that it follows what it is derived from.
+void follow(Fields& f, const char* key, PerJoint& stated, const PerJoint& usual, Spec spec) {
+  const PerJoint before = of_each({&stated, &usual}, [&](std::size_t j) { return stated[j] > 0 ? stated[j] : usual[j]; });
+  PerJoint now = before;
+  f.limit(key, now, spec);
+  if (!(now == before)) stated = now;
+}
+
+}  // namespace
+
+const char* const ServoActuator::kManual =
+    R"(A geared DC motor by its data sheet: from its stall torque and its speed without load, both at one voltage, in a straight line.
+
+    T = T0 u / V - T0 w / w0    |u| <= u_max
+    i = (u - k w) / R           |i| <= i_max
+
+u: command, V; w: joint speed, rad/s; T: torque on the joint, N m; i: current, A. V: voltage, T0: stall_torque, w0: no_load_speed.
+It is dc_motor with gear 1 and the constants that the data sheet implies:
+
+    k = V / w0                    Kt = Ks = k, of motor and gear together
+    I0 = stall_current            or T0 / (efficiency k) where none is stated
+    eta = T0 / (I0 k)             at most 1
+    R = V / I0
+
+Take it where a maker states torque and speed, as for every hobby servo, and not the constants of motor and gear: data sheets
+give 1 kgf cm = 0.0980665 N m, and x s per 60 degrees = 1.0472 / x rad/s. Take dc_motor where these constants are known, or
+for its efficiency_model. The stall current moves currents, powers and copper losses, not torques. What the electronics of a
+servo do (its own position loop, a dead band) is the controller's part.
+Source: the straight line is that of dc_motor (Chariot, Filippi, Verlinden 2012, eq. 1 and 2); numbers: the servo's data sheet.
+efficiency: 0.7 (chosen) where neither it nor stall_current is stated. Takes commands in V.
+
+    actuator:
+      {type: servo, voltage: 10, stall_torque: 1.618, no_load_speed: 5.343,
+       stall_current: 0.9})";
+
+void ServoActuator::Settings::fields(Fields& f) {
+  f.required("voltage", voltage, {"V", kPositive, 1e6, "At which the other numbers hold; required."});
+  f.required("stall_torque", stall_torque, {"N m", kPositive, 1e9, "Of the joint at rest, at that voltage; required."});
+  f.required("no_load_speed", no_load_speed,
+             {"rad/s", kPositive, 1e6, "Of the joint without load, at that voltage; required."});
+  f.rating("stall_current", stall_current, {"A", 0, 1e6, "At rest, at that voltage."});
+  f.rating("efficiency", efficiency, {"", 0, 1, "Of motor and gear, instead of stall_current; 0.7 where neither is stated."});
+  follow(f, "u_max", u_max, voltage, {"V", 0, 1e6, "Driver supply: the command is cut to +- this; 0: `voltage`."});
+  const PerJoint stall =
+      of_each({&voltage, &stall_torque, &no_load_speed, &stall_current, &efficiency, &u_max}, [&](std::size_t j) {
+        const DcMotor m = motor(j);
+        return m.Kt > 0 ? m.u_max / m.R : 0.0;
+      });
+  follow(f, "i_max", i_max, stall,
+         {"A", 0, 1e6, "Absolute rating: the current is cut to +- this; 0: the stall current at `u_max`."});
+  f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1e3, "Of rotor and gear, at the joint."});
+  RatingKeys::fields(f);
+  std::size_t joints = 0;
+  for (const PerJoint* value : {&voltage, &stall_torque, &no_load_speed, &stall_current, &efficiency})
+    joints = std::max(joints, value->each.size());
+  bool sound = check(f, 0, joints == 0);
+  for (std::size_t j = 1; sound && j < joints; ++j) sound = check(f, j, false);
+}
+
+bool ServoActuator::Settings::check(Fields& f, std::size_t joint, bool alone) const {
+  if (!(stall_current[joint] > 0)) return true;
+  const std::string which = alone ? "" : fmt::format(" (joint number {})", joint);
+  if (efficiency[joint] > 0) {
+    f.problem("efficiency", "efficiency follows from stall_current, which is stated, too: remove one of them" + which);
+    return false;
+  }
+  const double eta = stall_torque[joint] * no_load_speed[joint] / (voltage[joint] * stall_current[joint]);
+  if (!(voltage[joint] > 0) || !(eta > 1 + kRounding)) return true;
+  f.problem("stall_current",
+            fmt::format("stall_torque {:.4g} N m at {:.4g} A and {:.4g} rad/s at {:.4g} V would need an efficiency of {:.3g}; "
+                        "at most 1{}",
+                        stall_torque[joint], stall_current[joint], no_load_speed[joint], voltage[joint], eta, which));
+  return false;
+}
+
+DcMotor ServoActuator::Settings::motor(std::size_t joint) const {
+  const double V = voltage[joint];
+  const double T0 = stall_torque[joint];
+  const double w0 = no_load_speed[joint];
+  if (!(V > 0 && T0 > 0 && w0 > 0)) return {};
+  const double k = V / w0;
+  const double I0 = stall_current[joint] > 0 ? stall_current[joint]
+                                             : T0 / ((efficiency[joint] > 0 ? efficiency[joint] : kUsualEfficiency) * k);
+  const double R = V / I0;
+  const double u = u_max[joint] > 0 ? u_max[joint] : V;
+  // At rest under u the current is u / R, the same bits: a joint at stall is not beyond its limit.
+  const double i = i_max[joint] > 0 ? i_max[joint] : u / R;
+  return {R, k, k, 1.0, std::min(1.0, T0 / (I0 * k)), u, i};
+}
+
+ServoActuator::ServoActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes) {
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    for (const Settings* s : lanes) add(s->motor(j), s->rotor_inertia[j], s->of(j));
+  }
+}
+
+}  // namespace gaitlab::actuators

@@ -1,0 +1,29 @@
+// Actuator `servo`: core/laws/dc_motor.h by the data sheet of a servo.
+#pragma once
+#include "actuators/motor_bank.h"
+#include "actuators/rating_keys.h"
+#include "core/plugin/registry.h"
+
+namespace gaitlab::actuators {
+
+class ServoActuator final : public MotorBank {
+ public:
+  struct Settings : RatingKeys {
+    PerJoint voltage, stall_torque, no_load_speed;  ///< V, N m, rad/s; 0: not given
+    PerJoint stall_current, efficiency;             ///< A, 1; 0: not stated
+    PerJoint u_max, i_max;                          ///< V, A; 0: by default
+    PerJoint rotor_inertia;                         ///< kg m^2 at the joint
+    void fields(Fields& f);
+    /// The motor of a joint; of numbers that are not given, one that makes no torque.
+    [[nodiscard]] DcMotor motor(std::size_t joint) const;
+
+   private:
+    /// What is wrong with the numbers of a joint, at which key; false: something is.
+    bool check(Fields& f, std::size_t joint, bool alone) const;
+  };
+  static const char* const kManual;
+
+  ServoActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes);
+};
+
+}  // namespace gaitlab::actuators

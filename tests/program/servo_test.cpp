@@ -1,0 +1,212 @@
+// Actuator `servo`: what a data sheet implies, against its own numbers, dc_motor and the published ones.
+#include "actuators/servo.h"
+
+#include <cmath>
+
+#include "core/plugin/plugin_instance.h"
+#include "core/scenario/joint_patterns.h"
+#include "core/scenario/resolved.h"
+#include "core/scenario/sections.h"
+#include "report/demand.h"
+#include "report/envelope.h"
+#include "report/motors.h"
+#include "report/summary.h"
+#include "report/verdict.h"
+#include "report/warnings.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using actuators::ServoActuator;
+
+/// AX-12 at 10 V: 16.5 kgf cm, 0.196 s per 60 degrees, 0.9 A (its manual). SG92R at 4.8 V: 2.5 kgf cm, 0.12 s per 60 degrees.
+const std::string kAx12 = "voltage: 10, stall_torque: 1.618, no_load_speed: 5.343, stall_current: 0.9";
+const std::string kSg92r = "voltage: 4.8, stall_torque: 0.24517, no_load_speed: 8.7266";
+
+std::string worm(const std::string& servo, const std::string& more = {}) {
+  return "gaitlab: 1\nrobot: {modules: mtran, build: robots/caterpillar-8.dat}\nphysics: {engine: articulated}\n"
+         "contact: {on: all}\ncpg: {type: phase_oscillator, frequency: 0.25, amplitude: 0.6, phase_lag: 1.2}\nduration: 1.5\n"
+         "actuator: {type: servo, " +
+         servo + "}\n" + more;
+}
+
+DcMotor motor(const std::string& servo) {
+  const Scenario s = scenario(worm(servo));
+  return make_actuator(s.actuator, info(*s.robot))->dc_motors()[0];
+}
+
+void expect_refused(const std::string& servo, const std::string& expected) {
+  try {
+    scenario(worm(servo));
+    ADD_FAILURE() << servo << " is taken";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 1U) << error.what();
+    EXPECT_EQ(error.problems()[0].text, expected);
+  }
+}
+
+TEST(Servo, ImpliesTheConstantsOfTheMotor) {
+  const DcMotor ax12 = motor(kAx12);   // tolerances: half of the last digit given
+  EXPECT_NEAR(ax12.Kt, 1.8717, 1e-4);  // 10 / 5.343 = 1.87161
+  EXPECT_EQ(ax12.Kt, ax12.Ks);
+  EXPECT_EQ(ax12.gear, 1);
+  EXPECT_NEAR(ax12.efficiency, 0.9605, 5e-5);
+  EXPECT_NEAR(ax12.R, 11.111, 5e-4);
+  EXPECT_EQ(ax12.u_max, 10);
+  EXPECT_NEAR(ax12.i_max, 0.9, 1e-15);
+  const DcMotor sg92r = motor(kSg92r);
+  EXPECT_NEAR(sg92r.R, 7.5382, 5e-5);
+  EXPECT_NEAR(sg92r.i_max, 0.63676, 5e-6);
+  EXPECT_NEAR(sg92r.efficiency, 0.7, 1e-15);
+}
+
+TEST(Servo, IsTheStraightLineOfItsDataSheet) {
+  for (const std::string& servo : {kAx12, kSg92r, kSg92r + ", efficiency: 0.35"}) {
+    const DcMotor m = motor(servo);
+    const double V = m.u_max;
+    const double T0 = servo == kAx12 ? 1.618 : 0.24517;
+    const double w0 = servo == kAx12 ? 5.343 : 8.7266;
+    const double rounding = 8 * T0 * std::numeric_limits<double>::epsilon();  // of eight operations
+    EXPECT_NEAR(m(V, 0).torque, T0, rounding);
+    EXPECT_EQ(m(V, 0).saturation(), 0) << "at rest the current is the limit, not above it";
+    EXPECT_NEAR(m(V, w0).torque, 0, rounding);
+    for (const double u : {-1.0, -0.3, 0.4, 1.0}) {
+      for (const double w : {-0.5, 0.0, 0.25, 0.5}) {
+        const double line = u - w;  // of T0; the current limit is that of the stall
+        if (std::abs(line) < 1) EXPECT_NEAR(m(u * V, w * w0).torque, T0 * line, rounding) << u << ", " << w;
+        EXPECT_LE(std::abs(m(u * V, w * w0).torque), T0 + rounding) << u << ", " << w;
+      }
+    }
+  }
+}
+
+/// The same run, bit for bit, as dc_motor with the constants that follow.
+TEST(Servo, IsADcMotorBitForBit) {
+  const Scenario servo = scenario(worm(kAx12 + ", rotor_inertia: 1e-4"));
+  const DcMotor m = make_actuator(servo.actuator, info(*servo.robot))->dc_motors()[0];
+  std::string text = worm(kAx12);
+  const std::size_t at = text.find("actuator: {");
+  text.replace(at, text.find('}', at) - at,
+               fmt::format("actuator: {{type: dc_motor, R: {}, Kt: {}, Ks: {}, gear: 1, efficiency: {}, u_max: {}, i_max: {}, "
+                           "rotor_inertia: 1e-4",
+                           m.R, m.Kt, m.Ks, m.efficiency, m.u_max, m.i_max));
+  for (const char* engine : {"articulated", "bullet"}) {
+    if (catalog().engine(engine) == nullptr) continue;
+    const std::vector<std::string> sets{std::string("physics.engine=") + engine, "duration=0.3"};
+    const Trace mine = run(scenario(worm(kAx12 + ", rotor_inertia: 1e-4"), sets)).trace;
+    const Trace other = run(scenario(text, sets)).trace;
+    EXPECT_GT(std::abs(mine.at(mine.rows() - 1, mine.find("joint.0.torque"))), 0) << engine;
+    EXPECT_EQ(hash(mine), hash(other)) << engine;
+  }
+}
+
+TEST(Servo, RefusesWhatNoMotorCanDo) {
+  expect_refused("voltage: 10, stall_torque: 1.8, no_load_speed: 5.34, stall_current: 0.5",
+                 "stall_torque 1.8 N m at 0.5 A and 5.34 rad/s at 10 V would need an efficiency of 1.92; at most 1");
+  expect_refused("voltage: 10, stall_torque: {default: 1, m3/active: 1.8}, no_load_speed: 5.34, stall_current: 0.6",
+                 "stall_torque 1.8 N m at 0.6 A and 5.34 rad/s at 10 V would need an efficiency of 1.6; at most 1 (joint "
+                 "number 6)");
+  expect_refused(kAx12 + ", efficiency: 0.7",
+                 "efficiency follows from stall_current, which is stated, too: remove one of them");
+  expect_refused("voltage: 10, stall_torque: 1.8", "missing key 'no_load_speed'");
+  expect_refused("voltage: 10, stall_torque: 0, no_load_speed: 5",
+                 "stall_torque is 0 N m; allowed are more than 0 and up to 1000000000 N m");
+  EXPECT_EQ(motor("voltage: 10, stall_torque: 2, no_load_speed: 5, stall_current: 1").efficiency, 1) << "exactly what it takes";
+}
+
+TEST(Servo, PerJointAndByPattern) {
+  const Scenario s =
+      scenario(worm("voltage: {default: 10, \"*/passive\": 5}, stall_torque: 2, no_load_speed: 5, "
+                    "stall_current: {m0/*: 2}, u_max: {m1/active: 6}"));
+  const auto actuator = make_actuator(s.actuator, info(*s.robot));
+  const auto of = [&](const std::string& joint) {
+    return actuator->dc_motors()[joints_of(joint, joint_names(*s.robot)).at(0)];
+  };
+  EXPECT_EQ(of("m0/active").u_max, 10);
+  EXPECT_EQ(of("m0/passive").u_max, 5) << "the default follows its joint's voltage";
+  EXPECT_EQ(of("m1/active").u_max, 6);
+  EXPECT_EQ(of("m1/active").i_max, 6 / of("m1/active").R);
+  EXPECT_EQ(of("m0/active").efficiency, 0.5);
+  EXPECT_NEAR(of("m1/active").efficiency, 0.7, 1e-15);
+  const std::string once = resolved(s);
+  EXPECT_EQ(resolved(scenario(once)), once);
+}
+
+/// Limits that nobody states follow the data sheet, also where a module type gives the one and the scenario the other.
+TEST(Servo, DefaultLimitsFollowTheVoltage) {
+  const auto limits = [](const std::string& servo, const std::vector<std::string>& sets) {
+    const Scenario s = scenario(worm(servo), sets);
+    const DcMotor m = make_actuator(s.actuator, info(*s.robot))->dc_motors()[0];
+    return std::pair(m.u_max, m.i_max * m.R);
+  };
+  EXPECT_EQ(limits(kAx12, {"actuator.voltage=8"}).first, 8);
+  EXPECT_EQ(limits(kAx12 + ", u_max: 0", {}).first, 10);
+  EXPECT_NEAR(limits(kAx12, {"actuator.u_max=5"}).second, 5, 1e-14);
+}
+
+TEST(Servo, TheVerdictAsksIt) {
+  const Scenario s =
+      scenario(worm(kSg92r + ", i_continuous: 0.2, gear_torque_peak: 0.2, gear_torque_continuous: 0.1, speed_max: 8"));
+  EXPECT_NEAR(report::rest_torques(s).at(0), 0.24517, 1e-12);
+  const report::Motors motors = report::motors(s, 1);
+  const report::Envelope& envelope = motors.joint(0);
+  EXPECT_EQ(envelope.unit, "V");
+  EXPECT_EQ(envelope.command, 4.8);
+  EXPECT_NEAR(*envelope.rest, 0.24517, 1e-12);
+  EXPECT_NEAR(*envelope.no_load, 8.7266, 1e-3);  // found by bisection
+  EXPECT_EQ(envelope.continuous, 0.2);
+  EXPECT_EQ(envelope.gear_peak, 0.2);
+  EXPECT_EQ(envelope.gear_continuous, 0.1);
+  EXPECT_EQ(envelope.speed_max, 8);
+  const Recording record = run(s);
+  const report::Summary summary = summarise(s, record, 0);
+  const report::Verdict verdict = report::verdict(s, record, summary, report::overlaps(s, record));
+  for (const char* id : {"voltage", "current", "envelope", "heat", "gear_peak", "gear_continuous"}) {
+    const auto check = std::ranges::find(verdict.checks, id, &report::Check::id);
+    ASSERT_NE(check, verdict.checks.end()) << id;
+    EXPECT_NE(check->status, report::CheckStatus::not_judged) << id;
+  }
+}
+
+TEST(Servo, TheDemandTwinHasItsLimitsRaised) {
+  Scenario twin = scenario(worm(kSg92r));
+  ASSERT_TRUE(report::raise_limits(twin));
+  const DcMotor free = make_actuator(twin.actuator, info(*twin.robot))->dc_motors()[0];
+  const DcMotor own = motor(kSg92r);
+  EXPECT_EQ(free.u_max, report::kDemandTimes * own.u_max);
+  EXPECT_GE(free.i_max, report::kDemandTimes * own.i_max);
+  EXPECT_EQ(free.R, own.R);
+  EXPECT_EQ(free.efficiency, own.efficiency);
+}
+
+/// Kp 100 at 15 ms: 100 * 0.015 * 8.7266 / 4.8 = 2.727 times the error; 26 takes 0.709 of it.
+TEST(Servo, TooLargeAGainIsTold) {
+  const auto told = [](const std::string& Kp) {
+    return report::setup_warnings(scenario(worm(kSg92r, "controller: {type: pid, Kp: " + Kp + ", Kd: 0}\n")));
+  };
+  ASSERT_EQ(told("100").size(), 1U);
+  EXPECT_EQ(told("100")[0].text,
+            "Kp 100 of joint m0/active is too large for commands every 0.015 s: the share of its error that the joint goes per "
+            "command is 2.73, and above 2 it cannot settle; take Kp: 36 or less, or a shorter controller.period");
+  EXPECT_TRUE(told("26").empty());
+}
+
+/// What a module type states is its source's, also of limits that follow from it.
+TEST(Servo, SourcesAreOfWhatTheModuleTypeStates) {
+  const Folder folder;
+  std::string type = read(kScenarios + "modules/mtran.yaml");
+  type.replace(type.find("\nactuator:"), std::string::npos,
+               "\nactuator: {type: servo, " + kAx12 + ", source: data sheet 17}\n");
+  folder.write("own.yaml", type);
+  const auto source = [&](const std::string& more) {
+    const std::string path = folder.write("s.yaml", "gaitlab: 1\nrobot: {modules: ./own.yaml}\nduration: 0.1\n" + more);
+    return report::motor_source(read_scenario(path, {}, catalog()));
+  };
+  EXPECT_EQ(source(""), "data sheet 17");
+  EXPECT_EQ(source("actuator: {u_max: 9}\n"), "u_max, i_max of the scenario; the rest: data sheet 17");
+  EXPECT_EQ(source("actuator: {stall_torque: 1.5}\n"), "stall_torque of the scenario; the rest: data sheet 17");
+}
+
+}  // namespace
+}  // namespace gaitlab::test
