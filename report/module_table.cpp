@@ -123,10 +123,10 @@ std::string faces(const ModuleType& type) {
 }
 
 std::string connectors(const ModuleType& type) {
-  std::vector<Cells> rows{{"connector", "tension", "shear", "bending", "torsion", "source"}};
+  std::vector<Cells> rows{{"connector", "tension", "shear", "bending", "torsion"}};
   for (const auto& [name, one] : type.connectors) {
     rows.push_back({name, stated(one.tension, "N"), stated(one.shear, "N"), stated(one.bending, "N m"),
-                    stated(one.torsion, "N m"), one.source.empty() ? "nobody" : one.source});
+                    stated(one.torsion, "N m")});
   }
   return rows.size() > 1 ? aligned(rows) : "";
 }

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "core/dynamics/mass_matrix.h"
+#include "core/plugin/plugin_instance.h"
+#include "core/plugin/robot_info.h"
 #include "core/simulation/start.h"
 #include "interchange/mjcf.h"
 #include "tests/program/random_scenario.h"
@@ -159,6 +161,38 @@ TEST(Mujoco, HasOurMassMatrixWithRotors) {
        "M of the caterpillar's MJCF with rotors of 1e-8 kg m^2 behind gears of 594, every entry over sqrt(M_ii M_jj)",
        "MuJoCo 2.2.2: armature", ""},
       apart(T.transpose() * mujoco.mass() * T, ours), 1e-9, "required by the issue, as without rotors");
+}
+
+/// Published modules: genders or none, endless hinges, motors that differ, rotors.
+TEST(Mujoco, HasOurMassMatrixOfTheWholeLibrary) {
+  RandomRobots random(23);
+  double worst = 0;
+  int robots = 0;
+  for (const Scenario& s : shipped_library()) {
+    InMujoco mujoco(s);
+    ASSERT_EQ(mujoco.model().nv, s.robot->dof(s.base)) << s.name;
+    const RobotState state = random.state(*s.robot, s.base);
+    mujoco.set(state, 0, 0, 0);
+    Kinematics k(*s.robot);
+    k.update(*s.robot, state);
+    MassMatrix mass(*s.robot, s.base);
+    mass.update(k);
+    Eigen::MatrixXd ours = mass.matrix();
+    const std::unique_ptr<Actuator> actuator = make_actuator(s.actuator, info(*s.robot));
+    const In rotors = actuator == nullptr ? In() : actuator->reflected_inertia();
+    const auto first = ours.rows() - static_cast<Eigen::Index>(state.q.size());
+    for (std::size_t j = 0; j < rotors.size(); ++j) ours.diagonal()[first + static_cast<Eigen::Index>(j)] += rotors[j];
+    const Eigen::MatrixXd T = mujoco.from_ours(state);
+    worst = std::max(worst, apart(T.transpose() * mujoco.mass() * T, ours));
+    for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+      EXPECT_EQ(mujoco.model().jnt_limited[mujoco.id(s.robot->joints[j].name)] != 0, !s.robot->joints[j].turns_freely()) << s.name;
+    }
+    ++robots;
+  }
+  EXPECT_GE(robots, 13);
+  validate_below({"format.mujoco-library", "M of the exported MJCF of every robot of the library, every entry over sqrt(M_ii M_jj)",
+                  "MuJoCo 2.2.2, composite rigid bodies", ""},
+                 worst, 1e-10, "required by the issue; rounding of 1e-16, of sums up to 1e4 times the entry");
 }
 
 TEST(Mujoco, MovesTheSameWithoutMotorsAndContacts) {

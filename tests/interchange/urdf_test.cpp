@@ -83,6 +83,24 @@ TEST(Urdf, HasOurMassesInertiasAndJointOrigins) {
                  worst, kUrdfRounding, "chains of up to 30 poses by roll, pitch, yaw: some 1e-16 each");
 }
 
+/// Published modules: masses, endless hinges, motors that differ.
+TEST(Urdf, HoldsTheWholeLibrary) {
+  for (const Scenario& s : shipped_library()) {
+    const auto model = urdf::parseURDF(to_urdf(s));
+    ASSERT_NE(model, nullptr) << s.name;
+    double mass = 0;
+    for (const auto& [name, link] : model->links_) mass += link->inertial == nullptr ? 0 : link->inertial->mass;
+    EXPECT_NEAR(mass, s.robot->mass, 1e-12 * s.robot->mass) << s.name;
+    const Kinematics k = at_zero(*s.robot);
+    for (const Joint& joint : s.robot->joints) {
+      const urdf::Joint& read = *model->getJoint(joint.name);
+      EXPECT_EQ(read.type == urdf::Joint::CONTINUOUS, joint.turns_freely()) << s.name << ' ' << joint.name;
+      EXPECT_LT(difference(frame(*model->getLink(read.child_link_name)), {k.R[joint.link], k.p[joint.link]}), kUrdfRounding)
+          << s.name << ' ' << joint.name;
+    }
+  }
+}
+
 TEST(Urdf, HoldsTheHexapodsMotorsAndContactElements) {
   const auto model = urdf::parseURDF(to_urdf(shipped("hexapod.yaml")));
   ASSERT_NE(model, nullptr);

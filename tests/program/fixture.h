@@ -28,6 +28,18 @@ inline Scenario shipped(const std::string& name, const std::vector<std::string>&
   return read_scenario(kScenarios + name, sets, catalog());
 }
 
+/// Every scenario of scenarios/library, by name.
+inline std::vector<Scenario> shipped_library() {
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(kScenarios + "library")) {
+    if (file.path().extension() == ".yaml") names.push_back("library/" + file.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  std::vector<Scenario> all;
+  for (const std::string& name : names) all.push_back(shipped(name));
+  return all;
+}
+
 /// A scenario from text, with the shipped module types.
 inline Scenario scenario(const std::string& text, const std::vector<std::string>& sets = {}) {
   const Folder folder;
