@@ -65,10 +65,10 @@ std::string explain_plugin(const Entry& entry) {
 std::string scenario_page(const Catalog& catalog) {
   return "# The scenario file\n\n" + std::string(kRenewed) +
          "Every key, as `gaitlab explain` prints it. The keys of a CPG, controller or actuator are on their own page,\n"
-         "[plugins.md](plugins.md). A value per joint is a number, a list, or `{default: x, m3/passive: y}`;\n"
-         "a name may be a pattern with `*` and `?`, in quotes (`\"*/active\": y`). A name beats patterns, and patterns beat "
-         "`default`. For editors: the\n"
-         "JSON Schema `scenarios/gaitlab.schema.json`, by `gaitlab schema`.\n\n" +
+         "[plugins.md](plugins.md). A value per joint is a number, a list, or `{default: x, m3/passive: y}`; a name\n"
+         "may be a pattern with `*` and `?`, in quotes (`\"*/active\": y`). A name beats patterns, and patterns beat "
+         "`default`. For\n"
+         "editors: the JSON Schema `scenarios/gaitlab.schema.json`, by `gaitlab schema`.\n\n" +
          markdown_table(scenario_keys(catalog));
 }
 

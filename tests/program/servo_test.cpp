@@ -74,7 +74,9 @@ TEST(Servo, IsTheStraightLineOfItsDataSheet) {
     for (const double u : {-1.0, -0.3, 0.4, 1.0}) {
       for (const double w : {-0.5, 0.0, 0.25, 0.5}) {
         const double line = u - w;  // of T0; the current limit is that of the stall
-        if (std::abs(line) < 1) EXPECT_NEAR(m(u * V, w * w0).torque, T0 * line, rounding) << u << ", " << w;
+        if (std::abs(line) < 1) {
+          EXPECT_NEAR(m(u * V, w * w0).torque, T0 * line, rounding) << u << ", " << w;
+        }
         EXPECT_LE(std::abs(m(u * V, w * w0).torque), T0 + rounding) << u << ", " << w;
       }
     }
@@ -160,7 +162,7 @@ TEST(Servo, TheVerdictAsksIt) {
   EXPECT_EQ(envelope.gear_continuous, 0.1);
   EXPECT_EQ(envelope.speed_max, 8);
   const Recording record = run(s);
-  const report::Summary summary = summarise(s, record, 0);
+  const report::Summary summary = report::summarise(s, record, 0);
   const report::Verdict verdict = report::verdict(s, record, summary, report::overlaps(s, record));
   for (const char* id : {"voltage", "current", "envelope", "heat", "gear_peak", "gear_continuous"}) {
     const auto check = std::ranges::find(verdict.checks, id, &report::Check::id);
