@@ -16,6 +16,7 @@
 #include "core/scenario/node.h"
 #include "core/scenario/plugin_files.h"
 #include "core/scenario/read_scenario.h"
+#include "report/row_statistics.h"
 
 namespace gaitlab::app {
 
@@ -149,6 +150,7 @@ StoredRun read_run(const std::string& run, Catalog& catalog) {
   StoredRecording stored = read_recording(run);
   Scenario scenario = read_stored(scenario_of(run, stored), catalog, OtherPlugins::taken);
   if (stored.missing.empty()) check_fit(run, scenario, stored.recording);
+  report::fill_ticks_from_rows(scenario, stored.recording);
   return {std::move(stored), std::move(scenario)};
 }
 

@@ -25,8 +25,8 @@ struct CheckedRun {
   [[nodiscard]] const std::string& joint(std::size_t j) const { return scenario.robot->joints[j].name; }
   [[nodiscard]] const Limits& limits() const { return scenario.limits; }
   [[nodiscard]] bool driven() const { return !motors.of_joint.empty(); }
-  /// Why what all steps did cannot be judged; empty: it can.
-  [[nodiscard]] std::string no_steps() const;
+  /// Why what needs this column of ticks cannot be judged; empty: it can.
+  [[nodiscard]] std::string unknown(TickColumn column) const;
 };
 
 /// Up to `pass` a pass, up to `warn` a warning, above it, and where it is not a number, a failure.

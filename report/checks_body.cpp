@@ -7,6 +7,7 @@
 #include "core/scenario/wording.h"
 #include "report/checks.h"
 #include "report/number_texts.h"
+#include "report/row_statistics.h"
 #include "report/trust.h"
 
 namespace gaitlab::report {
@@ -17,6 +18,7 @@ std::string threshold(const char* key, double value, double preset) {
 
 namespace {
 
+constexpr const char* kNoEnergies = "the folder holds rows only, and no energies of all steps";
 constexpr const char* kNoFall = "judged of a floating base above a plane, with or without boxes";
 
 void judge(Check& made, const char* key, double Limits::*member, const CheckedRun& run) {
@@ -66,7 +68,7 @@ void tilt(const CheckedRun& run, Check& made) {
 }
 
 void tracking(const CheckedRun& run, Check& made) {
-  made.text = run.no_steps();
+  made.text = run.unknown(kErrorPeak);
   if (!made.text.empty()) return;
   const std::vector<JudgedJoint>& joints = run.summary.judged.joints;
   const std::size_t worst = Judged::farthest(joints);
@@ -81,21 +83,21 @@ void tracking(const CheckedRun& run, Check& made) {
 }
 
 void stops(const CheckedRun& run, Check& made) {
-  made.text = "statistics of all steps were not recorded: the folder is of an older format";
-  if (run.record.joints.empty() && !run.scenario.robot->joints.empty()) return;
+  const std::vector<BeyondRange> joints = beyond_range(*run.scenario.robot, run.record);
+  made.text = "neither statistics of all steps were recorded nor the angle of every joint";
+  if (joints.empty() && !run.scenario.robot->joints.empty()) return;
   judge(made, "beyond_range", &Limits::beyond_range, run);
   made.value = 0;
   made.status = CheckStatus::pass;
   double share = 0;
-  for (std::size_t j = 0; j < run.record.joints.size(); ++j) {
-    const JointStatistics& f = run.record.joints[j];
-    if (!(f.range_worst > 0)) continue;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (!(joints[j].worst > 0)) continue;
     ++made.joints;
-    if (f.range_worst > made.value) {
-      made.value = f.range_worst;
+    if (joints[j].worst > made.value) {
+      made.value = joints[j].worst;
       made.joint = run.joint(j);
     }
-    share = std::max(share, f.range_share);
+    share = std::max(share, joints[j].share);
   }
   made.text = "no joint leaves its range";
   if (made.joints == 0) return;
@@ -154,6 +156,8 @@ void torque_error(const CheckedRun& run, Check& made) {
 void ledger(const CheckedRun& run, Check& made) {
   made.text = "nothing drives the joints";
   if (!run.driven()) return;
+  made.text = kNoEnergies;
+  if (run.record.joints.empty()) return;
   judge(made, "energy_residual", &Limits::energy_residual, run);
   made.value = std::abs(run.record.ledger.residual()) / energy_scale(run.scenario, run.record);
   made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // not a number: a warning
@@ -163,11 +167,9 @@ void ledger(const CheckedRun& run, Check& made) {
 void created(const CheckedRun& run, Check& made) {
   made.text = "nothing drives the joints";
   if (!run.driven()) return;
+  made.text = kNoEnergies;
+  if (run.record.joints.empty()) return;
   judge(made, "energy_created", &Limits::energy_created, run);
-  if (run.record.joints.empty()) {
-    made.text = run.no_steps();
-    return;
-  }
   made.value = texts::created(run.record) / energy_scale(run.scenario, run.record);
   made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // not a number: a warning
   made.text =

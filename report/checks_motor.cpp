@@ -7,13 +7,17 @@
 
 #include "report/checks.h"
 #include "report/number_texts.h"
+#include "report/row_statistics.h"
 
 namespace gaitlab::report {
 
-std::string CheckedRun::no_steps() const {
+std::string CheckedRun::unknown(TickColumn column) const {
   if (!driven()) return "nothing drives the joints";
-  if (!record.tick(0, kCurrentLimited).empty()) return "";
-  return "what all steps did was not recorded: the folder is of an older format, or the run ended at once";
+  if (record.ticked() == 0 || record.ticks.rows() < 2)
+    return "what all steps did was not recorded: the folder is of an older format, or the run ended at once";
+  if (record.tick(0, column).empty()) return "the folder is of an older format, which did not keep it";
+  const std::string lacks = record.ticks_of_rows ? lacking(record, scenario.robot->joints.size(), column) : "";
+  return lacks.empty() ? "" : fmt::format("the trace has no column {}", lacks);
 }
 
 CheckStatus graded(double value, double pass, double warn) {
@@ -62,7 +66,7 @@ std::string of_motors(const CheckedRun& run) {
 }
 
 void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn column, double JudgedJoint::*share) {
-  made.text = run.no_steps();
+  made.text = run.unknown(column);
   if (!made.text.empty()) return;
   const Judged& judged = run.summary.judged;
   const double most = run.limits().saturated_periods * run.scenario.control_period;
@@ -106,8 +110,8 @@ struct Rated {
 
 /// The joint that comes nearest to its limit, or is farthest beyond it. none: what is said where no joint has a limit.
 template <class Rate>
-void rated(const CheckedRun& run, Check& made, const char* none, double pass, double warn, Rate rate) {
-  made.text = run.no_steps();
+void rated(const CheckedRun& run, Check& made, TickColumn column, const char* none, double pass, double warn, Rate rate) {
+  made.text = run.unknown(column);
   if (!made.text.empty()) return;
   made.text = none;
   double worst = -1;
@@ -115,10 +119,6 @@ void rated(const CheckedRun& run, Check& made, const char* none, double pass, do
     const Rated of = rate(j);
     if (!std::isfinite(of.limit) || !(of.limit > 0)) continue;
     const double share = of.value / of.limit;
-    if (std::isnan(share)) {
-      made.text = "the folder is of an older format, which did not keep it";
-      return;
-    }
     if (share > (std::isfinite(warn) ? warn : pass)) ++made.joints;
     if (share <= kLarger * worst) continue;
     worst = share;
@@ -149,7 +149,7 @@ void current(const CheckedRun& run, Check& made) {
 }
 
 void envelope(const CheckedRun& run, Check& made) {
-  rated(run, made, "the actuator states no limit", run.limits().margin, kNever, [&](std::size_t j) {
+  rated(run, made, kEnvelopePeak, "the actuator states no limit", run.limits().margin, kNever, [&](std::size_t j) {
     const JudgedJoint& joint = run.summary.judged.joints[j];
     return Rated{joint.envelope_peak, run.motors.joint(j).command ? 1.0 : 0.0, joint.envelope_peak_time};
   });
@@ -165,8 +165,8 @@ void speed(const CheckedRun& run, Check& made) {
     const Envelope& motor = run.motors.joint(j);
     return std::min(motor.speed_max.value_or(kNever), motor.no_load.value_or(kNever));
   };
-  rated(run, made, "the actuator has torque at any speed, and nobody states the largest one", run.limits().margin, 1,
-        [&](std::size_t j) {
+  rated(run, made, kSpeedPeak, "the actuator has torque at any speed, and nobody states the largest one", run.limits().margin,
+        1, [&](std::size_t j) {
           const JudgedJoint& joint = run.summary.judged.joints[j];
           return Rated{joint.speed_peak, limit(j), joint.speed_peak_time};
         });
@@ -178,8 +178,8 @@ void speed(const CheckedRun& run, Check& made) {
 }
 
 void heat(const CheckedRun& run, Check& made) {
-  rated(run, made, "nobody states the continuous current of the motors (actuator.i_continuous)", run.limits().margin, 1,
-        [&](std::size_t j) {
+  rated(run, made, kCurrentSquare, "nobody states the continuous current of the motors (actuator.i_continuous)",
+        run.limits().margin, 1, [&](std::size_t j) {
           return Rated{run.summary.judged.joints[j].current_rms, run.motors.joint(j).continuous.value_or(0), kNoTime};
         });
   if (made.status == CheckStatus::not_judged) return;
@@ -188,8 +188,8 @@ void heat(const CheckedRun& run, Check& made) {
 }
 
 void gear_peak(const CheckedRun& run, Check& made) {
-  rated(run, made, "nobody states the largest torque of the gears (actuator.gear_torque_peak)", run.limits().margin, 1,
-        [&](std::size_t j) {
+  rated(run, made, kTorquePeak, "nobody states the largest torque of the gears (actuator.gear_torque_peak)",
+        run.limits().margin, 1, [&](std::size_t j) {
           const JudgedJoint& joint = run.summary.judged.joints[j];
           return Rated{joint.torque_peak, run.motors.joint(j).gear_peak.value_or(0), joint.torque_peak_time};
         });
@@ -198,8 +198,8 @@ void gear_peak(const CheckedRun& run, Check& made) {
 }
 
 void gear_continuous(const CheckedRun& run, Check& made) {
-  rated(run, made, "nobody states the continuous torque of the gears (actuator.gear_torque_continuous)", run.limits().margin, 1,
-        [&](std::size_t j) {
+  rated(run, made, kTorqueSquare, "nobody states the continuous torque of the gears (actuator.gear_torque_continuous)",
+        run.limits().margin, 1, [&](std::size_t j) {
           return Rated{run.summary.judged.joints[j].torque_rms, run.motors.joint(j).gear_continuous.value_or(0), kNoTime};
         });
   if (made.status == CheckStatus::not_judged) return;

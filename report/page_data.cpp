@@ -146,6 +146,7 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
     stride *= 2;
     packing = packed(signals, r.rows(), stride);
   }
+  if (!verdict.of_rows.empty()) missing.push_back(verdict.of_rows);
   if (r.rows() > 1) std::ranges::move(left_out(scenario, signals), std::back_inserter(missing));
   if (stride > 1) {
     missing.push_back(fmt::format("every {} row is shown, to keep the page small; verdict and numbers are of all steps",

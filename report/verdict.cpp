@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
 
 #include "report/checks.h"
 #include "report/load_checks.h"
+#include "report/row_statistics.h"
 
 namespace gaitlab::report {
 
@@ -75,6 +77,12 @@ constexpr CheckKind kChecks[] = {
      checks::created},
 };
 
+constexpr std::string_view kOverAllSteps = ", over all steps";
+
+void replace_end(std::string& text, std::string_view end, std::string_view by) {
+  if (text.ends_with(end)) text.replace(text.size() - end.size(), end.size(), by);
+}
+
 std::string word(const std::vector<Check>& checks) {
   const auto any = [&](auto test) { return std::ranges::any_of(checks, test); };
   const auto fails = [](const Check& c) { return c.status == CheckStatus::fail; };
@@ -96,9 +104,11 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
   Verdict made;
   made.from = summary.judged.from;
   made.to = summary.judged.to;
+  made.of_rows = rows_sentence(record);
   for (const CheckKind& kind : kChecks) {
     Check check{kind.id, kind.group, kind.title, CheckStatus::not_judged, kNone, kNone, kind.unit, "",
                 0,       kNone,      kNone,      kind.definition};
+    if (!made.of_rows.empty()) replace_end(check.definition, kOverAllSteps, ", over the rows of the trace");
     kind.judge(run, check);
     const bool judged = check.status != CheckStatus::not_judged;
     made.chosen_motors = made.chosen_motors || (judged && check.group == "motor" && chosen(run.motor_source));

@@ -43,13 +43,15 @@ struct Verdict {
   bool chosen_motors = false;
   std::string first_joint = {};  ///< the first of the whole run at a limit of its motor, however shortly; empty: none is
   double first_time = 0;         ///< s, when that was
+  /// That peaks, shares and spans are of the trace's rows, because the folder has nothing else; empty: they are of all steps.
+  std::string of_rows = {};
   std::vector<JointDemand> demands = {};  ///< empty: no joint reaches a limit, or nobody asked
   std::string demand_doubt = {};          ///< why demands are not known, or doubtful
   [[nodiscard]] std::size_t count(CheckStatus status) const;
 };
 
-/// Shares, peaks and spans are of all steps (Recording::ticks). A limit that nobody states is not judged, never assumed kept.
-/// Thresholds: the scenario's `limits`.
+/// Shares, peaks and spans are of all steps (Recording::ticks), or of rows (row_statistics.h). A limit that nobody states is
+/// not judged, never assumed kept. Thresholds: the scenario's `limits`.
 Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps);
 
 /// `pass`, `not judged` ...

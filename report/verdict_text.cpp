@@ -37,6 +37,8 @@ std::string to_json(const Verdict& verdict) {
   json["format"] = 1;
   json["verdict"] = verdict.word;
   json["chosen_motors"] = verdict.chosen_motors;
+  json["statistics"] = verdict.of_rows.empty() ? "all steps" : "rows";
+  if (!verdict.of_rows.empty()) json["statistics_text"] = verdict.of_rows;
   json["window"] = {{"from", verdict.from}, {"to", verdict.to}};
   json["first"] = verdict.first_joint.empty() ? Json() : Json{{"joint", verdict.first_joint}, {"time", verdict.first_time}};
   Json counts;
@@ -102,6 +104,7 @@ std::vector<std::string> to_lines(const Verdict& verdict) {
   };
   wrap(text);
   if (!verdict.demand_doubt.empty()) wrap("demand: " + verdict.demand_doubt);
+  if (!verdict.of_rows.empty()) wrap(verdict.of_rows);
   if (verdict.chosen_motors) wrap("rests on chosen figures of the motors, not on a maker's");
   if (verdict.count(CheckStatus::fail) > 1) wrap("fails: " + names(CheckStatus::fail));
   if (verdict.count(CheckStatus::warn) > 0) wrap("warns: " + names(CheckStatus::warn));

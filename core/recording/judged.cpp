@@ -37,9 +37,11 @@ MotorLimit motor_limit(double saturation) {
   return saturation == 2 ? MotorLimit::current : saturation == 1 ? MotorLimit::voltage : MotorLimit::none;
 }
 
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
 /// Of the rows behind `first`: the largest, and when; NaN where nothing is known.
 std::pair<double, double> peak_of(const Series& t, const Series& values, std::size_t first) {
-  if (values.empty()) return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+  if (values.empty() || std::isnan(values.back())) return {kNotKnown, kNotKnown};
   std::pair<double, double> largest{0, 0};
   for (std::size_t k = first + 1; k < t.size(); ++k) {
     if (values[k] > kLarger * largest.first) largest = {values[k], t[k]};
@@ -51,9 +53,7 @@ JudgedJoint from_ticks(const Recording& record, std::size_t joint, std::size_t f
   const auto column = [&](TickColumn which) { return record.tick(joint, which); };
   const Series t(record.ticks, 0);
   const Series torque = column(kTorquePeak);
-  const Series error = column(kErrorPeak);
   const Series limit = column(kPeakLimit);
-  const Series square = column(kTorqueSquare);
   const Series voltage = column(kVoltageLimited);
   const Series current = column(kCurrentLimited);
   JudgedJoint j;
@@ -63,26 +63,26 @@ JudgedJoint from_ticks(const Recording& record, std::size_t joint, std::size_t f
       j.torque_peak_time = t[k];
       j.peak_limit = motor_limit(limit[k]);
     }
-    if (error[k] > kLarger * j.error_peak) {
-      j.error_peak = error[k];
-      j.error_peak_time = t[k];
-    }
     if (j.reaches_limit()) continue;
     if (voltage[k] > voltage[k - 1]) j.first_limit = MotorLimit::voltage;
     if (current[k] > current[k - 1]) j.first_limit = MotorLimit::current;
     if (!j.reaches_limit()) j.first_limit = motor_limit(limit[k]);
     j.first_limit_time = t[k];
   }
+  if (std::isnan(torque.back())) j.torque_peak = j.torque_peak_time = kNotKnown;
+  std::tie(j.error_peak, j.error_peak_time) = peak_of(t, column(kErrorPeak), first);
   std::tie(j.envelope_peak, j.envelope_peak_time) = peak_of(t, column(kEnvelopePeak), first);
   std::tie(j.speed_peak, j.speed_peak_time) = peak_of(t, column(kSpeedPeak), first);
   j.voltage_peak = peak_of(t, column(kVoltagePeak), first).first;
   j.current_peak = peak_of(t, column(kCurrentPeak), first).first;
   const double span = t.back() - t[first];
   if (!(span > 0)) return j;
-  const Series amperes = column(kCurrentSquare);
-  j.current_rms = amperes.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                  : std::sqrt(std::max(0.0, amperes.back() - amperes[first]) / span);
-  j.torque_rms = std::sqrt(std::max(0.0, square.back() - square[first]) / span);
+  const auto rms = [&](const Series& sum) {
+    const double grown = sum.empty() ? kNotKnown : sum.back() - sum[first];
+    return std::isnan(grown) ? kNotKnown : std::sqrt(std::max(0.0, grown) / span);
+  };
+  j.current_rms = rms(column(kCurrentSquare));
+  j.torque_rms = rms(column(kTorqueSquare));
   j.voltage_limited = (voltage.back() - voltage[first]) / span;
   j.current_limited = (current.back() - current[first]) / span;
   return j;
@@ -118,14 +118,14 @@ std::size_t Judged::first(const std::vector<JudgedJoint>& joints) {
 Judged judge(const Recording& r, const MotionCycle& cycle) {
   Judged judged;
   window(judged, r.simulated, cycle);
-  judged.joints.resize(r.joints.size());
-  judged.whole.resize(r.joints.size());
-  const bool known = !r.joints.empty() && !r.tick(0, kCurrentLimited).empty();
+  judged.joints.resize(r.ticked());
+  judged.whole.resize(r.ticked());
+  const bool known = r.ticked() > 0 && !r.tick(0, kCurrentLimited).empty();
   // The period is an estimate, which must not decide whether a row at the start of the window belongs to it.
   const double period = judged.periods > 0 ? cycle.period : 0;
   if (r.ticks.rows() > 0)
     judged.first_row = row_at(Series(r.ticks, 0), judged.from, std::max(kSameTime, kWholePeriod * period));
-  for (std::size_t j = 0; known && j < r.joints.size(); ++j) {
+  for (std::size_t j = 0; known && j < r.ticked(); ++j) {
     judged.joints[j] = from_ticks(r, j, judged.first_row);
     judged.whole[j] = from_ticks(r, j, 0);
   }

@@ -11,14 +11,14 @@ namespace gaitlab {
 
 enum class MotorLimit { none, voltage, current };
 
-/// Of one joint, within the window. A time is the end of the row of Recording::ticks in which the peak was reached.
+/// Of one joint, within the window; NaN where the folder does not know it. A time is the end of the row of Recording::ticks in
+/// which the peak was reached.
 struct JudgedJoint {
-  double torque_peak = 0, torque_peak_time = 0;     ///< N m, largest magnitude of the motor torque; s
-  MotorLimit peak_limit = MotorLimit::none;         ///< at which the motor was then
-  double torque_rms = 0;                            ///< N m
-  double voltage_limited = 0, current_limited = 0;  ///< share of the window
-  double error_peak = 0, error_peak_time = 0;       ///< rad, largest magnitude of set point minus angle; s
-  // NaN where the folder is too old to know.
+  double torque_peak = 0, torque_peak_time = 0;      ///< N m, largest magnitude of the motor torque; s
+  MotorLimit peak_limit = MotorLimit::none;          ///< at which the motor was then
+  double torque_rms = 0;                             ///< N m
+  double voltage_limited = 0, current_limited = 0;   ///< share of the window
+  double error_peak = 0, error_peak_time = 0;        ///< rad, largest magnitude of set point minus angle; s
   double envelope_peak = 0, envelope_peak_time = 0;  ///< largest share of the torque that there is at that speed; s
   double speed_peak = 0, speed_peak_time = 0;        ///< rad/s, largest magnitude; s
   double current_rms = 0;                            ///< A

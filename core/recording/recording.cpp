@@ -34,8 +34,8 @@ Series Recording::joint(std::size_t number, const char* quantity) const {
 
 Series Recording::tick(std::size_t number, TickColumn column) const {
   const std::size_t columns = ticks.columns.size();
-  if (joints.empty() || ticks.rows() < 2 || (columns - 1) % joints.size() != 0) return {};
-  const std::size_t each = (columns - 1) / joints.size();  // fewer in older folders: new ones are behind
+  if (ticked() == 0 || ticks.rows() < 2 || (columns - 1) % ticked() != 0) return {};
+  const std::size_t each = (columns - 1) / ticked();  // fewer in older folders: new ones are behind
   return column < each ? Series(ticks, 1 + number * each + column) : Series();
 }
 

@@ -60,6 +60,7 @@ struct Recording {
   /// share of the torque that there is since the row before, and from t = 0 the integrals of torque^2 and current^2 and the
   /// time at each limit. Over all steps, so that a peak or an RMS of any part of the run does not depend on trace.period.
   Trace ticks;
+  bool ticks_of_rows = false;  ///< `ticks` were made of the trace's rows: the folder knows nothing of all steps
   /// At the rows of `ticks`, but under the new commands: loads of docks and feet, ways that feet slid, how the robot stands.
   /// Without columns where nobody asked the simulation for it.
   Trace loads;
@@ -82,6 +83,10 @@ struct Recording {
   [[nodiscard]] Vec3 com(std::size_t row) const;
   /// Of the centre of mass, from the first row to the last.
   [[nodiscard]] Vec3 travel() const { return rows() == 0 ? Vec3(Vec3::Zero()) : Vec3(com(rows() - 1) - com(0)); }
+  /// Number of the joints that `ticks` are of.
+  [[nodiscard]] std::size_t ticked() const {
+    return joints.empty() ? (ticks.columns.size() + kTickColumns - 2) / kTickColumns : joints.size();
+  }
   /// A joint's column of `ticks`; empty where it is not known, as in a folder of an older format.
   [[nodiscard]] Series tick(std::size_t joint, TickColumn column) const;
   /// Whether `state` finds what it needs: always but in a folder of an older format.

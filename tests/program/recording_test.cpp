@@ -145,7 +145,8 @@ TEST_F(OldFolder, IsReadAsFarAsItGoes) {
   EXPECT_NE(result.out.find("distance      0.0"), std::string::npos) << result.out;
   for (const char* unknown : {"most loaded", "\n  tracking", "energy", "transport", "\n  stability"})
     EXPECT_EQ(result.out.find(unknown), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("not judged: voltage, current"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("judged from the trace's rows, one per "), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("not judged: voltage"), std::string::npos) << result.out;
   EXPECT_NE(result.err.find(
                 "old: note: old/trace.h5 holds rows only: peaks, shares of time, energies and the torque error, which are "
                 "of all steps, are not known\nold: note: the trace has no column load.*\n"),
@@ -164,6 +165,7 @@ TEST_F(OldFolder, HasAPageThatSaysWhatIsMissing) {
   EXPECT_EQ(result.code, 0) << result.err;
   const std::string page = read(folder_ / "old/report.html");
   EXPECT_NE(page.find("\"missing\":[\"trace.h5 holds rows only: peaks"), std::string::npos);
+  EXPECT_NE(page.find("\"judged from the trace's rows, one per "), std::string::npos);
   EXPECT_NE(page.find("\"joint.0.angle\""), std::string::npos);
   EXPECT_EQ(page.find(folder_.path().string()), std::string::npos);
 }
