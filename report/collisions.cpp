@@ -163,20 +163,19 @@ class Search {
 
 Overlaps overlaps(const Scenario& scenario, const Recording& r) {
   const Robot& robot = *scenario.robot;
-  if (scenario.contact.solver() || !r.has_states(robot)) return {};
+  const States states = States::at_ticks(r, robot);
+  if (scenario.contact.solver() || states.size() == 0) return {};
   const std::vector<Piece> pieces = pieces_of(robot);
   std::set<std::size_t> shaped;
   for (const Piece& piece : pieces) shaped.insert(piece.body);
   Search search(robot, pieces, scenario.limits);
   Kinematics k(robot);
   Row there(pieces);
-  const States states(r, robot);
-  for (std::size_t row = 0; row < r.rows(); ++row) {
-    const double time = std::min(static_cast<double>(row) * scenario.trace.period, r.simulated);
+  for (std::size_t row = 0; row < states.size(); ++row) {
     k.update(robot, states(row));
     there.set(k);
-    search.collide(there, time);
-    if (scenario.ground.kind == Ground::Kind::plane) search.sink(there, time);
+    search.collide(there, states.time(row));
+    if (scenario.ground.kind == Ground::Kind::plane) search.sink(there, states.time(row));
   }
   return {shaped.size(), search.collision(), search.sunk()};
 }

@@ -11,9 +11,9 @@ namespace gaitlab::report {
 
 /// Of bodies that no hinge joins and that can move against each other; numbers of Robot::bodies.
 struct Collision {
-  double time = 0;                                    ///< s, of the first row in which any two were in one another
-  std::size_t first = 0, second = 0;                  ///< the deepest pair of that row
-  double depth = 0;                                   ///< m, the largest of all rows
+  double time = 0;                                    ///< s, of the first tick at which any two were in one another
+  std::size_t first = 0, second = 0;                  ///< the deepest pair of that tick
+  double depth = 0;                                   ///< m, the largest of all ticks
   std::size_t deepest_first = 0, deepest_second = 0;  ///< the pair that has it
   std::size_t pairs = 0;                              ///< how many pairs met
 };
@@ -21,8 +21,8 @@ struct Collision {
 /// A body in the ground.
 struct Sunk {
   std::size_t body = 0;  ///< Robot::bodies: the deepest one
-  double time = 0;       ///< s, of the first row in which any was
-  double depth = 0;      ///< m, the largest of all rows
+  double time = 0;       ///< s, of the first tick at which any was
+  double depth = 0;      ///< m, the largest of all ticks
 };
 
 struct Overlaps {
@@ -31,7 +31,7 @@ struct Overlaps {
   std::optional<Sunk> sunk = {};  ///< on a plane
 };
 
-/// Of the shapes of all bodies in every row of the trace; less than Limits::touch and Limits::sink is nothing. Under
+/// Of the shapes of all bodies at control ticks (States::at_ticks); less than Limits::touch and Limits::sink is nothing. Under
 /// contact.law bullet nothing is known: the engine's solver keeps bodies apart.
 Overlaps overlaps(const Scenario& scenario, const Recording& record);
 

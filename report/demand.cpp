@@ -7,6 +7,7 @@
 
 #include "core/plugin/plugin_instance.h"
 #include "core/simulation/simulation.h"
+#include "report/fall.h"
 
 namespace gaitlab::report {
 
@@ -36,12 +37,7 @@ class Raise final : public Fields {
 };
 
 /// m: how far the centre of mass rises above where it is at the start.
-double rise(const Recording& record) {
-  const Series z = record.series("com.z");
-  double most = 0;
-  for (std::size_t row = 0; row < z.size(); ++row) most = std::max(most, z[row] - z.front());
-  return most;
-}
+double rise(const std::vector<double>& z) { return *std::ranges::max_element(z) - z.front(); }
 
 /// What the joint that lacks most would take beyond what it has, of those at that limit for some time: `0.241 A at m5/passive
 /// (needs 0.741 A; largest torque 1.3 N m, largest speed 0.9 rad/s)`.
@@ -62,9 +58,10 @@ std::string lack(const Scenario& scenario, const std::vector<JudgedJoint>& own, 
 }  // namespace
 
 bool thrown_up(const Scenario& scenario, const Recording& free, const Recording& own) {
-  const Series z = own.series("com.z");
-  if (scenario.base != Base::floating || scenario.ground.kind == Ground::Kind::none || z.empty()) return false;
-  return rise(free) > rise(own) + kThrown * std::abs(z.front());
+  if (scenario.base != Base::floating || scenario.ground.kind == Ground::Kind::none) return false;
+  const std::vector<double> z = heights(scenario, own);
+  const std::vector<double> thrown = heights(scenario, free);
+  return !z.empty() && !thrown.empty() && rise(thrown) > rise(z) + kThrown * std::abs(z.front());
 }
 
 bool raise_limits(Scenario& scenario) {

@@ -3,34 +3,45 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/states.h"
+
 namespace gaitlab::report {
+
+std::vector<double> heights(const Scenario& scenario, const Recording& r) {
+  const Robot& robot = *scenario.robot;
+  const States states = States::at_ticks(r, robot);
+  Kinematics k(robot);
+  std::vector<double> all;
+  for (std::size_t row = 0; row < states.size(); ++row) {
+    k.update(robot, states(row));
+    all.push_back(sums(robot, k, scenario.physics.gravity).com.z());
+  }
+  return all;
+}
 
 std::optional<Fall> fall(const Scenario& scenario, const Recording& r) {
   const Ground::Kind ground = scenario.ground.kind;
-  const Series height = r.series("com.z");
-  if (scenario.base != Base::floating || height.empty() || !r.has_states(*scenario.robot)) return {};
+  if (scenario.base != Base::floating) return {};
   if (ground != Ground::Kind::plane && ground != Ground::Kind::boxes) return {};
-  const auto base = [&](std::size_t row) {
-    const auto at = [&](const char* column) { return r.series(column)[row]; };
-    return Quat(at("base.qw"), at("base.qx"), at("base.qy"), at("base.qz"));
-  };
-  const Vec3 up = base(0).inverse() * Vec3::UnitZ();
-  const auto time = [&](std::size_t row) { return std::min(static_cast<double>(row) * scenario.trace.period, r.simulated); };
+  const std::vector<double> height = heights(scenario, r);
+  if (height.empty()) return {};
+  const States states = States::at_ticks(r, *scenario.robot);
+  const Vec3 up = states(0).orientation.inverse() * Vec3::UnitZ();
   Fall found{.start = height[0], .lowest = height[0], .fallen_time = r.simulated};
   bool fallen = false;
   double least = 1;  // cosine of the tilt
   for (std::size_t row = 0; row < height.size(); ++row) {
     if (height[row] < found.lowest) {
       found.lowest = height[row];
-      found.lowest_time = time(row);
+      found.lowest_time = states.time(row);
     }
     if (!fallen && found.share() < scenario.limits.height) {
       fallen = true;
-      found.fallen_time = time(row);
+      found.fallen_time = states.time(row);
     }
-    if (const double upright = (base(row) * up).z(); upright < least) {
+    if (const double upright = (states(row).orientation * up).z(); upright < least) {
       least = upright;
-      found.tilt_time = time(row);
+      found.tilt_time = states.time(row);
     }
   }
   found.tilt = std::acos(std::clamp(least, -1.0, 1.0));

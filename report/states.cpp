@@ -3,8 +3,9 @@
 namespace gaitlab::report {
 
 States::States(const Recording& recording, const Robot& robot)
-    : base_{recording.series("base.x"),  recording.series("base.y"),  recording.series("base.z"), recording.series("base.qw"),
-            recording.series("base.qx"), recording.series("base.qy"), recording.series("base.qz")} {
+    : time_(recording.series("t")), base_{recording.series("base.x"),  recording.series("base.y"),  recording.series("base.z"),
+                                          recording.series("base.qw"), recording.series("base.qx"), recording.series("base.qy"),
+                                          recording.series("base.qz")} {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) angles_.push_back(recording.joint(j, "angle"));
 }
 
@@ -15,6 +16,18 @@ RobotState States::operator()(std::size_t row) const {
   for (const Series& angle : angles_) s.q.push_back(angle[row]);
   s.qd.assign(angles_.size(), 0.0);
   return s;
+}
+
+bool states_of_ticks(const Recording& recording) { return recording.poses.rows() > 0; }
+
+States States::at_ticks(const Recording& recording, const Robot& robot) {
+  const Trace& poses = recording.poses;
+  if (!states_of_ticks(recording)) return recording.has_states(robot) ? States(recording, robot) : States();
+  States made;
+  made.time_ = Series(poses, 0);
+  for (std::size_t i = 0; i < made.base_.size(); ++i) made.base_[i] = Series(poses, 1 + i);
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) made.angles_.emplace_back(poses, 1 + made.base_.size() + j);
+  return made;
 }
 
 }  // namespace gaitlab::report

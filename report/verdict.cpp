@@ -7,6 +7,7 @@
 #include "report/checks.h"
 #include "report/load_checks.h"
 #include "report/row_statistics.h"
+#include "report/states.h"
 
 namespace gaitlab::report {
 
@@ -29,9 +30,9 @@ void stability(const CheckedRun& run, Check& made) { judge_stability(run.scenari
 
 constexpr CheckKind kChecks[] = {
     {"outcome", "run", "s", "Run finished", "simulated time against the duration", checks::outcome},
-    {"fall", "run", "", "Does not fall", "least height of the centre of mass over that at the start, at trace rows",
+    {"fall", "run", "", "Does not fall", "least height of the centre of mass over that at the start, at control ticks",
      checks::height},
-    {"tilt", "run", "rad", "Stays upright", "largest turn of the base away from its start, at trace rows", checks::tilt},
+    {"tilt", "run", "rad", "Stays upright", "largest turn of the base away from its start, at control ticks", checks::tilt},
     {"voltage", "motor", "", "Voltage suffices", "share of the window at the limit of the voltage, over all steps",
      checks::voltage},
     {"current", "motor", "", "Current suffices", "share of the window at the limit of the current, over all steps",
@@ -51,8 +52,8 @@ constexpr CheckKind kChecks[] = {
      "largest set point minus angle in the window, over all steps", checks::tracking},
     {"stops", "motion", "rad", "Joints keep their ranges",
      "farthest beyond the range of the hinge, of the whole run, over all steps", checks::stops},
-    {"collision", "structure", "m", "Bodies keep apart", "depth of two bodies in one another, of the whole run, at trace rows",
-     checks::collision},
+    {"collision", "structure", "m", "Bodies keep apart",
+     "depth of two bodies in one another, of the whole run, at control ticks", checks::collision},
     {"dock_tension", "structure", "N", "Docks are not pulled apart", "largest tension of a dock against its rating",
      dock<DockQuantity::tension>},
     {"dock_shear", "structure", "N", "Docks do not shear", "largest shear force of a dock against its rating",
@@ -63,10 +64,10 @@ constexpr CheckKind kChecks[] = {
      dock<DockQuantity::torsion>},
     {"battery", "structure", "A", "Batteries suffice", "current of each module against the rating of its battery",
      checks::battery},
-    {"in_ground", "ground", "m", "Bodies stay above the ground", "depth of a body in a plane, of the whole run, at trace rows",
-     checks::in_ground},
-    {"slip", "ground", "", "Feet hold", "way that the loaded feet slide over the way of the centre of mass, at control ticks",
-     slip},
+    {"in_ground", "ground", "m", "Bodies stay above the ground",
+     "depth of a body in a plane, of the whole run, at control ticks", checks::in_ground},
+    {"slip", "ground", "", "Feet hold",
+     "way that the loaded feet slide over the way of the centre of mass, both at control ticks", slip},
     {"stability", "ground", "m", "Stands on its feet",
      "least distance of the centre of mass to the edge of the support polygon, inside positive", stability},
     {"torque_error", "trust", "", "Torques are accurate", "estimated error of a joint's torque over its peak",
@@ -78,6 +79,7 @@ constexpr CheckKind kChecks[] = {
 };
 
 constexpr std::string_view kOverAllSteps = ", over all steps";
+constexpr std::string_view kAtTicks = ", at control ticks";
 
 void replace_end(std::string& text, std::string_view end, std::string_view by) {
   if (text.ends_with(end)) text.replace(text.size() - end.size(), end.size(), by);
@@ -108,6 +110,7 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
   for (const CheckKind& kind : kChecks) {
     Check check{kind.id, kind.group, kind.title, CheckStatus::not_judged, kNone, kNone, kind.unit, "",
                 0,       kNone,      kNone,      kind.definition};
+    if (!states_of_ticks(record)) replace_end(check.definition, kAtTicks, ", at trace rows");
     if (!made.of_rows.empty()) replace_end(check.definition, kOverAllSteps, ", over the rows of the trace");
     kind.judge(run, check);
     const bool judged = check.status != CheckStatus::not_judged;

@@ -93,6 +93,16 @@ std::vector<Column> tick_columns(std::size_t joints) {
   return columns;
 }
 
+std::vector<Column> pose_columns(std::size_t joints) {
+  std::vector<Column> columns{{"t", "s", "time"}};
+  for (const char* axis : {"x", "y", "z"})
+    columns.push_back({fmt::format("base.{}", axis), "m", "origin of the base frame, world axes"});
+  for (const char* part : {"qw", "qx", "qy", "qz"})
+    columns.push_back({fmt::format("base.{}", part), "", "quaternion, base frame to world"});
+  for (std::size_t j = 0; j < joints; ++j) columns.push_back({fmt::format("joint.{}.angle", j), "rad", "joint angle"});
+  return columns;
+}
+
 void halve_ticks(Trace& ticks) {
   const std::size_t columns = ticks.columns.size();
   const std::size_t rows = ticks.rows();

@@ -64,6 +64,8 @@ struct Recording {
   /// At the rows of `ticks`, but under the new commands: loads of docks and feet, ways that feet slid, how the robot stands.
   /// Without columns where nobody asked the simulation for it.
   Trace loads;
+  /// At the rows of `ticks`: pose of the base and angles of the joints. Without rows in a folder of an older format.
+  Trace poses;
   std::vector<JointStatistics> joints;  ///< none: the robot has no joint, or the run is of a format that did not keep them
   Ledger ledger;                        ///< at the end
   StepTally tally;                      ///< of the engine's steps
@@ -95,8 +97,9 @@ struct Recording {
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t row) const;
 };
 
-/// The columns of Recording::ticks for so many joints.
+/// The columns of Recording::ticks for so many joints; those of Recording::poses.
 std::vector<Column> tick_columns(std::size_t joints);
+std::vector<Column> pose_columns(std::size_t joints);
 /// Makes one row of each two behind the first: the later one, with the larger of their peaks.
 void halve_ticks(Trace& ticks);
 /// Makes one row of each two behind the first: the later one, with the larger of their loads of docks and the lesser stability.

@@ -61,7 +61,7 @@ std::vector<Beside> tables(const Recording& r) {
       joints.values.push_back(number);
     });
   }
-  return {{"rest", r.rest}, {"ticks", r.ticks}, {"loads", r.loads}, {"joints", joints}, {"run", run}};
+  return {{"rest", r.rest}, {"ticks", r.ticks}, {"loads", r.loads}, {"poses", r.poses}, {"joints", joints}, {"run", run}};
 }
 
 InputError unfit(const fs::path& file, const std::string& what) {
@@ -84,6 +84,7 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   r.rest = take("rest");
   r.ticks = take("ticks");
   if (find("loads") != beside.end()) r.loads = take("loads");  // older folders do not have it
+  if (find("poses") != beside.end()) r.poses = take("poses");  // nor that
   const Trace joints = take("joints");
   const Trace run = take("run");
   r.joints.resize(joints.rows());

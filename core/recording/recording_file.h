@@ -12,8 +12,8 @@ namespace gaitlab {
 inline constexpr const char* kBesideCsv = "recording.h5";  ///< what trace.csv does not hold
 
 /// Writes trace.h5, or, for `format` csv, trace.csv and recording.h5, which has what the CSV file cannot hold. Tables of
-/// `/recording`: `rest` and `ticks` (see Recording); `joints`, a row for each joint: its statistics and its torque error;
-/// `run`, one row: what is known of the whole run. RunError: a file cannot be written.
+/// `/recording`: `rest`, `ticks`, `loads` and `poses` (see Recording); `joints`, a row for each joint: its statistics and its
+/// torque error; `run`, one row: what is known of the whole run. RunError: a file cannot be written.
 void write_recording(const Recording& recording, const Provenance& origin, const std::string& format,
                      const std::filesystem::path& folder);
 

@@ -155,6 +155,7 @@ void Simulation::set_start() {
     recording.trace.columns = lane.probes->columns();
     recording.rest.columns = lane.probes->rest_columns();
     recording.ticks.columns = tick_columns(layout_.joints);
+    recording.poses.columns = pose_columns(layout_.joints);
     lane.ticks_per_row = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kTickRows / s.control_period - 1e-9)));
     check_memory(s, gaitlab::rows_needed(s, recording));
     const auto reserve = [](Trace& table, double rows) {
@@ -162,7 +163,8 @@ void Simulation::set_start() {
     };
     for (Trace* table : {&recording.trace, &recording.rest}) reserve(*table, s.duration / s.trace.period);
     const double ticks = s.duration / (s.control_period * static_cast<double>(lane.ticks_per_row));
-    reserve(recording.ticks, std::min(ticks, static_cast<double>(kMostTickRows)));
+    for (Trace* table : {&recording.ticks, &recording.poses})
+      reserve(*table, std::min(ticks, static_cast<double>(kMostTickRows)));
     if (loads_ == Loads::left_out) continue;
     lane.loads = std::make_unique<LoadMeter>(s, lane.contacts);
     recording.loads.columns = lane.loads->columns();

@@ -268,6 +268,7 @@ void Simulation::record_tick(Lane& lane) {
   if (ticks.rows() > kMostTickRows) {
     halve_ticks(ticks);
     halve_rows(lane.recording.loads);
+    halve_rows(lane.recording.poses);
     lane.ticks_per_row *= 2;
     if (lane.recording.control_ticks % lane.ticks_per_row != 0 && !lane.closed) return;
   }
@@ -275,7 +276,20 @@ void Simulation::record_tick(Lane& lane) {
   const Out row = Out(ticks.values).last(columns);
   row[0] = time();
   meter_.tick(lane.index, row.subspan(1));
+  record_pose(lane);
   lane.loads_due = lane.loads != nullptr;
+}
+
+/// A row of Recording::poses; none of a state that is not one any more.
+void Simulation::record_pose(Lane& lane) {
+  if (!fine(lane)) return;
+  RobotState& state = lane.sample.state;
+  layout_.read(plant_state_, lane.index, state);
+  Trace& poses = lane.recording.poses;
+  const Vec3& p = state.position;
+  const Quat& q = state.orientation;
+  for (const double value : {time(), p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}) poses.values.push_back(value);
+  poses.values.insert(poses.values.end(), state.q.begin(), state.q.end());
 }
 
 /// What lanes that are `wanted` bear in this moment under the commands that begin now, which change torques at once; of a lane

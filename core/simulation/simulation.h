@@ -99,6 +99,7 @@ class Simulation {
   void end(Lane& lane);
   void close(Lane& lane);
   void record_tick(Lane& lane);
+  void record_pose(Lane& lane);
   void record_loads(const std::function<bool(const Lane&)>& wanted);
   void record_loads(Lane& lane);
   [[nodiscard]] SimulationError stopped(const PluginError& error) const;
