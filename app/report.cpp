@@ -58,6 +58,12 @@ std::vector<std::string> told_missing(std::vector<std::string> missing, const fs
   return missing;
 }
 
+/// What the run's own `--demand` found, which no recording holds.
+void keep_demand(report::Verdict& verdict, const fs::path& file) {
+  if (kind_of(file) != fs::file_type::regular || report::take_demand(verdict, read_file(file))) return;
+  fmt::print(stderr, "{}: note: is not of this recording, so that what --demand found there is left out\n", file.string());
+}
+
 int report(const ReportArguments& arguments) {
   const fs::path trace = trace_file(arguments.run);
   const fs::path folder = trace.parent_path();
@@ -79,7 +85,8 @@ int report(const ReportArguments& arguments) {
   report::Summary summary = report::summarise(scenario, recording, wall_time(folder));
   summary.build = read.origin.build;
   const report::Overlaps overlaps = report::overlaps(scenario, recording);
-  const report::Verdict verdict = judged(scenario, recording, summary, overlaps, arguments.shown);
+  report::Verdict verdict = judged(scenario, recording, summary, overlaps, arguments.shown);
+  if (!arguments.shown.demand) keep_demand(verdict, folder / "verdict.json");
   std::string page;
   if (arguments.out || arguments.page) {
     page = report::page(report::page_data(scenario, recording, summary, verdict, told_missing(read.missing, trace)));

@@ -89,22 +89,29 @@ void stops(const CheckedRun& run, Check& made) {
   judge(made, "beyond_range", &Limits::beyond_range, run);
   made.value = 0;
   made.status = CheckStatus::pass;
-  double share = 0;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (!(joints[j].worst > 0)) continue;
-    ++made.joints;
-    if (joints[j].worst > made.value) {
-      made.value = joints[j].worst;
-      made.joint = run.joint(j);
-    }
-    share = std::max(share, joints[j].share);
-  }
   made.text = "no joint leaves its range";
+  std::size_t farthest = 0;
+  std::size_t longest = 0;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    made.joints += joints[j].worst > 0 ? 1 : 0;
+    if (joints[j].worst > joints[farthest].worst) farthest = j;
+    if (joints[j].share > joints[longest].share) longest = j;
+  }
   if (made.joints == 0) return;
-  const bool far = made.value > made.limit || share > run.limits().beyond_range_share;
-  made.status = far ? CheckStatus::fail : CheckStatus::warn;
-  made.text = fmt::format("{} leave{} the range of the hinge, {} farthest, for up to {} of the run",
-                          counted(made.joints, "joint"), made.joints == 1 ? "s" : "", made.joint, texts::percent(share));
+  const bool far = joints[farthest].worst > made.limit;
+  const double most = run.limits().beyond_range_share;
+  const bool for_long = joints[longest].share > most;
+  // The joint that decides: by its angle, or by its time where no angle does.
+  const std::size_t worst = for_long && !far ? longest : farthest;
+  made.value = joints[worst].worst;
+  made.joint = run.joint(worst);
+  made.status = far || for_long ? CheckStatus::fail : CheckStatus::warn;
+  made.text = fmt::format("{} leave{} the range of the hinge, {} ", counted(made.joints, "joint"), made.joints == 1 ? "s" : "",
+                          made.joint);
+  made.text += worst == longest && for_long && !far
+                   ? fmt::format("for {} of the run, more than {}, by up to {:.3g} rad", texts::percent(joints[worst].share),
+                                 texts::percent(most), made.value)
+                   : fmt::format("farthest: by {:.3g} rad, for {} of the run", made.value, texts::percent(joints[worst].share));
 }
 
 void collision(const CheckedRun& run, Check& made) {

@@ -70,6 +70,7 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
   if (!made.text.empty()) return;
   const Judged& judged = run.summary.judged;
   const double most = run.limits().saturated_periods * run.scenario.control_period;
+  const auto long_enough = [&](double stretch) { return stretch > most * (1 + 1e-6); };
   double stretch = 0;
   double value = 0;
   CheckStatus status = CheckStatus::pass;
@@ -78,7 +79,7 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
     if (!(part > 0)) continue;
     ++made.joints;
     const Span span = longest_span(run.record, j, column, judged.first_row);
-    const bool fails = part > run.limits().saturated_share || span.length() > most * (1 + 1e-6);
+    const bool fails = part > run.limits().saturated_share || long_enough(span.length());
     const CheckStatus of_joint = fails ? CheckStatus::fail : CheckStatus::warn;
     if (std::pair(of_joint, part) <= std::pair(status, value)) continue;
     status = of_joint;
@@ -95,12 +96,17 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
   made.limit = run.limits().saturated_share;
   made.source = threshold("saturated_share", made.limit, Limits().saturated_share) + of_motors(run);
   const char* const name = !run.has_dc_motors ? "actuator" : limit == MotorLimit::voltage ? "voltage" : "current";
-  made.text =
-      made.joints == 0
-          ? fmt::format("no joint is at the limit of its {}", name)
-          : fmt::format("{} of {} joints reach{} the limit of {} {}, {} longest: {} of the window, up to {:.3g} s on end",
-                        made.joints, judged.joints.size(), made.joints == 1 ? "es" : "", made.joints == 1 ? "its" : "their",
-                        name, made.joint, texts::percent(value), stretch);
+  made.text = fmt::format("no joint is at the limit of its {}", name);
+  if (made.joints == 0) return;
+  made.text = fmt::format("{} of {} joints reach{} the limit of {} {}, ", made.joints, judged.joints.size(),
+                          made.joints == 1 ? "es" : "", made.joints == 1 ? "its" : "their", name);
+  // What decides comes first: the share, or the stretch where the share alone would pass.
+  if (value <= made.limit && long_enough(stretch)) {
+    made.text += fmt::format("{} for {:.3g} s on end, more than {:g} control periods ({:.3g} s), in all {} of the window",
+                             made.joint, stretch, run.limits().saturated_periods, most, texts::percent(value));
+  } else {
+    made.text += fmt::format("{} longest: {} of the window, up to {:.3g} s on end", made.joint, texts::percent(value), stretch);
+  }
 }
 
 /// Of every joint a value and what it may be; not a number: not known, not finite or 0: not stated.

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
 
 #include "core/plugin/plugin_instance.h"
 #include "core/simulation/simulation.h"
 #include "report/fall.h"
+#include "report/plugin_names.h"
 
 namespace gaitlab::report {
 
@@ -92,8 +95,42 @@ Demand demand(const Scenario& twin, const Recording& record, const Summary& summ
   return made;
 }
 
+bool take_demand(Verdict& verdict, const std::string& json) try {
+  using Json = nlohmann::json;
+  const Json old = Json::parse(json);
+  const auto demand = old.find("demand");
+  if (demand == old.end()) return true;
+  const Json own = Json::parse(to_json(verdict));
+  Verdict with = verdict;
+  for (const char* const same : {"verdict", "window"}) {
+    if (old.at(same) != own.at(same)) return false;
+  }
+  for (std::size_t i = 0; i < with.checks.size(); ++i) {
+    Check& check = with.checks[i];
+    if (check.id != "voltage" && check.id != "current") continue;
+    const auto of = std::ranges::find(old.at("checks"), Json(check.id), [](const Json& one) { return one.at("id"); });
+    if (of == old.at("checks").end()) return false;
+    for (const char* const same : {"status", "value", "limit", "joint", "joints"}) {
+      if (of->at(same) != own.at("checks")[i].at(same)) return false;
+    }
+    check.missing = of->at("missing").get<std::string>();
+  }
+  const auto number = [](const Json& value) {
+    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+  };
+  with.demand_doubt = demand->at("doubt").get<std::string>();
+  for (const Json& of : demand->at("joints")) {
+    with.demands.push_back({of.at("joint").get<std::string>(), number(of.at("voltage")), number(of.at("current")),
+                            number(of.at("torque")), number(of.at("speed"))});
+  }
+  verdict = std::move(with);
+  return true;
+} catch (const nlohmann::json::exception&) {  // a file that somebody changed
+  return false;
+}
+
 void add_demand(Verdict& verdict, const Scenario& scenario, const Summary& summary, const Demand& demand) {
-  verdict.demand_doubt = demand.doubt;
+  verdict.demand_doubt = without_folders(demand.doubt, scenario.plugins);
   if (!demand.known) return;
   const std::vector<JudgedJoint>& own = summary.judged.joints;
   for (std::size_t j = 0; j < own.size(); ++j) {

@@ -33,4 +33,8 @@ Demand demand(const Scenario& twin, const Recording& record, const Summary& summ
 /// Fills in `missing` of what fails or warns for a limit of the motors, and Verdict::demands.
 void add_demand(Verdict& verdict, const Scenario& scenario, const Summary& summary, const Demand& demand);
 
+/// The same from the verdict.json that such a run wrote, so that its folder says again what it said. False: that file is not of
+/// this verdict (its word, its window and the checks of the limits are others), or no such file; nothing is taken.
+bool take_demand(Verdict& verdict, const std::string& json);
+
 }  // namespace gaitlab::report

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +13,7 @@
 #include "report/loads.h"
 #include "report/numbers.h"
 #include "report/page_ground.h"
+#include "report/plugin_names.h"
 #include "report/robot_tree.h"
 #include "report/settings_numbers.h"
 #include "report/signals.h"
@@ -37,16 +37,6 @@ Json frequency(const PluginSelection& cpg) {
   if (found == nullptr) return {};
   const auto same = [&](double each) { return each == found->value[0]; };
   return std::ranges::all_of(found->value.each, same) ? Json(found->value[0]) : Json();
-}
-
-/// A folder is not part of a run: plugin libraries go by the names of their files.
-std::string without_folders(std::string text, const std::vector<PluginFile>& plugins) {
-  for (const PluginFile& plugin : plugins) {
-    const std::string name = std::filesystem::path(plugin.path).filename().string();
-    for (std::size_t at = 0; (at = text.find(plugin.path, at)) != std::string::npos; at += name.size())
-      text.replace(at, plugin.path.size(), name);
-  }
-  return text;
 }
 
 /// Every text within.

@@ -6,6 +6,7 @@
 
 #include "report/checks.h"
 #include "report/load_checks.h"
+#include "report/plugin_names.h"
 #include "report/row_statistics.h"
 #include "report/states.h"
 
@@ -113,6 +114,7 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
     if (!states_of_ticks(record)) replace_end(check.definition, kAtTicks, ", at trace rows");
     if (!made.of_rows.empty()) replace_end(check.definition, kOverAllSteps, ", over the rows of the trace");
     kind.judge(run, check);
+    check.text = without_folders(std::move(check.text), scenario.plugins);
     const bool judged = check.status != CheckStatus::not_judged;
     made.chosen_motors = made.chosen_motors || (judged && check.group == "motor" && chosen(run.motor_source));
     made.checks.push_back(std::move(check));

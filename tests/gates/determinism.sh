@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The gate of docs/determinism.md: the same bytes (trace, resolved scenario, page) whatever surrounds the program.
+# The gate of docs/determinism.md: the same bytes (trace, resolved scenario, verdict, page) whatever surrounds the program.
 # usage: determinism.sh PROGRAM [SCENARIO]; exit code 0: all cases equal or skipped (said loudly), 1: one differs.
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
@@ -10,7 +10,7 @@ arguments=(run "$scenario" --set duration=0.6)
 # same CASE FOLDER: compares that run with the reference.
 same() {
   local file
-  for file in trace.h5 scenario.resolved.yaml report.html; do
+  for file in trace.h5 scenario.resolved.yaml verdict.json report.html; do
     cmp -- "$work/reference/$file" "$2/$file" || { bad "$1: $file differs"; return 0; }
   done
   ok "$1"
