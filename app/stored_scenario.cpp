@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 #include "core/scenario/node.h"
 #include "core/scenario/plugin_files.h"
 #include "core/scenario/read_scenario.h"
+#include "core/simulation/probes.h"
 #include "report/row_statistics.h"
 
 namespace gaitlab::app {
@@ -146,12 +148,24 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
   if (!whole && recording.rows() > 0) refuse("columns that every recording has are not there");
 }
 
+/// Units and definitions where the file holds none: it is CSV.
+void name_units(const Scenario& scenario, Trace& trace) {
+  const auto bare = [](const Column& column) { return column.definition.empty(); };
+  if (std::ranges::none_of(trace.columns, bare)) return;
+  const std::vector<Column> known = Probes::known(scenario);
+  for (Column& column : trace.columns) {
+    const auto same = std::ranges::find(known, column.name, &Column::name);
+    if (bare(column) && same != known.end()) column = *same;
+  }
+}
+
 }  // namespace
 
 StoredRun read_run(const std::string& run, Catalog& catalog) {
   StoredRecording stored = read_recording(run);
   Scenario scenario = read_stored(scenario_of(run, stored), catalog, OtherPlugins::taken);
   if (stored.missing.empty()) check_fit(run, scenario, stored.recording);
+  name_units(scenario, stored.recording.trace);
   report::fill_ticks_from_rows(scenario, stored.recording);
   return {std::move(stored), std::move(scenario)};
 }

@@ -205,8 +205,14 @@ class CurvesOfPanel final : public PaperPanel {
                                                : "no leg " + in_quotes(panel_.stance) + offer(panel_.stance, names, "legs"));
       return;
     }
+    const std::size_t number = static_cast<std::size_t>(leg - names.begin());
+    if (const std::string lacks = lacking_load(run.scenario, run.recording, {legs[number]}); !lacks.empty()) {
+      source.problem({"stance"},
+                     fmt::format("run {} has no column {}, by which a leg is known to stand", in_quotes(run.name), lacks));
+      return;
+    }
     const std::vector<double> time = row_times(run.recording);
-    stances_ = footfalls(run.scenario, run.recording, legs, time, 0)[static_cast<std::size_t>(leg - names.begin())].stances;
+    stances_ = footfalls(run.scenario, run.recording, {legs[number]}, time, 0).front().stances;
   }
 
   /// What distinguishes the curves: run, joint, quantity.

@@ -16,6 +16,9 @@ inline constexpr double kStands = 0.02;  ///< of the weight: a leg that carries 
 std::vector<Leg> legs_that_walk(const Scenario& scenario);
 
 /// A row per leg, over the whole run; `time` (s) of the recording's rows, duty factors from `from` (s) to its end.
+/// The first column `load.M` of these legs that the recording does not have; empty: it has them all.
+std::string lacking_load(const Scenario& scenario, const Recording& record, const std::vector<Leg>& legs);
+
 std::vector<Footfall> footfalls(const Scenario& scenario, const Recording& record, const std::vector<Leg>& legs,
                                 std::span<const double> time, double from);
 

@@ -118,7 +118,7 @@ View view_at(const Scenario& scenario, const Recording& r, const Sight& from, st
   const Robot& robot = *scenario.robot;
   Kinematics k(robot);
   k.update(robot, r.state(robot, tick));
-  View view{static_cast<double>(tick) * scenario.trace.period, side_view(robot, k, from.camera)};
+  View view{r.series("t")[tick], side_view(robot, k, from.camera)};
   for (const ContactElement& element : contact_elements(robot, scenario.contact.on)) {
     const Ground::Touch touch = scenario.ground.query(k.point(element.link, element.centre), element.radius);
     if (scenario.ground.kind != Ground::Kind::none && touch.penetration > 0) view.contacts.push_back(from.camera(touch.point));

@@ -27,6 +27,11 @@ class FootfallsOfPanel final : public PaperPanel {
       source.problem({"kind"}, "footfalls need a robot that walks on four legs or more");
       return;
     }
+    if (const std::string lacks = lacking_load(run.scenario, run.recording, legs); !lacks.empty()) {
+      source.problem({"kind"},
+                     fmt::format("run {} has no column {}, by which a leg is known to stand", in_quotes(run.name), lacks));
+      return;
+    }
     from_ = panel.from;
     to_ = panel.to > 0 ? std::min(panel.to, time.back()) : time.back();
     if (from_ >= to_) {
@@ -78,6 +83,15 @@ class FootfallsOfPanel final : public PaperPanel {
   double from_ = 0, to_ = 0;
 };
 
+/// Of two rows equally far away the earlier one; there is a row.
+std::size_t nearest_row(const std::vector<double>& time, double at) {
+  std::size_t nearest = 0;
+  for (std::size_t row = 1; row < time.size(); ++row) {
+    if (std::abs(time[row] - at) < std::abs(time[nearest] - at) - 1e-9) nearest = row;
+  }
+  return nearest;
+}
+
 class ViewsOfPanel final : public PaperPanel {
  public:
   explicit ViewsOfPanel(const PanelSource& source) {
@@ -110,8 +124,7 @@ class ViewsOfPanel final : public PaperPanel {
                                    with_unit(run.recording.simulated, "s")));
         continue;
       }
-      const auto row =
-          std::min(time.size() - 1, static_cast<std::size_t>(std::llround(panel.times[k] / run.scenario.trace.period)));
+      const std::size_t row = nearest_row(time, panel.times[k]);
       View view = view_at(run.scenario, run.recording, from, row, joint);
       if (panel.joint.empty()) view.joint.reset();
       input_.views.push_back(std::move(view));

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "core/plugin/plugin_instance.h"
+#include "core/plugin/robot_info.h"
+
 namespace gaitlab {
 
 namespace {
@@ -65,14 +68,31 @@ void Sample::compute_reactions(const std::vector<ContactElement>& elements, Plan
 Probes::Probes(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg,
                std::string_view command_unit, const Sample& sample)
     : sample_(sample) {
+  add_all(scenario, contacts, cpg, command_unit);
+  select(scenario);
+}
+
+std::vector<Column> Probes::known(const Scenario& scenario) {
   const Robot& robot = *scenario.robot;
-  add("t", "s", "time", sample.t);
+  const std::vector<ContactElement> contacts = contact_elements(robot, scenario.contact.on);
+  const std::unique_ptr<Cpg> cpg = make_cpg(scenario.cpg, info(robot));
+  const std::unique_ptr<Actuator> actuator = make_actuator(scenario.actuator, info(robot));
+  const Sample sample(robot, contacts.size(), cpg == nullptr ? 0 : cpg->states());
+  Probes all(sample);
+  all.add_all(scenario, contacts, cpg.get(), actuator == nullptr ? "" : actuator->command_unit());
+  return std::move(all.columns_);
+}
+
+void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg,
+                     std::string_view command_unit) {
+  const Robot& robot = *scenario.robot;
+  add("t", "s", "time", sample_.t);
   add_joints(robot, scenario.actuator.entry != nullptr, command_unit);
   add_base();
   add_vector("com", "m", "centre of mass, world axes", [](const Sample& s) { return s.sums.com; });
   add_contacts(contacts);
   add_loads(robot, contacts);
-  add_bodies(robot, sample);
+  add_bodies(robot, sample_);
   add_boxes(scenario.ground);
   for (std::size_t i = 0; cpg != nullptr && i < cpg->states(); ++i) {
     add("cpg." + cpg->state_name(i), "", "state of the CPG", [i](const Sample& s) { return s.cpg[i]; });
@@ -80,7 +100,6 @@ Probes::Probes(const Scenario& scenario, const std::vector<ContactElement>& cont
   add_energy();
   add_steps(robot);
   add_reactions(robot);
-  select(scenario);
 }
 
 void Probes::add(std::string name, std::string unit, std::string definition, Read read) {

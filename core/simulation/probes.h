@@ -51,6 +51,9 @@ class Probes {
          const Sample& sample);
 
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
+  /// Every column that a trace of the scenario could have, whatever its patterns say: units and definitions by name, which a
+  /// CSV file does not hold. Throws PluginError.
+  static std::vector<Column> known(const Scenario& scenario);
   /// Those of report_columns() that are not among them.
   [[nodiscard]] const std::vector<Column>& rest_columns() const { return rest_columns_; }
   /// Whether a column reads Sample::reactions.
@@ -61,6 +64,9 @@ class Probes {
 
  private:
   using Read = std::function<double(const Sample&)>;
+  explicit Probes(const Sample& sample) : sample_(sample) {}
+  void add_all(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg,
+               std::string_view command_unit);
   void add(std::string name, std::string unit, std::string definition, Read read);
   void add(std::string name, std::string unit, std::string definition, const double& number);
   void add_vector(const std::string& name, const std::string& unit, const std::string& definition,
