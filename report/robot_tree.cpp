@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/model/docking.h"
+#include "core/model/role.h"
 
 namespace gaitlab::report {
 
@@ -27,12 +28,6 @@ const char* kind_name(Shape::Kind kind) {
     default:
       return "sphere";
   }
-}
-
-/// What a body is to the eye: the gender of its first face, or where that has none its own name.
-std::string role_name(const ModuleType& type, std::size_t body) {
-  const auto face = std::ranges::find(type.faces, body, &FaceType::body);
-  return face == type.faces.end() || face->gender == Gender::none ? type.bodies[body].name : word(face->gender);
 }
 
 std::string key_of(const ModuleType& type, std::size_t body) { return type.name + "/" + type.bodies[body].name; }
@@ -103,7 +98,7 @@ Json RobotTree::bodies() const {
     all.push_back({{"name", body.name},
                    {"module", body.module},
                    {"type", key_of(type, body.type)},
-                   {"role", role_name(type, body.type)},
+                   {"role", name_of(role_of(type, body.type))},
                    {"parent", at.parent < 0 ? Json(-1) : Json(place_[static_cast<std::size_t>(at.parent)])},
                    {"joint", at.joint},
                    {"pre", json_of(at.pre)},

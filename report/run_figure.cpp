@@ -22,13 +22,6 @@ constexpr double kLeastAngle = 0.02;  // rad, the angle axis of a joint at rest
 constexpr double kAboutY = 0.9;       // least |y| of an axis
 constexpr double kSamePlace = 1e-3;   // m
 
-std::vector<double> times(const Scenario& scenario, const Recording& r, const Summary& summary) {
-  std::vector<double> time;
-  for (std::size_t k = 0; k < r.rows(); ++k)
-    time.push_back(std::min(static_cast<double>(k) * scenario.trace.period, summary.simulated));
-  return time;
-}
-
 JointPanel joint_panel(const Scenario& scenario, const Recording& r, const Summary& summary, std::size_t joint) {
   JointPanel panel;
   panel.joint = std::to_string(joint) + " (" + scenario.robot->joints[joint].name + ")";
@@ -136,7 +129,7 @@ std::string run_figure(const Scenario& scenario, const Recording& r, const Summa
   const std::size_t pointed = drawn.empty() ? 0 : drawn.front().joint;
   const std::string arrow = drawn.empty() ? "" : fmt::format(" (arrow: {})", scenario.robot->joints[pointed].name);
   input.views_title = from.view + arrow;
-  if (!drawn.empty()) input.time = times(scenario, r, summary);
+  if (!drawn.empty()) input.time = r.series("t").values();
   for (const Drawn& each : drawn) {
     input.joints.push_back(joint_panel(scenario, r, summary, each.joint));
     input.joints.back().joint += each.what;

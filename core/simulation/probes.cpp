@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "core/model/pattern.h"
+#include "core/plugin/plugin_instance.h"
+#include "core/plugin/robot_info.h"
 
 namespace gaitlab {
 

@@ -280,6 +280,50 @@ TEST_F(PaperFigure, EveryKindIsDrawn) {
           "figure.yaml:2:17: error: footfalls need a robot that walks on four legs or more");
 }
 
+/// A CSV file holds no units: they are known by the names of its columns.
+TEST_F(PaperFigure, RunsOfCsvHaveUnits) {
+  ASSERT_EQ(gaitlab("run creep.yaml --quiet --no-report --format csv --out csv", folder / "").code, 0);
+  std::string recipe = kTwin;
+  ASSERT_EQ(draw(recipe, "-o h.svg").code, 0);
+  const Result drawn = draw(recipe.replace(recipe.find(": run}"), 6, ": csv}"), "-o g.svg");
+  EXPECT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_TRUE(read(folder / "g.svg") == read(folder / "h.svg"));
+  EXPECT_TRUE(read(folder / "g.csv") == read(folder / "h.csv"));
+  EXPECT_TRUE(contains(read(folder / "g.svg"), "torque (N m)"));
+  refused("runs: {creep: csv}\npanels: [{left: {columns: [joint.1.torque, joint.1.angle]}}]\n",
+          "figure.yaml:2:27: error: joint.1.torque is in N m, joint.1.angle in rad: an axis has one unit; draw one of them on "
+          "the other axis");
+}
+
+/// A leg of which nobody knows the load does not stand idle.
+TEST_F(PaperFigure, LoadsThatAreNotThereAreAnError) {
+  ASSERT_EQ(gaitlab("run " + kScenarios +
+                        "hexapod.yaml --set physics.engine=articulated --set duration=0.05 --quiet --no-report --format csv "
+                        "--out legs",
+                    folder / "")
+                .code,
+            0);
+  const std::string footfalls = "runs: {hexapod: legs}\npanels: [{kind: footfalls}]\n";
+  ASSERT_EQ(draw(footfalls, "-o whole.svg").code, 0);
+  fs::remove(folder / "legs/recording.h5");  // which has the loads
+  refused(footfalls, "figure.yaml:2:17: error: run 'hexapod' has no column load.9, by which a leg is known to stand");
+  const Result stance =
+      draw("runs: {hexapod: legs}\npanels: [{left: {columns: [com.x]}, stance: m9 front left}]\n", "-o f.svg");
+  EXPECT_EQ(stance.code, 2);
+  EXPECT_TRUE(contains(stance.err, "run 'hexapod' has no column load.")) << stance.err;
+}
+
+/// The last row of a run whose end is not a multiple of trace.period is at that end.
+TEST_F(PaperFigure, ViewsNameTheTimeOfTheirRow) {
+  ASSERT_EQ(gaitlab("run creep.yaml --set duration=0.503 --quiet --no-report --out odd", folder / "").code, 0);
+  ASSERT_EQ(draw("runs: {creep: odd}\npanels: [{kind: views, times: [0.2, 0.503]}]\n", "-o f.svg").code, 0);
+  const Trace data = read_csv(folder / "f.csv");
+  ASSERT_EQ(data.rows(), 2U);
+  EXPECT_NEAR(data.at(0, 0), 0.2, 1e-12);
+  EXPECT_NEAR(data.at(1, 0), 0.503, 1e-12);
+  EXPECT_TRUE(contains(read(folder / "f.svg"), "0.503 s"));
+}
+
 /// A range that the curves leave: they end at the frame.
 TEST_F(PaperFigure, CurvesEndAtTheFrame) {
   ASSERT_EQ(draw(kRuns + "panels: [{left: {columns: [joint.1.angle], range: [-0.05, 0.05]}}]\n", "-o f.svg").code, 0);

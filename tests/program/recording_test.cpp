@@ -132,6 +132,21 @@ TEST(Ticks, AreAtLeastTwoMillisecondsApart) {
   EXPECT_NEAR(r.ticks.at(1, 0), 2e-3, 1e-12);
 }
 
+/// What a CSV file does not say of its columns is known by their names.
+TEST(Columns, KnownByNameAreThoseOfARun) {
+  for (const char* name : {"hexapod.yaml", "rubble.yaml", "pendulum.yaml"}) {
+    const Scenario s = shipped(name, {"duration=0.01", "physics.engine=articulated", "trace.columns=[\"*\"]"});
+    const std::vector<Column> known = Probes::known(s);
+    const Recording r = run(s);
+    ASSERT_EQ(known.size(), r.trace.columns.size()) << name;
+    for (std::size_t c = 0; c < known.size(); ++c) {
+      EXPECT_EQ(known[c].name, r.trace.columns[c].name);
+      EXPECT_EQ(known[c].unit, r.trace.columns[c].unit) << known[c].name;
+      EXPECT_EQ(known[c].definition, r.trace.columns[c].definition) << known[c].name;
+    }
+  }
+}
+
 class OldFolder : public testing::Test {
  protected:
   OldFolder() { std::filesystem::copy(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/run-of-format-1", folder_ / "old"); }

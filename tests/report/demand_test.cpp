@@ -67,13 +67,28 @@ TEST(Demand, OfAnActuatorWithoutLimitsIsNotKnown) {
   EXPECT_FALSE(raise_limits(held));
 }
 
-/// A twin at 20 Hz needs more than twenty times the current, or breaks off: it is never told as if it were known.
+/// Each doubt by its cause: at 5 Hz the robot is thrown up; of 5 mA twenty times as many are too few, too; a CPG that runs
+/// away ends the run; and where nothing is doubtful nothing is said (IsTheRunWithLimitsTwentyTimesAsLarge).
 TEST(Demand, SaysWhatMakesItDoubtful) {
   const Weak weak;
-  Scenario twin = shipped("caterpillar.yaml", with({"actuator.i_max=0.35", "cpg.frequency=20"}));
-  raise_limits(twin);
-  const Demand wild = demand(twin, weak.record, weak.summary);
-  EXPECT_NE(wild.doubt, "");
+  const auto twin = [](std::vector<std::string> sets) {
+    Scenario made = shipped("caterpillar.yaml", with(std::move(sets)));
+    EXPECT_TRUE(raise_limits(made));
+    return made;
+  };
+  const Demand thrown = demand(twin({"actuator.i_max=0.35", "cpg.frequency=5"}), weak.record, weak.summary);
+  EXPECT_TRUE(thrown.known);
+  EXPECT_EQ(thrown.doubt,
+            "with motors without limits the robot is thrown up, so that what it needs is not what the gait needs");
+  const Demand limited = demand(twin({"actuator.i_max=0.005"}), weak.record, weak.summary);
+  EXPECT_TRUE(limited.known);
+  EXPECT_EQ(limited.doubt, "even 20 times these limits are reached: it needs more than that");
+  const Scenario wild = scenario(
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.2\n"
+      "cpg: {type: equations, model: {states: {phi: exp(700)*exp(700)}, output: phi}}\n");
+  const Demand broken = demand(wild, weak.record, weak.summary);
+  EXPECT_FALSE(broken.known);
+  EXPECT_TRUE(broken.doubt.starts_with("with motors without limits the run breaks off: ")) << broken.doubt;
 }
 
 /// The height of the place where it hangs is nothing to a robot with a fixed base; on the ground a leap is one.
@@ -95,6 +110,33 @@ TEST(Demand, KnowsALeap) {
   Scenario fixed = weak.scenario;
   fixed.base = Base::fixed;
   EXPECT_FALSE(doubt(fixed, 0.51 * start));
+}
+
+/// `report` says again what `run --demand` found, as long as the file is of this recording.
+TEST(Demand, StaysWithItsFolder) {
+  const Folder folder;
+  const std::string file = kScenarios + "caterpillar.yaml --set physics.engine=articulated --set duration=4 ";
+  ASSERT_EQ(gaitlab("run " + file + "--set actuator.i_max=0.35 --demand --out a", folder.path()).code, 0);
+  const std::string told = read(folder / "a/verdict.json");
+  ASSERT_TRUE(contains(told, "\"demand\": {")) << told;
+  const Result again = gaitlab("report a --out b", folder.path());
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(read(folder / "b/verdict.json") == told);
+  EXPECT_TRUE(read(folder / "b/report.html") == read(folder / "a/report.html"));
+  EXPECT_TRUE(contains(again.out, "missing: ")) << again.out;
+  // Of another run, damaged, or not there: nothing is taken.
+  ASSERT_EQ(gaitlab("run " + file + "--set actuator.i_max=0.3 --demand --no-report --out other", folder.path()).code, 0);
+  const std::string note = "a/verdict.json: note: is not of this recording, so that what --demand found there is left out\n";
+  for (const std::string& text :
+       {read(folder / "other/verdict.json"), std::string("{\"demand\": 3}"), std::string("garbage")}) {
+    folder.write("a/verdict.json", text);
+    const Result without = gaitlab("report a", folder.path());
+    EXPECT_EQ(without.code, 0);
+    EXPECT_TRUE(contains(without.err, note)) << without.err;
+    EXPECT_FALSE(contains(without.out, "missing: ")) << without.out;
+  }
+  std::filesystem::remove(folder / "a/verdict.json");
+  EXPECT_EQ(gaitlab("report a", folder.path()).code, 0);
 }
 
 TEST(Demand, OfALimitOfNothingIsNotKnown) {

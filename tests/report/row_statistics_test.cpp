@@ -65,21 +65,26 @@ TEST(RowStatistics, OfEveryStepAreThoseOfAllSteps) {
 }
 
 /// A row of a control tick holds the command before it, and the torque is largest under the one that begins there: rows 15 ms
-/// apart, one per control tick, miss it unless the actuator is asked. What they miss all the same is between ticks.
+/// apart, one per control tick, show less than half of some joint's peak unless the actuator is asked. What they miss all the
+/// same is between ticks, below a tenth here. A step takes its law at its end, too, where it is up to h times the motor's rate
+/// (18/s * 5e-4 s) smaller.
 TEST(RowStatistics, SeeThePeakWhereACommandBegins) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated", "trace.period=0.015"});
   const Recording whole = run(s);
   const Recording bare = rows_only(s, whole);
   const Judged steps = judge(whole, {});
   const Judged rows = judge(bare, {});
-  double seen = 0;
+  double least = 1;
   for (std::size_t j = 0; j < steps.whole.size(); ++j) {
+    const double peak = steps.whole[j].torque_peak;
     const Series torque = whole.joint(j, "torque");
+    double seen = 0;
     for (std::size_t k = 0; k < torque.size(); ++k) seen = std::max(seen, std::abs(torque[k]));
-    EXPECT_LE(rows.whole[j].torque_peak, steps.whole[j].torque_peak * (1 + 1e-9)) << j;
-    EXPECT_GT(rows.whole[j].torque_peak, 0.9 * steps.whole[j].torque_peak) << j;
+    least = std::min(least, seen / peak);
+    EXPECT_LE(rows.whole[j].torque_peak, 1.01 * peak) << j;
+    EXPECT_GT(rows.whole[j].torque_peak, 0.9 * peak) << j;
   }
-  EXPECT_LT(seen, 0.95 * rows.whole[Judged::strongest(rows.whole)].torque_peak) << "of the rows alone";
+  EXPECT_LT(least, 0.5) << "of the rows alone";
   EXPECT_EQ(judged(s, bare).word, judged(s, whole).word);
 }
 

@@ -82,6 +82,26 @@ TEST(Verdict, WarnsOfShortLimitsAndFailsByLongOnes) {
   }
 }
 
+/// The text leads with what decided: four ticks on end, of which the run cuts the last one, are 55 ms,
+/// 1.7 % of the window.
+TEST(Verdict, TellsTheNumberThatDecided) {
+  Case made = at_limit(kCurrentLimited, 4);
+  EXPECT_TRUE(contains(made.check("current").text, "longest: 1.72 % of the window, up to 0.055 s on end"))
+      << made.check("current").text;
+  made.scenario.limits.saturated_share = 0.05;
+  EXPECT_EQ(made.status("current"), CheckStatus::fail);
+  EXPECT_TRUE(contains(made.check("current").text, "m1/passive for 0.055 s on end, more than 3 control periods (0.045 s)"))
+      << made.check("current").text;
+}
+
+TEST(Verdict, NamesNoFolder) {
+  Case made = walk();
+  made.scenario.plugins = {{"/home/somebody/build/wave.so", "hash"}};
+  made.record.outcome = "stopped at step 3: cpg 'wave' (/home/somebody/build/wave.so): no luck";
+  EXPECT_EQ(made.check("outcome").text, "stopped at step 3: cpg 'wave' (wave.so): no luck");
+  EXPECT_FALSE(contains(to_json(made.judged()), "/home"));
+}
+
 TEST(Verdict, MeasuresTrackingInTheWindow) {
   const auto with = [&](double error) {
     Case made = walk();
@@ -217,6 +237,16 @@ TEST(Verdict, JudgesStopsFallsAndTheEnd) {
   EXPECT_EQ(stops(0.005, 0.005), CheckStatus::warn);
   EXPECT_EQ(stops(0.02, 0.005), CheckStatus::fail);
   EXPECT_EQ(stops(0.005, 0.02), CheckStatus::fail);
+  Case both = walk();  // one joint is far beyond its range, another for long
+  both.record.joints[4].range_worst = 0.009;
+  both.record.joints[6].range_worst = 0.002;
+  both.record.joints[6].range_share = 0.02;
+  EXPECT_EQ(both.check("stops").joint, both.scenario.robot->joints[6].name) << "its time decides";
+  EXPECT_TRUE(contains(both.check("stops").text, "for 2 % of the run, more than 1 %, by up to 0.002 rad"))
+      << both.check("stops").text;
+  both.record.joints[4].range_worst = 0.02;
+  EXPECT_EQ(both.check("stops").joint, both.scenario.robot->joints[4].name) << "its angle decides";
+  EXPECT_TRUE(contains(both.check("stops").text, "farthest: by 0.02 rad")) << both.check("stops").text;
   Case fallen = walk();
   Trace& poses = fallen.record.poses;
   poses.values[(poses.rows() - 1) * poses.columns.size() + poses.find("base.z")] -= 0.9 * fallen.record.series("com.z").back();
@@ -319,9 +349,10 @@ TEST(Verdict, DoesNotAssumeWhatItDoesNotKnow) {
   Case bare = walk();  // as a CSV file alone: rows and nothing else
   bare.record.ticks = {};
   bare.record.joints.clear();
-  for (const char* const id : {"voltage", "envelope", "tracking", "stops", "created"})
+  for (const char* const id : {"voltage", "envelope", "tracking", "ledger", "created"})
     EXPECT_EQ(bare.status(id), CheckStatus::not_judged) << id;
   EXPECT_TRUE(contains(bare.check("voltage").text, "older format"));
+  EXPECT_EQ(bare.status("stops"), CheckStatus::pass) << "angles are in the rows";
 }
 
 TEST(Verdict, LimitsAreSettings) {

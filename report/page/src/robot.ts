@@ -58,10 +58,11 @@ export class Robot {
     this.press = light && (ground.kind === "plane" || ground.kind === "boxes") ? pressed(light, ground.height + 0.0008 * this.unit) : null;
     const types = new Map<string, number[]>();
     bodies.forEach((b, i) => types.set(b.type, [...(types.get(b.type) ?? []), i]));
-    let points = 0;
+    let points = 0, others = 0;
     for (const [type, members] of types) {
       this.corners.set(type, (meta.geometry[type] ?? []).flatMap(corners));
-      const role = bodies[members[0]].role, material = this.materials[role === "active" || role === "passive" ? role : "other"];
+      const { role } = bodies[members[0]]; // without gender: in turn, so that the halves of a module can be told apart
+      const look = role === "active" || role === "passive" ? role : role !== "other" ? "other" : others++ % 2 ? "passive" : "active", material = this.materials[look];
       for (const piece of outline(meta.geometry[type] ?? [])) {
         const mesh = new InstancedMesh(piece.body, material, members.length), shadow = this.press ? new InstancedMesh(piece.shadow, this.shade, members.length) : null;
         // A translucent robot is drawn twice, its depth first, so that its own far side does not show through.
