@@ -9,6 +9,7 @@
 #include "core/dynamics/body_tree.h"
 #include "core/model/docking.h"
 #include "core/model/pattern.h"
+#include "report/motors.h"
 #include "report/number_texts.h"
 
 namespace gaitlab::report {
@@ -143,7 +144,8 @@ void judge_docks(const Scenario& scenario, const Recording& record, const Summar
   made.status = worst.share() <= scenario.limits.margin ? CheckStatus::pass
                 : worst.share() <= 1                    ? CheckStatus::warn
                                                         : CheckStatus::fail;
-  made.text += fmt::format(", {} of what it holds", texts::percent(std::max(0.0, worst.share())));
+  made.text += fmt::format(", {} of what it holds{}", texts::percent(std::max(0.0, worst.share())),
+                           chosen(made.source) ? " by a chosen figure" : "");
 }
 
 void judge_slip(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {

@@ -246,6 +246,7 @@ Lines ledger(const RunData& run) {
   add(l.contact, "contact");
   add(l.friction, "friction");
   add(l.stops, "stops");
+  add(l.hinges, "hinges");
   add(l.residual(), "residual");
   return lines;
 }

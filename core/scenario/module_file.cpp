@@ -265,10 +265,10 @@ class ModuleReader {
       }
     }
     Passive passive;
-    reader.number("stiffness", passive.stiffness, {"N m/rad", 0, 1e9, "Of a spring."});
+    reader.number("stiffness", passive.stiffness, {"N m/rad", 0, 1e6, "Of a spring."});
     reader.number("rest", passive.rest, {"rad", -1000, 1000, "Angle at which the spring is at rest."});
-    reader.number("damping", passive.damping, {"N m s/rad", 0, 1e9, "Of a viscous damper."});
-    reader.number("friction", passive.friction, {"N m", 0, 1e9, "Dry friction."});
+    reader.number("damping", passive.damping, {"N m s/rad", 0, 1e6, "Of a viscous damper."});
+    reader.number("friction", passive.friction, {"N m", 0, 1e6, "Dry friction."});
     reader.number("friction_speed", passive.friction_speed, {"rad/s", 1e-6, 1e3, "Speed below which dry friction is viscous."});
     if (drive == Drive::none) {
       hinge.passive = passive;

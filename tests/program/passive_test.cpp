@@ -246,9 +246,10 @@ TEST(PassiveHinge, IsExported) {
 }
 
 TEST(PassiveHinge, AloneNeedsNoActuator) {
-  EXPECT_EQ(Rod{"articulated", "stiffness: 1"}.read().actuator.entry, nullptr);
+  const Rod alone{"articulated", "stiffness: 1"};
+  EXPECT_EQ(alone.read().actuator.entry, nullptr);
   try {
-    Rod{"articulated", "stiffness: 1"}.read({"actuator.type=dc_motor"});
+    static_cast<void>(alone.read({"actuator.type=dc_motor"}));
     ADD_FAILURE() << "an actuator for nothing";
   } catch (const InputError& e) {
     EXPECT_TRUE(contains(e.what(), "an actuator is given, but every hinge of the robot has drive: none")) << e.what();

@@ -110,6 +110,8 @@ TEST(LoadChecks, TakeTheSmallerLimitOfBothConnectors) {
   EXPECT_EQ(held.check("dock_tension").status, CheckStatus::pass);
   EXPECT_EQ(held.check("dock_tension").limit, 20);
   EXPECT_EQ(held.check("dock_tension").source, "chosen: test");
+  EXPECT_TRUE(contains(held.check("dock_tension").text, "of what it holds by a chosen figure"))
+      << held.check("dock_tension").text;
   EXPECT_EQ(held.check("dock_shear").limit, 50) << "the other states none";
   EXPECT_EQ(held.check("dock_shear").source, "rofi.fi.muni.cz");
   EXPECT_EQ(held.check("dock_bending").status, CheckStatus::not_judged);

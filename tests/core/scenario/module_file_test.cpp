@@ -100,7 +100,7 @@ TEST_F(ModuleFileTest, Format2) {
   EXPECT_EQ(wrong(range, range + ", stiffness: 2"),
             "DIR/m.yaml:12:114: error: stiffness is of a hinge without a motor; add drive: none, or remove it");
   EXPECT_EQ(wrong(range, range + ", drive: none, damping: -1"),
-            "DIR/m.yaml:12:127: error: damping is -1 N m s/rad; allowed are 0 to 1e9 N m s/rad");
+            "DIR/m.yaml:12:127: error: damping is -1 N m s/rad; allowed are 0 to 1e6 N m s/rad");
   EXPECT_EQ(wrong(range, range + ", drive: none, actuator: {R: 1}"),
             "DIR/m.yaml:12:128: error: hinge 'h' has actuator and drive: none; expected one of them");
   EXPECT_EQ(wrong(range, range + ", drive: loose"),
