@@ -40,11 +40,13 @@ std::vector<double> less(const Trace& now, const Trace& golden, const std::strin
 }
 
 std::vector<report::Stray> strays(const GoldenCase& c) {
+  const RoundedTrace& golden = c.golden->run;
   std::vector<report::Stray> found;
   for (const ColumnCheck& check : c.difference.columns) {
     if (check.passed()) continue;
-    found.push_back({check.name, check.unit, check.ratio(), kOutside * check.band * check.scale, check.outside,
-                     less(c.run.trace, c.golden->run.trace, check.name)});
+    const double rounding = 0.5 * golden.precision[golden.trace.find(check.name)];  // of the golden's own trace
+    found.push_back({check.name, check.unit, check.ratio(), kOutside * check.band * check.scale + rounding, check.outside,
+                     less(c.run.trace, golden.trace, check.name)});
   }
   const auto from = [](const report::Stray& stray) { return stray.from.value_or(std::numeric_limits<double>::infinity()); };
   std::stable_sort(found.begin(), found.end(), [&](const report::Stray& a, const report::Stray& b) {

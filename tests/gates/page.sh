@@ -53,11 +53,49 @@ cp -r -- "$root/scenarios" .
 sed -i 's,^source: .*,source: "</script><script>window.taken = 1</script><!--",' scenarios/modules/mtran.yaml
 expect 0 "$program" run scenarios/caterpillar.yaml --set duration=0.5 --set physics.engine=articulated --quiet --out markup
 grep -q 'window.taken' markup/scenario.resolved.yaml || fail "the scenario has no markup in it"
+# The same module with a motor that gives 1 % more: a golden strays.
+sed -i 's,^  Kt: 0.00395 ,  Kt: 0.0039895 ,' scenarios/modules/mtran.yaml
+expect 4 "$program" test scenarios/caterpillar.yaml --out strayed
+# It leaves the range of numbers after a tenth of a second.
+away=(--set ground.type=none --set 'robot.position=[99000, 0, 1]' --set robot.on_ground=false --set 'initial.base_velocity=[9999, 0, 0]')
+expect 1 "$program" run "${walk[@]}" "${away[@]}" --set duration=1 --out failed
+expect 0 "$program" run "$root/scenarios/caterpillar.yaml" --set duration=2 --set physics.engine=articulated --set trace.period=0.02 --quiet --format csv --out csv
+cp -r -- "$root/tests/data/run-of-format-1" old
+expect 0 "$program" report old --page old.html
+cat >ball.yaml <<'END'
+gaitlab_module: 1
+name: ball
+bodies:
+  ball: {mass: 1, com: [0, 0, 0], inertia: [0.001, 0.001, 0.001, 0, 0, 0], shape: [{sphere: 0.05}], source: chosen}
+hinges: []
+faces: []
+contacts: {feet: [], all: [{body: ball, sphere: [0, 0, 0], radius: 0.05}]}
+END
+cat >jointless.yaml <<'END'
+gaitlab: 1
+robot: {modules: ball.yaml, position: [0, 0, 0.2]}
+contact: {on: all}
+actuator: {type: none}
+duration: 0.5
+END
+expect 0 "$program" run jointless.yaml --quiet --out jointless
+expect 0 "$program" check jointless.yaml --quiet --page built_ball.html
+# Two runs: of one robot, the other with a shorter clock and other rows; of two robots; of one without joints.
+expect 0 "$program" run "${walk[@]}" --set cpg.frequency=1 --no-report --out brisk
+expect 0 "$program" run "${walk[@]}" --set duration=3.75 --set cpg.frequency=0.8 --set trace.period=0.02 --no-report --out slow
+expect 0 "$program" report brisk slow
+expect 0 "$program" report infeasible csv --page robots.html
+expect 0 "$program" report feasible jointless --page ball.html
+expect 0 "$program" report brisk slow --page pair.html
+cmp brisk/compare.html pair.html || fail "the same two runs give another page"
+! grep -q "$work" pair.html strayed/*.html || fail "a page names a folder"
 # Same run, same bytes.
 expect 0 "$program" run "${fast[@]}" --out again
 cmp infeasible/report.html again/report.html || fail "the same run gives another page"
 
-pages=(feasible=feasible/report.html infeasible=infeasible/report.html open=open/report.html built=built.html markup=markup/report.html)
+pages=(feasible=feasible/report.html infeasible=infeasible/report.html open=open/report.html built=built.html markup=markup/report.html
+  failed=failed/report.html csv=csv/report.html old=old.html jointless=jointless/report.html built_ball=built_ball.html
+  pair=pair.html robots=robots.html ball=ball.html strayed=strayed/caterpillar-8.failure.html)
 if ! node "$page/test/page_test.mjs" "${pages[@]}" trace=trace.csv >"$work/log" 2>&1; then
   show_log
   fail "the page in $("$CHROMIUM" --version 2>/dev/null || printf %s "$CHROMIUM")"

@@ -1,5 +1,6 @@
 // The report page in a browser. usage: node page_test.mjs NAME=FILE...
-// feasible, infeasible, failed, open (not judged), built: pages by what they say; markup: one of a scenario with markup in its text;
+// feasible, infeasible, failed, open (not judged), built: pages by what they say; markup: one of a scenario with markup in its text; csv, old
+// (a folder of format 1), jointless, built_ball: what there is little of; pair, robots, ball: two runs; strayed: of a golden.
 // trace: CSV of the feasible run with body.* columns.
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
@@ -10,7 +11,9 @@ import { close, columnsOf, metaOf, open } from "./browser.mjs";
 const files = Object.fromEntries(process.argv.slice(2).map((a) => a.split(/=(.*)/s)));
 const { trace, ...pages } = files;
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-const said = { feasible: /^Feasible/, infeasible: /^Not feasible/, failed: /^The run ended early/, built: /^Built, not run$/, open: /^Not judged$/ };
+const said = { feasible: /^Feasible/, infeasible: /^Not feasible/, failed: /^The run ended early/, "not run": /^Built, not run$/, "not judged": /^Not judged$/ };
+const saidOf = (meta) => said[meta.outcome === "not run" ? "not run" : meta.verdict.verdict];
+const verdicts = { feasible: "feasible", infeasible: "infeasible", failed: "failed", open: "not judged" };
 after(close);
 
 /** A test on an open page that must not complain. */
@@ -28,7 +31,9 @@ const near = (a, b, off, what) => assert.ok(Math.abs(a - b) <= off, `${what}: ${
 
 for (const [name, file] of Object.entries(pages)) {
   on(`${name}: says what it found`, file, {}, async (page, meta) => {
-    if (said[name]) assert.match(await page.textContent("#said"), said[name]);
+    if (meta.overlay) return;
+    assert.match(await page.textContent("#said"), saidOf(meta));
+    if (verdicts[name]) assert.equal(meta.verdict.verdict, verdicts[name]);
     assert.equal(await page.textContent("#name"), meta.name);
     assert.equal(await page.title(), `${meta.name}: gaitlab report`);
     if (meta.outcome === "not run") return;
@@ -224,6 +229,124 @@ on("built: shows hinges, faces and axes, and no time", pages.built, {}, async (p
   for (const id of ["#transport", "#checks", "#motion", "#heat", "#path"]) assert.equal(await page.isVisible(id), false, id);
   const rows = await page.$$eval("#parts tbody tr", (all) => all.map((r) => r.firstChild.textContent));
   assert.deepEqual(rows, [...meta.docks.map((d) => meta.modules[d.module].name), ...meta.joints.map((j) => j.name)]);
+});
+
+on("failed: why it ended, and what there is until then", pages.failed, {}, async (page, meta) => {
+  assert.ok((await page.textContent("#why")).toLowerCase().startsWith(meta.outcome.toLowerCase()), meta.outcome);
+  near(await page.evaluate(() => window.gaitlab.page.recording.end), meta.duration, meta.period, "the last row");
+  assert.ok(await page.isVisible("#motion"));
+});
+
+on("old: what a folder of format 1 lacks is said, and nothing is made up", pages.old, {}, async (page, meta) => {
+  assert.ok(meta.missing.length > 0);
+  assert.deepEqual(await page.$$eval("#missing li", (all) => all.map((l) => l.textContent.replace(/[.]$/, ""))), meta.missing);
+  assert.ok(await page.isVisible("#motion"));
+  assert.equal(await page.textContent('[data-check="voltage"] .value'), "not judged");
+});
+
+on("csv: a run whose trace is text", pages.csv, {}, async (page, meta) => {
+  assert.equal(meta.period, 0.02);
+  assert.ok(await page.isVisible("#motion"));
+  assert.ok(await page.isVisible("#heat canvas"));
+});
+
+for (const name of ["jointless", "built_ball"]) {
+  on(`${name}: shows no joints`, pages[name], {}, async (page, meta) => {
+    assert.equal(meta.joints.length, 0);
+    for (const id of ["#motion", "#heat", "#envelope", "#phase", "#tag"]) assert.equal(await page.isVisible(id), false, id);
+    assert.ok(await page.isVisible("#view"));
+    for (const key of ["[", "]", "j", "a"]) await page.keyboard.press(key);
+    assert.equal((await state(page)).joint, -1);
+  });
+}
+
+for (const name of ["pair", "robots", "ball"]) {
+  on(`${name}: says what both runs found`, pages[name], {}, async (page, meta) => {
+    const runs = [meta, meta.overlay.run];
+    for (const [n, id] of ["#said", "#said-second"].entries()) assert.match(await page.textContent(id), saidOf(runs[n]));
+    const rows = await page.$$eval("#checks [data-check]", (all) => all.map((r) => [r.dataset.check, ...[...r.querySelectorAll(".value")].map((v) => v.querySelector(".sr")?.textContent ?? null)]));
+    const words = { pass: "pass", warn: "warning", fail: "fail", "not judged": "not judged" }, ids = new Set(runs.flatMap((r) => r.verdict.checks.map((c) => c.id)));
+    assert.deepEqual(new Set(rows.map(([id]) => id)), ids);
+    for (const [id, ...shown] of rows) assert.deepEqual(shown, runs.map((r) => words[r.verdict.checks.find((c) => c.id === id)?.status] ?? null), id);
+    const told = await page.textContent("#pair"), own = meta.joints.map((j) => j.name), common = meta.overlay.run.joints.filter((j) => own.includes(j.name)).length;
+    if (common < own.length) assert.match(told, common ? new RegExp(`have ${common} joints in common`) : /have no joint in common/);
+  });
+
+  on(`${name}: every joint, key and switch`, pages[name], {}, async (page, meta) => {
+    for (let j = 0; j < meta.joints.length; j++) await page.keyboard.press("]");
+    for (const key of ["End", "Home", "p", "ArrowRight", "z", "d", "p"]) await page.keyboard.press(key);
+    for (const [id, values] of [["#what", ["torque", "current", "error"]], ["#side", ["own", "second", "difference"]]]) for (const value of values) await page.selectOption(id, value);
+    await page.keyboard.press("Space");
+    await page.waitForTimeout(300);
+  });
+}
+
+on("pair: the second run by the clock of the first", pages.pair, {}, async (page, meta) => {
+  const found = await page.evaluate(() => {
+    const { ghost, recording } = window.gaitlab.page, name = "joint.4.torque", own = ghost.recording.channel(name), laid = ghost.values(name);
+    return { own: [...own], laid: [...laid], times: [...recording.times], end: ghost.recording.end };
+  });
+  assert.equal(meta.overlay.run.period, 0.02);
+  found.times.forEach((t, i) => {
+    // Rows of 5 ms and of 20 ms: at every fourth one the value, between them the straight line.
+    const k = Math.floor(i / 4), f = (i % 4) / 4, expected = t > found.end + 1e-6 ? NaN : f === 0 ? found.own[k] : (1 - f) * found.own[k] + f * found.own[k + 1];
+    if (Number.isNaN(expected)) assert.ok(Number.isNaN(found.laid[i]), `at ${t} s`);
+    else near(found.laid[i], expected, 1e-5, `at ${t} s`); // 32 bits
+  });
+  const visible = async (t) => page.evaluate((x) => {
+    window.gaitlab.page.goTo(x);
+    return window.gaitlab.page.stage.view.second.robot.visible;
+  }, t);
+  assert.deepEqual([await visible(1), await visible(3.9)], [true, false], "it is gone when its run has ended");
+});
+
+on("pair: at the same phase", pages.pair, {}, async (page, meta) => {
+  const { run } = meta.overlay;
+  assert.ok(meta.cycle && run.cycle);
+  await page.keyboard.press("p");
+  assert.equal(await page.getAttribute("#align", "aria-pressed"), "true");
+  const j = meta.phases.findIndex((p) => p.setpoint[0] > 0.2 * Math.max(...meta.phases.map((q) => q.setpoint[0])));
+  const turns = (of, t) => t / of.cycle.period + of.phases[j].setpoint[1] / (2 * Math.PI);
+  for (const t of [1, 2.2, 3]) {
+    const [theirs, back] = await page.evaluate((x) => {
+      const { ghost } = window.gaitlab.page;
+      return [ghost.time(x), ghost.back(ghost.time(x))];
+    }, t);
+    const apart = turns(run, theirs) - turns(meta, t);
+    near(apart, Math.round(apart), 1e-9, `turns apart at ${t} s`);
+    near(back, t, 1e-9, "there and back");
+  }
+});
+
+on("robots: a joint that one of them lacks", pages.robots, {}, async (page, meta) => {
+  const theirs = meta.overlay.run.joints.map((j) => j.name), lone = meta.joints.findIndex((j) => !theirs.includes(j.name)), common = meta.joints.findIndex((j) => theirs.includes(j.name));
+  await page.selectOption("#joint", String(lone));
+  assert.match(await page.textContent("#motion-key"), /B has no such joint/);
+  await page.selectOption("#joint", String(common));
+  assert.match(await page.textContent("#motion-key"), /B: dashed/);
+});
+
+on("strayed: what left its band first, when, how far", pages.strayed, {}, async (page, meta) => {
+  const { strays, strayed, labels } = meta.overlay, [first] = strays;
+  assert.deepEqual(labels, ["golden", "now"]);
+  assert.equal(await page.textContent("#said"), "It strayed from its golden");
+  assert.equal(await page.textContent("#why"), `${strayed}.`);
+  const { t, joint } = await state(page);
+  near(t, first.from, 1e-9, "the first divergence is shown");
+  assert.equal(joint, Number(first.signal.split(".")[1]));
+  const rows = page.locator("#strays tbody tr");
+  assert.equal(await rows.count(), strays.length);
+  assert.ok(strays.every((s, i) => i === 0 || (s.from ?? Infinity) >= (strays[i - 1].from ?? Infinity)), "the first to stray first");
+  const last = strays.findLastIndex((s) => s.signal.startsWith("joint.") && s.from !== null);
+  await rows.nth(last).locator("button").click();
+  near((await state(page)).t, strays[last].from, 1e-9, "a row goes to its time");
+  // Where the difference is first beyond the tolerance, by the numbers that are drawn.
+  const outside = await page.evaluate((s) => {
+    const { ghost, recording } = window.gaitlab.page, row = ghost.difference(s.signal).findIndex((d) => Math.abs(d) > s.tolerance);
+    return recording.times[row];
+  }, strays[last]);
+  near(outside, strays[last].from, meta.period + 1e-9, "first beyond the tolerance");
+  assert.ok(await page.isVisible("#drift canvas"));
 });
 
 // The bytes that report/page_data.cpp writes for these values, by hand from the rule: differences, zigzag, LEB128.

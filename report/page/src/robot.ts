@@ -139,6 +139,7 @@ export class Robot {
     this.shade.color.set(look.shadow);
   }
 
+  get visible(): boolean { return this.all.visible; }
   set visible(on: boolean) { this.all.visible = on; }
   set shadows(on: boolean) { for (const kind of this.kinds) if (kind.shadow) kind.shadow.visible = on; }
 

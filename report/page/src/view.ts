@@ -40,7 +40,7 @@ export class View {
   private readonly size: number;
   private readonly recording: Recording;
   /** The second run's robot, translucent. */
-  private readonly shade: { ghost: Ghost; kinematics: Kinematics; robot: Robot } | null = null;
+  readonly second: { ghost: Ghost; kinematics: Kinematics; robot: Robot } | null = null;
   private time = 0;
   private lightened = 0;
 
@@ -56,7 +56,7 @@ export class View {
     if (ghost) {
       const kinematics = new Kinematics(ghost.recording);
       kinematics.set(0);
-      this.shade = { ghost, kinematics, robot: new Robot(ghost.recording.meta, kinematics, this.scene, null) };
+      this.second = { ghost, kinematics, robot: new Robot(ghost.recording.meta, kinematics, this.scene, null) };
     }
     this.size = this.extent();
     this.ground = new Ground(recording, this.scene, this.area(), this.size);
@@ -81,7 +81,7 @@ export class View {
     this.scene.fog = new Fog(look.sky, 4.5 * this.size, 14 * this.size);
     (this.trail.material as LineBasicMaterial).color.set(look.trail);
     for (const part of [this.robot, this.ground, this.arrows, this.marks]) part.paint(theme);
-    this.shade?.robot.paint(theme);
+    this.second?.robot.paint(theme);
     this.set(this.time);
   }
 
@@ -114,8 +114,8 @@ export class View {
     this.kinematics.set(t);
     const shares = this.recording.meta.joints.map((_, j) => this.desk.loads.shareAt(j, t));
     this.robot.set(shares, this.selected, this.hovered);
-    if (this.shade) {
-      const { ghost, kinematics, robot } = this.shade;
+    if (this.second) {
+      const { ghost, kinematics, robot } = this.second;
       robot.visible = ghost.covers(t);
       kinematics.set(ghost.time(t));
       robot.set([], -1, -1);
@@ -197,7 +197,7 @@ export class View {
     return new Vector3(this.recording.at(x, t), this.recording.at(y, t), this.recording.at(z, 0));
   }
 
-  private everything(): Vector3[] { return [...this.robot.points(), ...(this.shade?.ghost.covers(this.time) ? this.shade.robot.points() : [])]; }
+  private everything(): Vector3[] { return [...this.robot.points(), ...(this.second?.ghost.covers(this.time) ? this.second.robot.points() : [])]; }
 
   private extent(): number {
     return Math.max(new Box3().setFromPoints(this.everything()).getSize(new Vector3()).length(), this.robot.unit);
