@@ -12,7 +12,7 @@ class States {
  public:
   /// has_states(robot) holds.
   States(const Recording& recording, const Robot& robot);
-  /// Angles and pose at the time of a row; speeds 0.
+  /// The angles and the pose of the robot at a row. Its speeds are 0.
   [[nodiscard]] RobotState operator()(std::size_t row) const;
 
  private:
