@@ -21,7 +21,7 @@ struct Sight {
 /// From the side of the way of the centre of mass; from above where most joints turn about the vertical.
 Sight sight(const Scenario& scenario, const Recording& record);
 
-/// The robot at the time of a row, which the recording has, with the place of a joint.
+/// The robot as it stood at a row of the recording, with the place of a joint.
 View view_at(const Scenario& scenario, const Recording& record, const Sight& from, std::size_t row, std::size_t joint);
 
 /// Figure input with the ground, what stands on it and the axis of the views, but without views. Boxes as they are; of a field

@@ -87,6 +87,15 @@ void add_columns(std::span<const Trace* const> tables, const Quantity& quantity,
   set_quanta(std::span(all).subspan(first), rows, quantity);
 }
 
+/// A channel has no gaps: where a signal is not known all the time, another says when it is.
+void add_known(const std::string& name, std::size_t rows, std::vector<Signal>& all) {
+  const auto found = std::ranges::find(all, name, &Signal::name);
+  if (found == all.end()) return;
+  Signal known{name + ".known", "", 1, {}, {}};
+  for (std::size_t row = 0; row < rows; ++row) known.values.push_back(std::isfinite((*found)[row]) ? 1 : 0);
+  if (std::ranges::find(known.values, 0.0) != known.values.end()) all.push_back(std::move(known));
+}
+
 void add_feet(const std::vector<Foot>& feet, std::size_t rows, std::vector<Signal>& all) {
   const auto add = [&](const char* what, const char* unit, std::vector<double> Foot::*values) {
     for (std::size_t i = 0; i < feet.size(); ++i) {
@@ -109,6 +118,7 @@ std::vector<Signal> signals(const Recording& r, const Trace& loads, const std::v
                             const std::string& command_unit) {
   std::vector<Signal> all;
   for (const Quantity& quantity : kQuantities) add_columns(std::array{&r.trace, &r.rest, &loads}, quantity, command_unit, all);
+  add_known("stability", r.rows(), all);
   add_feet(feet, r.rows(), all);
   return all;
 }

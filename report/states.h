@@ -18,7 +18,7 @@ class States {
 
   [[nodiscard]] std::size_t size() const { return time_.size(); }
   [[nodiscard]] double time(std::size_t row) const { return time_[row]; }
-  /// Angles and pose at the time of a row; speeds 0.
+  /// The angles and the pose of the robot at a row. Its speeds are 0.
   [[nodiscard]] RobotState operator()(std::size_t row) const;
 
  private:

@@ -82,7 +82,7 @@ expect 0 "$program" run jointless.yaml --quiet --out jointless
 expect 0 "$program" check jointless.yaml --quiet --page built_ball.html
 # Two runs: of one robot, the other with a shorter clock and other rows; of two robots; of one without joints.
 expect 0 "$program" run "${walk[@]}" --set cpg.frequency=1 --no-report --out brisk
-expect 0 "$program" run "${walk[@]}" --set duration=3.75 --set cpg.frequency=0.8 --set trace.period=0.02 --no-report --out slow
+expect 0 "$program" run "${walk[@]}" --set duration=3.76 --set cpg.frequency=0.8 --set trace.period=0.02 --no-report --out slow
 expect 0 "$program" report brisk slow
 expect 0 "$program" report infeasible csv --page robots.html
 expect 0 "$program" report feasible jointless --page ball.html

@@ -2,6 +2,7 @@
 import { Board, type Pen } from "./board";
 import { css, load } from "./colour";
 import { element } from "./dom";
+import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
 
 export class Overview implements Panel {
@@ -11,7 +12,11 @@ export class Overview implements Panel {
     this.board = new Board(element("overview"), "Largest load of any joint over time", (pen, width, height) => this.draw(pen, width, height));
   }
 
-  paint(): void { this.board.paint(); }
+  paint(): void {
+    const { recording: { meta: { joints, verdict } } } = this.desk;
+    keys("overview-key", joints.length && verdict.checks.length ? [["", "--orange", "largest load of any joint"], ["", "--line", "judged window"], ["", "--fail", verdict.checks.some((c) => c.status === "fail" && c.from !== null) ? "a check fails" : ""]] : []);
+    this.board.paint();
+  }
 
   private draw(pen: Pen, width: number, height: number): void {
     const { recording, loads, ink } = this.desk, { window, checks } = recording.meta.verdict, end = recording.end || 1, X = (t: number) => t / end * width, foot = height - 5, top = 2;

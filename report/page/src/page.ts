@@ -1,5 +1,5 @@
 // The page: its state, its panels, what keys and links do.
-import { about, title } from "./about";
+import { about, blocks, explained, title } from "./about";
 import { Balance } from "./balance";
 import { inkOf, type Ink, type Theme } from "./colour";
 import { checks } from "./checks";
@@ -176,7 +176,7 @@ export class Page implements Desk {
     element("scenario").textContent = meta.scenario;
     const { window, checks: all } = meta.verdict;
     element("definitions").parentElement!.hidden = !ran || !all.length;
-    if (ran) element("definitions").append(make("p", `Judged from ${number(window.from, 4)} to ${number(window.to, 4)} s; the start is shown, and not judged.`),
+    if (ran) element("definitions").append(...explained(meta).map((text) => make("p", text)), make("p", `Judged from ${number(window.from, 4)} to ${number(window.to, 4)} s; the start is shown, and not judged.`),
       make("ul", ...all.filter((c) => c.definition).map((c) => make("li", make("b", c.title), `: ${c.definition}${c.source ? ` (limit: ${c.source})` : ""}`))));
   }
 
@@ -194,6 +194,7 @@ export class Page implements Desk {
       panelOf(id).hidden = !when;
       return when;
     };
+    element("joint").title = blocks(meta);
     for (const [n, joint] of meta.joints.entries()) element("joint").append(new Option(`${n}  ${joint.name}`, String(n)));
     if (keep("checks", meta.outcome !== "not run" && this.runs.some((r) => r.recording.meta.verdict.checks.length > 0))) checks(this);
     if (keep("drift", !!this.ghost?.overlay.strayed) && keep("strays", true)) this.panels.push(new Strays(this));

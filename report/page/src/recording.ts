@@ -12,6 +12,9 @@ export class Recording {
   readonly times: Float64Array;
 
   constructor(readonly meta: Meta, private readonly channels: ReadonlyMap<string, Values>) {
+    for (const [name, known] of channels) {
+      if (name.endsWith(".known")) channels.get(name.slice(0, -6))?.forEach((_, i, values) => { if (!known[i]) values[i] = NaN; });
+    }
     const t = channels.get("t");
     this.times = Float64Array.from({ length: Math.max(meta.rows, 1) }, (_, i) => t?.[i] ?? i * meta.period);
     // A channel in 32 bits has 7 digits: where a row stands on the grid, the grid knows its time better.
