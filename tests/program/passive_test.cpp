@@ -133,7 +133,7 @@ TEST(PassiveHinge, SetsTheLargestExplicitStep) {
   const auto error = [&](const std::string& step) {
     stiff.physics = "integrator: rk4, step: " + step;
     try {
-      run(stiff.read({"duration=0.01", "trace.period=0.01"}));
+      run(stiff.read({"duration=0.1", "trace.period=0.1"}));
     } catch (const InputError& e) {
       return std::string(e.what());
     }
@@ -227,7 +227,7 @@ TEST(PassiveHinge, HasNoMotorAmongOthersThatHave) {
   EXPECT_EQ(r.joints[1].electrical, 0);
   EXPECT_GT(r.joints[2].torque_peak, 0);
   // The last hinge follows the first one, which is before it among those with motors.
-  EXPECT_NEAR(end(r, "cpg.phase.2") - end(r, "cpg.phase.0"), 1, 1e-9);
+  EXPECT_NEAR(end(r, "cpg.phi.2") - end(r, "cpg.phi.0"), 1, 1e-9);
   // What the parent exerts along the axis is the damper's torque.
   EXPECT_NEAR(end(r, "reaction.1.my"), end(r, "joint.1.passive_torque"), 1e-9);
   EXPECT_NEAR(end(r, "joint.1.passive_torque"), -0.01 * end(r, "joint.1.speed"), 1e-15);

@@ -96,15 +96,15 @@ TEST_F(ModuleFileTest, Format2) {
   EXPECT_EQ(known.connectors.at("hook").source, "paper");
 
   EXPECT_EQ(wrong(range, "range: loose"),
-            "DIR/m.yaml:12:83: error: range is 'loose'; expected a list of 2 numbers in rad, or free");
+            "DIR/m.yaml:12:82: error: range is 'loose'; expected a list of 2 numbers in rad, or free");
   EXPECT_EQ(wrong(range, range + ", stiffness: 2"),
-            "DIR/m.yaml:12:114: error: stiffness is of a hinge without a motor; add drive: none, or remove it");
+            "DIR/m.yaml:12:106: error: stiffness is of a hinge without a motor; add drive: none, or remove it");
   EXPECT_EQ(wrong(range, range + ", drive: none, damping: -1"),
-            "DIR/m.yaml:12:127: error: damping is -1 N m s/rad; allowed are 0 to 1e6 N m s/rad");
+            "DIR/m.yaml:12:117: error: damping is -1 N m s/rad; allowed are 0 to 1000000 N m s/rad");
   EXPECT_EQ(wrong(range, range + ", drive: none, actuator: {R: 1}"),
-            "DIR/m.yaml:12:128: error: hinge 'h' has actuator and drive: none; expected one of them");
+            "DIR/m.yaml:12:118: error: hinge 'h' has actuator and drive: none; expected one of them");
   EXPECT_EQ(wrong(range, range + ", drive: loose"),
-            "DIR/m.yaml:12:110: error: drive 'loose' is unknown; known names: motor, none");
+            "DIR/m.yaml:12:102: error: drive 'loose' is unknown; known names: motor, none");
   EXPECT_EQ(wrong("gender: active", "gender: active, turns: [0, 1.5]"),
             "DIR/m.yaml:14:45: error: turns has 1.5; expected some of 0, 1, 2, 3 (times pi/2)");
   EXPECT_EQ(wrong("gender: active", "gender: active, turns: []"),
@@ -112,13 +112,13 @@ TEST_F(ModuleFileTest, Format2) {
   EXPECT_EQ(wrong("gender: active", "gender: active, turns: [4]"),
             "DIR/m.yaml:14:46: error: turns[0] is 4; allowed are 0 to 3");
   EXPECT_EQ(wrong("faces:", "connectors: {hook: {tension: 0}}\nfaces:"),
-            "DIR/m.yaml:13:29: error: tension is 0 N; allowed are more than 0 N");
+            "DIR/m.yaml:13:30: error: tension is 0 N; allowed are more than 0 N");
   // What only format 2 has is said of it in format 1.
   const std::string old = "is a key of module format 2, and this is format 1; write gaitlab_module: 2";
-  EXPECT_EQ(error(range, range + ", drive: none"), "DIR/m.yaml:12:110: error: 'drive' " + old);
+  EXPECT_EQ(error(range, range + ", drive: none"), "DIR/m.yaml:12:102: error: 'drive' " + old);
   EXPECT_EQ(error("faces:", "connectors: {}\nfaces:"), "DIR/m.yaml:13:13: error: 'connectors' " + old);
   EXPECT_EQ(error(range, "range: free"),
-            "DIR/m.yaml:12:83: error: range: free is of module format 2, and this is format 1; write gaitlab_module: 2");
+            "DIR/m.yaml:12:82: error: range: free is of module format 2, and this is format 1; write gaitlab_module: 2");
   EXPECT_EQ(error("gender: active", "gender: none"),
             "DIR/m.yaml:14:30: error: gender: none is of module format 2, and this is format 1; write gaitlab_module: 2");
 }
