@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "report/deflate.h"
 #include "report/packing.h"
 
 namespace gaitlab::report {
@@ -52,16 +53,6 @@ std::string chunk(std::string_view type, const std::string& data) {
   return big_endian(data.size()) + all + big_endian(crc);
 }
 
-std::string deflated(const std::string& bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::string out(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION) != Z_OK)
-    throw std::bad_alloc();
-  out.resize(size);
-  return out;
-}
-
 /// The largest share in each of `columns` equal parts of the run, a row of pixels; each row begins with its filter, 0.
 std::string pixels(const Recording& record, std::size_t columns) {
   const Series t(record.ticks, 0);
@@ -89,7 +80,7 @@ std::string heat_image(const Recording& record, std::size_t columns) {
   const std::string size = big_endian(columns) + big_endian(record.joints.size());
   return "data:image/png;base64," +
          base64("\x89PNG\r\n\x1a\n" + chunk("IHDR", size + std::string(kEightBitsOfAPalette)) + chunk("PLTE", palette()) +
-                chunk("IDAT", deflated(pixels(record, columns))) + chunk("IEND", ""));
+                chunk("IDAT", deflated(pixels(record, columns), kMostDeflated)) + chunk("IEND", ""));
 }
 
 }  // namespace gaitlab::report

@@ -1,11 +1,10 @@
 #include "report/packing.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <new>
+
+#include "report/deflate.h"
 
 namespace gaitlab::report {
 
@@ -37,14 +36,7 @@ void Packing::add(std::string name, std::string unit, double quantum, const std:
   }
 }
 
-std::string Packing::text() const {
-  uLongf size = compressBound(static_cast<uLong>(bytes_.size()));
-  std::string deflated(size, '\0');
-  const auto* const from = reinterpret_cast<const Bytef*>(bytes_.data());
-  auto* const to = reinterpret_cast<Bytef*>(deflated.data());
-  if (compress2(to, &size, from, static_cast<uLong>(bytes_.size()), kLevel) != Z_OK) throw std::bad_alloc();
-  return base64(std::string_view(deflated).substr(0, size));
-}
+std::string Packing::text() const { return base64(deflated(bytes_, kLevel)); }
 
 double quantum_of(double magnitude, double largest_quantum) {
   const double wanted = magnitude / 1000;

@@ -139,8 +139,8 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   if (!verdict.of_rows.empty()) missing.push_back(verdict.of_rows);
   if (r.rows() > 1) std::ranges::move(left_out(scenario, signals), std::back_inserter(missing));
   if (stride > 1) {
-    missing.push_back(fmt::format("every {} row is shown, to keep the page small; verdict and numbers are of all steps",
-                                  stride == 2 ? "second" : fmt::format("{}th", stride)));
+    missing.push_back(fmt::format(
+        "one row of every {} is shown, to keep the page small; verdict and numbers are of the whole recording", stride));
   }
 
   Json meta;

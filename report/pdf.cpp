@@ -1,13 +1,12 @@
 #include "report/pdf.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <charconv>
 #include <iterator>
 
-#include "core/errors.h"
 #include "core/recording/trace.h"
+#include "report/deflate.h"
 
 namespace gaitlab::report {
 
@@ -44,18 +43,6 @@ std::string literal(std::string_view bytes) {
     }
   }
   return text + ")";
-}
-
-std::string deflated(const std::string& text) {
-  uLongf size = compressBound(static_cast<uLong>(text.size()));
-  std::string packed(size, '\0');
-  // zlib's interface is of unsigned bytes.
-  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(text.data()),
-                static_cast<uLong>(text.size()), Z_BEST_COMPRESSION) != Z_OK) {
-    throw RunError("no memory to compress a page");
-  }
-  packed.resize(size);
-  return packed;
 }
 
 std::string font_object(Font font) {
@@ -151,7 +138,7 @@ void Pdf::text(Point where, std::string_view content, const TextStyle& style) {
 }
 
 std::string Pdf::finish() const {
-  const std::string packed = deflated(page_);
+  const std::string packed = deflated(page_, kMostDeflated);
   const double scale = paper_.mm / kPoint;
   std::vector<std::string> objects{
       "<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>", "",

@@ -190,9 +190,8 @@ std::string about_panel(PanelKind kind) {
     case PanelKind::envelope:
       return "Torque of joints over their speed, in front of what their motors have at most at each speed.";
     case PanelKind::heat:
-      return "Joints over time: the share of the torque that its motor has at that speed which each joint needs, its largest "
-             "of "
-             "every cell. Where no motor states a limit, the share of the largest torque drawn.";
+      return "Joints over time: of each cell the largest torque of the joint, as a share of what its motor has at that speed. "
+             "Where no motor states a limit, as a share of the largest torque drawn.";
     case PanelKind::footfalls:
       return "When each leg of a robot stands, with its duty factor.";
     case PanelKind::views:

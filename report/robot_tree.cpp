@@ -8,6 +8,8 @@
 #include <string>
 #include <tuple>
 
+#include "core/model/role.h"
+
 namespace gaitlab::report {
 
 namespace {
@@ -28,12 +30,6 @@ const char* kind_name(Shape::Kind kind) {
 }
 
 const char* gender_name(Gender gender) { return gender == Gender::active ? "active" : "passive"; }
-
-/// What a body is to the eye: the gender of its first face, or else its own name.
-std::string role_name(const ModuleType& type, std::size_t body) {
-  const auto face = std::ranges::find(type.faces, body, &FaceType::body);
-  return face == type.faces.end() ? type.bodies[body].name : gender_name(face->gender);
-}
 
 std::string key_of(const ModuleType& type, std::size_t body) { return type.name + "/" + type.bodies[body].name; }
 
@@ -103,7 +99,7 @@ Json RobotTree::bodies() const {
     all.push_back({{"name", body.name},
                    {"module", body.module},
                    {"type", key_of(type, body.type)},
-                   {"role", role_name(type, body.type)},
+                   {"role", name_of(role_of(type, body.type))},
                    {"parent", at.parent < 0 ? Json(-1) : Json(place_[static_cast<std::size_t>(at.parent)])},
                    {"joint", at.joint},
                    {"pre", json_of(at.pre)},

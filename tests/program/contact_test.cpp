@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tests/oracles/blocks.h"
+#include "tests/program/block.h"
 #include "tests/program/engines.h"
 #include "tests/validation.h"
 
@@ -12,23 +13,12 @@ namespace {
 Scenario block(const std::string& engine, const std::string& rest, double height, double step, double duration) {
   return scenario(fmt::format(R"(
 gaitlab: 1
-robot:
-  position: [0, 0, {:.17g}]
-  modules:
-    name: block
-    bodies: {{block: {{mass: 1, inertia: [0.01, 0.01, 0.01, 0, 0, 0]}}}}
-    contacts:
-      feet:
-        - {{body: block, point: [0.1, 0.1, 0]}}
-        - {{body: block, point: [0.1, -0.1, 0]}}
-        - {{body: block, point: [-0.1, 0.1, 0]}}
-        - {{body: block, point: [-0.1, -0.1, 0]}}
-actuator: {{type: none}}
+{}actuator: {{type: none}}
 duration: {}
 trace: {{period: 1e-3, columns: [base.*]}}
 physics: {{engine: {}, integrator: rk4, step: {}{}
 )",
-                              height, duration, engine, step, rest));
+                              block_robot(fmt::format("  position: [0, 0, {:.17g}]\n", height)), duration, engine, step, rest));
 }
 
 class Block : public EveryEngine {};

@@ -8,6 +8,7 @@
 
 #include "core/simulation/start.h"
 #include "tests/oracles/blocks.h"
+#include "tests/program/block.h"
 #include "tests/program/engines.h"
 #include "tests/validation.h"
 
@@ -18,25 +19,15 @@ namespace {
 Scenario block(const std::string& engine, const std::string& ground, double slope, const std::string& rest, double duration) {
   return scenario(fmt::format(R"(
 gaitlab: 1
-robot:
-  orientation: [0, {:.17g}, 0]
-  modules:
-    name: block
-    bodies: {{block: {{mass: 1, inertia: [0.01, 0.01, 0.01, 0, 0, 0]}}}}
-    contacts:
-      feet:
-        - {{body: block, point: [0.1, 0.1, 0]}}
-        - {{body: block, point: [0.1, -0.1, 0]}}
-        - {{body: block, point: [-0.1, 0.1, 0]}}
-        - {{body: block, point: [-0.1, -0.1, 0]}}
-ground: {}
+{}ground: {}
 actuator: {{type: none}}
 duration: {}
 trace: {{period: 1e-3, columns: [base.*, contact.*]}}
 physics: {{engine: {}, integrator: rk4, step: 5e-5}}
 {}
 )",
-                              slope, ground, duration, engine, rest));
+                              block_robot(fmt::format("  orientation: [0, {:.17g}, 0]\n", slope)), ground, duration, engine,
+                              rest));
 }
 
 constexpr double kSlope = 0.2;  // rad

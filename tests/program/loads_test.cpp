@@ -5,6 +5,7 @@
 
 #include "core/recording/recording_file.h"
 #include "tests/oracles/blocks.h"
+#include "tests/program/block.h"
 #include "tests/program/engines.h"
 #include "tests/program/random_scenario.h"
 
@@ -88,25 +89,14 @@ TEST_P(LoadsOf, ATwistedDock) {
 Scenario block(const std::string& engine, const std::string& rest, double height, double duration) {
   return scenario(fmt::format(R"(
 gaitlab: 1
-robot:
-  position: [0, 0, {:.17g}]
-  modules:
-    name: block
-    bodies: {{block: {{mass: 1, inertia: [0.01, 0.01, 0.01, 0, 0, 0]}}}}
-    contacts:
-      feet:
-        - {{body: block, point: [0.1, 0.1, 0]}}
-        - {{body: block, point: [0.1, -0.1, 0]}}
-        - {{body: block, point: [-0.1, 0.1, 0]}}
-        - {{body: block, point: [-0.1, -0.1, 0]}}
-contact: {{on: feet}}
+{}contact: {{on: feet}}
 actuator: {{type: none}}
 duration: {}
 physics: {{engine: {}, step: 5e-5}}
 trace: {{columns: [base.*]}}
 {}
 )",
-                              height, duration, engine, rest));
+                              block_robot(fmt::format("  position: [0, 0, {:.17g}]\n", height)), duration, engine, rest));
 }
 
 TEST_P(LoadsOf, ABlockThatSlidesToRest) {
