@@ -67,8 +67,9 @@ TEST(Demand, OfAnActuatorWithoutLimitsIsNotKnown) {
   EXPECT_FALSE(raise_limits(held));
 }
 
-/// Each doubt by its cause: at 5 Hz the robot is thrown up; of 5 mA twenty times as many are too few, too; a CPG that runs
-/// away ends the run; and where nothing is doubtful nothing is said (IsTheRunWithLimitsTwentyTimesAsLarge).
+/// Each doubt by its cause: at 5 Hz a robot is thrown up that its own motors hardly move; of 5 mA twenty times as many are too
+/// few, too; a CPG that runs away ends the run; and where nothing is doubtful nothing is said
+/// (IsTheRunWithLimitsTwentyTimesAsLarge).
 TEST(Demand, SaysWhatMakesItDoubtful) {
   const Weak weak;
   const auto twin = [](std::vector<std::string> sets) {
@@ -76,7 +77,10 @@ TEST(Demand, SaysWhatMakesItDoubtful) {
     EXPECT_TRUE(raise_limits(made));
     return made;
   };
-  const Demand thrown = demand(twin({"actuator.i_max=0.35", "cpg.frequency=5"}), weak.record, weak.summary);
+  const std::vector<std::string> fast{"actuator.i_max=0.35", "cpg.frequency=5"};
+  const Scenario hurried = shipped("caterpillar.yaml", with(fast));
+  const Recording own = run(hurried);
+  const Demand thrown = demand(twin(fast), own, summarise(hurried, own, 0));
   EXPECT_TRUE(thrown.known);
   EXPECT_EQ(thrown.doubt,
             "with motors without limits the robot is thrown up, so that what it needs is not what the gait needs");
