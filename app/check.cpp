@@ -63,7 +63,8 @@ int check(const CheckArguments& arguments) {
   const auto contacts = contact_elements(robot, s.contact.on);
   fmt::print("{}: valid\n", s.name);
   fmt::print("  {}, {} {} (moving as {}), {} degrees of freedom, {:.3f} kg\n", counted(robot.modules.size(), "module"),
-             robot.bodies.size(), robot.bodies.size() == 1 ? "body" : "bodies", robot.links.size(), robot.dof(s.base), robot.mass);
+             robot.bodies.size(), robot.bodies.size() == 1 ? "body" : "bodies", robot.links.size(), robot.dof(s.base),
+             robot.mass);
   const double rate = simulation->standing().rate;
   fmt::print("  engine {} ({}), {}{}\n", s.physics.engine->name, s.physics.integrator->name, report::step_text(s.physics),
              rate > 0 ? fmt::format(": h lambda = {:.2f} standing (at most 1)", s.physics.step * rate) : "");

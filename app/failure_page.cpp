@@ -9,6 +9,7 @@
 #include "golden/report.h"
 #include "report/page.h"
 #include "report/page_overlay.h"
+#include "report/plugin_names.h"
 
 namespace gaitlab::app {
 

@@ -143,13 +143,15 @@ void add_manuals(Commands& commands) {
                                  command.add_option("KIND", arguments.kind, "one of these kinds alone");
                                  add_plugins(command, arguments);
                                });
-  add_command<ManualArguments>(commands, "explain", "Print the manual of KIND NAME; without them, that of the scenario file.",
-                               explain, [](CLI::App& command, ManualArguments& arguments) {
-                                 CLI::Option* kind = command.add_option(
-                                     "KIND", arguments.kind, "cpg, controller, actuator, engine, module, robot, figure");
-                                 kind->needs(command.add_option("NAME", arguments.name, "name as `gaitlab list` prints it; of a module also its file, NAME.yaml"));
-                                 add_plugins(command, arguments);
-                               });
+  add_command<ManualArguments>(
+      commands, "explain", "Print the manual of KIND NAME; without them, that of the scenario file.", explain,
+      [](CLI::App& command, ManualArguments& arguments) {
+        CLI::Option* kind =
+            command.add_option("KIND", arguments.kind, "cpg, controller, actuator, engine, module, robot, figure");
+        kind->needs(command.add_option("NAME", arguments.name,
+                                       "name as `gaitlab list` prints it; of a module also its file, NAME.yaml"));
+        add_plugins(command, arguments);
+      });
   add_command<ManualArguments>(commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,
                                add_plugins);
   add_command<ManualArguments>(commands, "reference", "Print a page of docs/reference.", reference,

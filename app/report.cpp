@@ -21,6 +21,7 @@
 #include "report/demand.h"
 #include "report/page.h"
 #include "report/page_overlay.h"
+#include "report/plugin_names.h"
 #include "report/run_figure.h"
 #include "report/summary.h"
 #include "report/trust.h"

@@ -94,6 +94,14 @@ std::string spring_of(const Passive& p) {
   return text;
 }
 
+/// Of a type that names no motor nothing is known: the scenario's default is not the module's.
+Motors motors_of(const Scenario& one) {
+  for (const Node& document : *one.module_documents) {
+    if (document.find("actuator") != nullptr) return motors(one, 0);
+  }
+  return {};
+}
+
 std::string hinges(const Robot& robot, const Motors& known) {
   const ModuleType& type = robot.types[0];
   std::vector<Cells> rows{{"hinge", "axis", "range", "at rest", "no load", "continuous", ""}};
@@ -125,8 +133,8 @@ std::string faces(const ModuleType& type) {
 std::string connectors(const ModuleType& type) {
   std::vector<Cells> rows{{"connector", "tension", "shear", "bending", "torsion"}};
   for (const auto& [name, one] : type.connectors) {
-    rows.push_back({name, stated(one.tension, "N"), stated(one.shear, "N"), stated(one.bending, "N m"),
-                    stated(one.torsion, "N m")});
+    rows.push_back(
+        {name, stated(one.tension, "N"), stated(one.shear, "N"), stated(one.bending, "N m"), stated(one.torsion, "N m")});
   }
   return rows.size() > 1 ? aligned(rows) : "";
 }
@@ -136,7 +144,8 @@ void add_sources(const Node& node, const std::string& where, std::string& text) 
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const Node& item = node.items[i];
     if (node.kind == Node::Kind::map && node.keys[i].first == "source") {
-      text += wrapped(fmt::format("{}: {}", where.empty() ? "type" : where, item.text), 2, 98);
+      text += "  " + wrapped(fmt::format("{}: {}", where.empty() ? "type" : where, item.text), 4, 98)
+                         .substr(4);  // further lines further in
       continue;
     }
     const Node* name = item.kind == Node::Kind::map ? item.find("name") : nullptr;
@@ -151,7 +160,7 @@ void add_sources(const Node& node, const std::string& where, std::string& text) 
 
 std::string module_row(const Scenario& one) {
   const Robot& robot = *one.robot;
-  const Motors known = motors(one, 0);
+  const Motors known = motors_of(one);
   std::optional<double> most;
   for (std::size_t j = 0; j < known.of_joint.size(); ++j) {
     if (robot.joints[j].driven() && known.joint(j).rest) most = std::max(most.value_or(0), *known.joint(j).rest);
@@ -167,9 +176,8 @@ std::string module_table(const Scenario& one) {
   if (!one.module_documents->empty()) add_sources(one.module_documents->front(), "", sources);
   return fmt::format("{}: {}, {:.4g} kg in {}, {} and {}\n\n{}\n{}{}{}", type.name, size_text(robot), mass_of(type),
                      type.bodies.size() == 1 ? "1 body" : fmt::format("{} bodies", type.bodies.size()),
-                     counted(type.hinges.size(), "hinge"), counted(type.faces.size(), "face"),
-                     hinges(robot, motors(one, 0)), faces(type),
-                     type.connectors.empty() ? "" : "\n" + connectors(type),
+                     counted(type.hinges.size(), "hinge"), counted(type.faces.size(), "face"), hinges(robot, motors_of(one)),
+                     faces(type), type.connectors.empty() ? "" : "\n" + connectors(type),
                      sources.empty() ? "" : "\nsources\n" + sources);
 }
 

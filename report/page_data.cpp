@@ -121,15 +121,6 @@ double fastest_joint(const Recording& r) {
 
 }  // namespace
 
-std::string without_folders(std::string text, const std::vector<PluginFile>& plugins) {
-  for (const PluginFile& plugin : plugins) {
-    const std::string name = std::filesystem::path(plugin.path).filename().string();
-    for (std::size_t at = 0; (at = text.find(plugin.path, at)) != std::string::npos; at += name.size())
-      text.replace(at, plugin.path.size(), name);
-  }
-  return text;
-}
-
 nlohmann::ordered_json channels_json(const Packing& packing) {
   Json all = Json::array();
   for (const Channel& channel : packing.channels()) all.push_back({channel.name, channel.unit, channel.quantum, channel.count});

@@ -23,9 +23,6 @@ struct PageData {
 PageData page_data(const Scenario& scenario, const Recording& record, const Summary& summary, const Verdict& verdict,
                    std::vector<std::string> missing = {}, std::size_t most = kMostData);
 
-/// A folder is not part of a run: plugin libraries go by the names of their files.
-std::string without_folders(std::string text, const std::vector<PluginFile>& plugins);
-
 /// What a page needs to unpack it.
 nlohmann::ordered_json channels_json(const Packing& packing);
 

@@ -316,8 +316,10 @@ Scenario read_module(const std::string& path, Catalog& catalog) {
   Node file{Node::Kind::scalar};
   file.text = path;
   file.quoted = true;
-  const std::string alone = "gaitlab: 1\nname: module\nduration: 1\nground: {type: none}\ncontact: {on: none}\n"
-                            "robot:\n  modules: " + print_yaml(file);
+  const std::string alone =
+      "gaitlab: 1\nname: module\nduration: 1\nground: {type: none}\ncontact: {on: none}\n"
+      "robot:\n  modules: " +
+      print_yaml(file);
   return ScenarioReader("module", catalog).read(alone, {});
 }
 

@@ -185,14 +185,16 @@ TEST(Mujoco, HasOurMassMatrixOfTheWholeLibrary) {
     const Eigen::MatrixXd T = mujoco.from_ours(state);
     worst = std::max(worst, apart(T.transpose() * mujoco.mass() * T, ours));
     for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
-      EXPECT_EQ(mujoco.model().jnt_limited[mujoco.id(s.robot->joints[j].name)] != 0, !s.robot->joints[j].turns_freely()) << s.name;
+      EXPECT_EQ(mujoco.model().jnt_limited[mujoco.id(s.robot->joints[j].name)] != 0, !s.robot->joints[j].turns_freely())
+          << s.name;
     }
     ++robots;
   }
   EXPECT_GE(robots, 13);
-  validate_below({"format.mujoco-library", "M of the exported MJCF of every robot of the library, every entry over sqrt(M_ii M_jj)",
-                  "MuJoCo 2.2.2, composite rigid bodies", ""},
-                 worst, 1e-10, "required by the issue; rounding of 1e-16, of sums up to 1e4 times the entry");
+  validate_below(
+      {"format.mujoco-library", "M of the exported MJCF of every robot of the library, every entry over sqrt(M_ii M_jj)",
+       "MuJoCo 2.2.2, composite rigid bodies", ""},
+      worst, 1e-10, "required by the issue; rounding of 1e-16, of sums up to 1e4 times the entry");
 }
 
 TEST(Mujoco, MovesTheSameWithoutMotorsAndContacts) {
