@@ -8,8 +8,11 @@ namespace gaitlab::actuators {
 
 namespace {
 
-constexpr double kUsualEfficiency = 0.7;  // chosen: that of dc_motor
-constexpr double kRounding = 1e-9;        // of a data sheet whose numbers give an efficiency of exactly 1
+constexpr double kUsualEfficiency = 0.7;            // chosen: that of dc_motor
+constexpr double kLeastEfficiency = 0.01;           // chosen: far below that of any motor with its gear
+constexpr double kRounding = 1e-9;                  // of a data sheet whose numbers give an efficiency of exactly 1
+constexpr double kKgfCm = 0.0980665;                // N m
+constexpr double kRevPerMin = 0.10471975511965977;  // rad/s
 
 /// `make(joint)` for every joint that one of the values tells from others.
 template <class Make>
@@ -20,15 +23,6 @@ PerJoint of_each(std::initializer_list<const PerJoint*> values, Make make) {
   for (std::size_t j = 0; j < joints; ++j) made.each.push_back(make(j));
   if (joints == 0) made.common = make(0);
   return made;
-}
-
-/// A limit that is `usual` where it is not stated: shown, written and raised as the number that holds, but kept as not stated
-/// where nobody changes it, so that it follows what it is derived from.
-void follow(Fields& f, const char* key, PerJoint& stated, const PerJoint& usual, Spec spec) {
-  const PerJoint before = of_each({&stated, &usual}, [&](std::size_t j) { return stated[j] > 0 ? stated[j] : usual[j]; });
-  PerJoint now = before;
-  f.limit(key, now, spec);
-  if (!(now == before)) stated = now;
 }
 
 }  // namespace
@@ -65,14 +59,15 @@ void ServoActuator::Settings::fields(Fields& f) {
              {"rad/s", kPositive, 1e6, "Of the joint without load, at that voltage; required."});
   f.rating("stall_current", stall_current, {"A", 0, 1e6, "At rest, at that voltage."});
   f.rating("efficiency", efficiency, {"", 0, 1, "Of motor and gear, instead of stall_current; 0.7 where neither is stated."});
-  follow(f, "u_max", u_max, voltage, {"V", 0, 1e6, "Driver supply: the command is cut to +- this; 0: `voltage`."});
-  const PerJoint stall =
-      of_each({&voltage, &stall_torque, &no_load_speed, &stall_current, &efficiency, &u_max}, [&](std::size_t j) {
-        const DcMotor m = motor(j);
-        return m.Kt > 0 ? m.u_max / m.R : 0.0;
-      });
-  follow(f, "i_max", i_max, stall,
-         {"A", 0, 1e6, "Absolute rating: the current is cut to +- this; 0: the stall current at `u_max`."});
+  const auto that_holds = [&](double DcMotor::*limit) {
+    return of_each({&voltage, &stall_torque, &no_load_speed, &stall_current, &efficiency, &u_max, &i_max},
+                   [&](std::size_t j) { return motor(j).*limit; });
+  };
+  const PerJoint usual_voltage = that_holds(&DcMotor::u_max);
+  const PerJoint usual_current = that_holds(&DcMotor::i_max);
+  f.limit("u_max", u_max, usual_voltage, {"V", 0, 1e6, "Driver supply: the command is cut to +- this; 0: `voltage`."});
+  f.limit("i_max", i_max, usual_current,
+          {"A", 0, 1e6, "Absolute rating: the current is cut to +- this; 0: the stall current at `u_max`."});
   f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1e3, "Of rotor and gear, at the joint."});
   RatingKeys::fields(f);
   std::size_t joints = 0;
@@ -90,11 +85,25 @@ bool ServoActuator::Settings::check(Fields& f, std::size_t joint, bool alone) co
     return false;
   }
   const double eta = stall_torque[joint] * no_load_speed[joint] / (voltage[joint] * stall_current[joint]);
-  if (!(voltage[joint] > 0) || !(eta > 1 + kRounding)) return true;
-  f.problem("stall_current",
-            fmt::format("stall_torque {:.4g} N m at {:.4g} A and {:.4g} rad/s at {:.4g} V would need an efficiency of {:.3g}; "
-                        "at most 1{}",
-                        stall_torque[joint], stall_current[joint], no_load_speed[joint], voltage[joint], eta, which));
+  if (!(voltage[joint] > 0 && stall_torque[joint] > 0 && no_load_speed[joint] > 0)) return true;
+  if (i_continuous[joint] > stall_current[joint]) {
+    f.problem("i_continuous",
+              fmt::format("i_continuous {:.4g} A is above stall_current, {:.4g} A: no motor bears for long more than "
+                          "it ever draws{}",
+                          i_continuous[joint], stall_current[joint], which));
+    return false;
+  }
+  if (eta <= 1 + kRounding && eta >= kLeastEfficiency) return true;
+  const std::string torque =
+      fmt::format("stall_torque {:.4g} N m at {:.4g} A and {:.4g} rad/s at {:.4g} V would need an efficiency of {:.3g}",
+                  stall_torque[joint], stall_current[joint], no_load_speed[joint], voltage[joint], eta);
+  f.problem(
+      eta > 1 ? "stall_torque" : "stall_current",
+      eta > 1 ? fmt::format("{}; at most 1{}: is the torque in kgf cm ({:.4g} kgf cm are {:.4g} N m), or the speed in rev/min "
+                            "({:.4g} rev/min are {:.4g} rad/s)?",
+                            torque, which, stall_torque[joint], kKgfCm * stall_torque[joint], no_load_speed[joint],
+                            kRevPerMin * no_load_speed[joint])
+              : fmt::format("{}; at least {}: is the current in mA?{}", torque, kLeastEfficiency, which));
   return false;
 }
 

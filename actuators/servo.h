@@ -11,7 +11,7 @@ class ServoActuator final : public MotorBank {
   struct Settings : RatingKeys {
     PerJoint voltage, stall_torque, no_load_speed;  ///< V, N m, rad/s; 0: not given
     PerJoint stall_current, efficiency;             ///< A, 1; 0: not stated
-    PerJoint u_max, i_max;                          ///< V, A; 0: by default
+    PerJoint u_max, i_max;                          ///< V, A; 0: not stated, then motor() derives them
     PerJoint rotor_inertia;                         ///< kg m^2 at the joint
     void fields(Fields& f);
     /// The motor of a joint; of numbers that are not given, one that makes no torque.

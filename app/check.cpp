@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 
 #include "app/commands.h"
 #include "app/run_time.h"
+#include "core/plugin/robot_info.h"
 #include "core/recording/atomic_file.h"
 #include "core/scenario/wording.h"
 #include "core/simulation/simulation.h"
@@ -39,6 +42,11 @@ void write_page(const Scenario& s, const std::string& file) {
   write_file(file, report::page(report::page_data(s, start, report::summarise(s, start, 0), verdict)));
 }
 
+constexpr double kLittleCreep = 0.001;  // m/s (docs/modules.md, wheels)
+
+/// To two decimals, without -0.
+double rounded(double part) { return std::round(100 * part) / 100 + 0.0; }
+
 /// Whoever rolls sees what friction does at low speed.
 void print_creep(const Scenario& s) {
   std::string names;
@@ -48,8 +56,9 @@ void print_creep(const Scenario& s) {
   if (names.empty() || s.contact.solver() || s.ground.kind == Ground::Kind::none || s.contact.on == ContactSet::none) return;
   fmt::print(
       "  note: {} turn{} freely: where they roll, feet and wheels that should hold creep, because friction is viscous below\n"
-      "    contact.slip_speed, {:g} m/s here; 0.001 m/s makes that ten times less than 0.01 m/s does\n",
-      names, names.find(',') == std::string::npos ? "s" : "", s.contact.penalty.v_lim);
+      "    contact.slip_speed, {:g} m/s here{}\n",
+      names, names.find(',') == std::string::npos ? "s" : "", s.contact.penalty.v_lim,
+      s.contact.penalty.v_lim > kLittleCreep ? fmt::format("; with {:g} m/s they creep less", kLittleCreep) : "");
 }
 
 int check(const CheckArguments& arguments) {
@@ -81,11 +90,14 @@ int check(const CheckArguments& arguments) {
   if (!time.failure.empty()) fmt::print("  fails early: {}\n", time.failure);
   if (time.seconds > 0) fmt::print("  {}\n", to_string(time));
   for (const PluginFile& plugin : s.plugins) fmt::print("  plugin {} ({})\n", plugin.path, plugin.hash);
-  fmt::print("  joints (number, name, range in rad):\n");
+  const RobotInfo seen = info(robot);
+  fmt::print("  joints (number, name, axis in the base frame at zero angles, range in rad):\n");
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const Joint& joint = robot.joints[j];
     const std::string range = joint.turns_freely() ? "free" : fmt::format("{:+.4f} {:+.4f}", joint.lo, joint.hi);
-    fmt::print("  {:5}  {:<16} {}{}\n", j, joint.name, range, joint.driven() ? "" : "  without a motor");
+    const std::array<double, 3>& axis = seen.joints[j].axis;
+    fmt::print("  {:5}  {:<16} {:5.2f} {:5.2f} {:5.2f}  {}{}\n", j, joint.name, rounded(axis[0]), rounded(axis[1]),
+               rounded(axis[2]), range, joint.driven() ? "" : "  without a motor");
   }
   print_creep(s);
   if (arguments.page) {

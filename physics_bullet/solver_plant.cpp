@@ -123,7 +123,13 @@ class SolverPlant final : public Plant {
     const PassiveHinge::Loss loss = hinge.loss(qd);
     const double torque = hinge.spring(state_.q[j] + h * qd) + loss.torque;
     const double slope = loss.slope + h * hinge.stiffness;
-    world_.motor(j).set(slope, slope > 0 ? qd + torque / slope : 0, -kUnlimited, kUnlimited);
+    if (slope > 0) {
+      world_.motor(j).set(slope, qd + torque / slope, -kUnlimited, kUnlimited);
+    } else {
+      // At speed tanh is flat, and dry friction is all there is: a row at its limit F, which stops the hinge but never turns
+      // it.
+      world_.motor(j).set(hinge.friction / hinge.friction_speed, 0, -hinge.friction, hinge.friction);
+    }
     applied_[j] = 0;
     stop(j, h);
   }

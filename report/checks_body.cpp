@@ -123,7 +123,7 @@ void collision(const CheckedRun& run, Check& made) {
   judge(made, "collision", &Limits::collision, run);
   made.value = found ? found->depth : 0;
   made.status = graded(made.value, run.limits().touch, made.limit);
-  made.text = "no two bodies are in one another" + missing;
+  made.text = "no two bodies are in one another (those on one hinge are not compared)" + missing;
   if (!found) return;
   made.from = found->time;
   made.text = fmt::format("{} of bodies pass{} through one another, deepest {} and {}", counted(found->pairs, "pair"),

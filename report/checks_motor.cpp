@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/scenario/wording.h"
 #include "report/checks.h"
 #include "report/number_texts.h"
 #include "report/row_statistics.h"
@@ -16,7 +17,7 @@ std::string CheckedRun::unknown(TickColumn column) const {
   if (record.ticked() == 0 || record.ticks.rows() < 2)
     return "what all steps did was not recorded: the folder is of an older format, or the run ended at once";
   if (record.tick(0, column).empty()) return "the folder is of an older format, which did not keep it";
-  const std::string lacks = record.ticks_of_rows ? lacking(record, scenario.robot->joints.size(), column) : "";
+  const std::string lacks = record.ticks_of_rows ? lacking(record, *scenario.robot, column) : "";
   return lacks.empty() ? "" : fmt::format("the trace has no column {}", lacks);
 }
 
@@ -76,7 +77,7 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
   CheckStatus status = CheckStatus::pass;
   for (std::size_t j = 0; j < judged.joints.size(); ++j) {
     const double part = judged.joints[j].*share;
-    if (!(part > 0)) continue;
+    if (!(part > 0) || !run.scenario.robot->joints[j].driven()) continue;
     ++made.joints;
     const Span span = longest_span(run.record, j, column, judged.first_row);
     const bool fails = part > run.limits().saturated_share || long_enough(span.length());
@@ -98,8 +99,9 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
   const char* const name = !run.has_dc_motors ? "actuator" : limit == MotorLimit::voltage ? "voltage" : "current";
   made.text = fmt::format("no joint is at the limit of its {}", name);
   if (made.joints == 0) return;
-  made.text = fmt::format("{} of {} joints reach{} the limit of {} {}, ", made.joints, judged.joints.size(),
-                          made.joints == 1 ? "es" : "", made.joints == 1 ? "its" : "their", name);
+  made.text =
+      fmt::format("{} of {} reach{} the limit of {} {}, ", made.joints, counted(driven_joints(*run.scenario.robot), "joint"),
+                  made.joints == 1 ? "es" : "", made.joints == 1 ? "its" : "their", name);
   // What decides comes first: the share, or the stretch where the share alone would pass.
   if (value <= made.limit && long_enough(stretch)) {
     made.text += fmt::format("{} for {:.3g} s on end, more than {:g} control periods ({:.3g} s), in all {} of the window",

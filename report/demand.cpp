@@ -27,12 +27,21 @@ class Raise final : public Fields {
     const auto* each = std::get_if<field::EachJoint>(&field.value);
     if (each == nullptr || each->role != field::Role::limit) return;
     found = true;
+    if (each->usual != nullptr) state(each->value, *each->usual);
     raise(each->value.common, each->value.each.empty());
     for (double& value : each->value.each) raise(value, true);
   }
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 
  private:
+  /// Puts `usual` where nothing is stated.
+  static void state(PerJoint& value, const PerJoint& usual) {
+    if (value.each.empty()) value.each.assign(usual.each.size(), value.common);
+    for (std::size_t j = 0; j < value.each.size(); ++j) {
+      if (value.each[j] == 0) value.each[j] = usual[j];
+    }
+    if (value.common == 0) value.common = usual.common;
+  }
   void raise(double& value, bool counts) {
     zero = zero || (counts && value == 0);
     value *= kDemandTimes;

@@ -17,7 +17,8 @@ struct Demand {
   std::vector<JudgedJoint> joints = {};  ///< of the twin, in the window of the run itself
 };
 
-/// Multiplies every limit of the scenario's actuator (fields declared as Fields::limit) by kDemandTimes. False: it has none, or
+/// Multiplies every limit of the scenario's actuator (fields declared as Fields::limit) that holds, stated or not, by
+/// kDemandTimes. False: it has none, or
 /// one is 0.
 bool raise_limits(Scenario& scenario);
 

@@ -60,14 +60,14 @@ class HeatOfPanel final : public PaperPanel {
     }
     from_ = time[rows.first];
     to_ = time[rows.last - 1];
-    std::vector<Series> speed;
-    std::vector<Series> torque;
-    for (std::size_t j = 0; j < all.size(); ++j) {
-      speed.push_back(run.recording.joint(j, "speed"));
-      torque.push_back(run.recording.joint(j, "torque"));
-      if (!speed.back().empty() && !torque.back().empty()) continue;
+    std::vector<Series> speed(all.size());
+    std::vector<Series> torque(all.size());
+    for (const std::size_t j : joints_) {
+      speed[j] = run.recording.joint(j, "speed");
+      torque[j] = run.recording.joint(j, "torque");
+      if (!speed[j].empty() && !torque[j].empty()) continue;
       source.problem({"kind"}, fmt::format("run {} has no joint.{}.{}: simulate it with trace.columns: [joint.*]",
-                                           in_quotes(run.name), j, torque.back().empty() ? "torque" : "speed"));
+                                           in_quotes(run.name), j, torque[j].empty() ? "torque" : "speed"));
       return;
     }
     fill(run.scenario, time, rows, speed, torque);
@@ -137,7 +137,7 @@ class HeatOfPanel final : public PaperPanel {
     std::vector<double> least(speed.size());
     for (std::size_t k = rows.first; k < rows.last; ++k) {
       const auto c = std::min(count - 1, static_cast<std::size_t>((time[k] - from_) / width + 1e-9));
-      for (std::size_t j = 0; j < w.size(); ++j) w[j] = speed[j][k];
+      for (const std::size_t j : joints_) w[j] = speed[j][k];
       available.at(w, most, least);
       for (std::size_t i = 0; i < joints_.size(); ++i) {
         const std::size_t j = joints_[i];

@@ -11,6 +11,7 @@
 
 #include "core/model/docking.h"
 #include "core/model/kinematics.h"
+#include "core/scenario/type_presets.h"
 #include "core/scenario/wording.h"
 #include "report/convex.h"
 #include "report/envelope.h"
@@ -97,7 +98,7 @@ std::string spring_of(const Passive& p) {
 /// Of a type that names no motor nothing is known: the scenario's default is not the module's.
 Motors motors_of(const Scenario& one) {
   for (const Node& document : *one.module_documents) {
-    if (document.find("actuator") != nullptr) return motors(one, 0);
+    if (!preset_maps(document, Kind::actuator).empty()) return motors(one, 0);
   }
   return {};
 }
@@ -115,6 +116,16 @@ std::string hinges(const Robot& robot, const Motors& known) {
                     hinge.passive ? spring_of(*hinge.passive) : ""});
   }
   return rows.size() > 1 ? aligned(rows) : "  no hinges\n";
+}
+
+std::string bodies(const ModuleType& type) {
+  std::vector<Cells> rows{{"body", "mass", "centre of mass (body axes)"}};
+  for (const BodyType& body : type.bodies) {
+    const Vec3 com = 1000 * body.com;
+    rows.push_back(
+        {body.name, fmt::format("{:.4g} kg", body.mass), fmt::format("{:.4g} {:.4g} {:.4g} mm", com.x(), com.y(), com.z())});
+  }
+  return aligned(rows);
 }
 
 std::string faces(const ModuleType& type) {
@@ -174,10 +185,10 @@ std::string module_table(const Scenario& one) {
   const ModuleType& type = robot.types[0];
   std::string sources;
   if (!one.module_documents->empty()) add_sources(one.module_documents->front(), "", sources);
-  return fmt::format("{}: {}, {:.4g} kg in {}, {} and {}\n\n{}\n{}{}{}", type.name, size_text(robot), mass_of(type),
+  return fmt::format("{}: {}, {:.4g} kg in {}, {} and {}\n\n{}\n{}\n{}{}{}", type.name, size_text(robot), mass_of(type),
                      type.bodies.size() == 1 ? "1 body" : fmt::format("{} bodies", type.bodies.size()),
-                     counted(type.hinges.size(), "hinge"), counted(type.faces.size(), "face"), hinges(robot, motors_of(one)),
-                     faces(type), type.connectors.empty() ? "" : "\n" + connectors(type),
+                     counted(type.hinges.size(), "hinge"), counted(type.faces.size(), "face"), bodies(type),
+                     hinges(robot, motors_of(one)), faces(type), type.connectors.empty() ? "" : "\n" + connectors(type),
                      sources.empty() ? "" : "\nsources\n" + sources);
 }
 

@@ -19,6 +19,10 @@ const std::string kOfTheScenario = " of the scenario; the rest: ";
 
 bool dc_motors(const Scenario& scenario) { return !rest_torques(scenario).empty(); }
 
+std::size_t driven_joints(const Robot& robot) {
+  return static_cast<std::size_t>(std::ranges::count_if(robot.joints, [](const Joint& joint) { return joint.driven(); }));
+}
+
 std::vector<double> rest_torques(const Scenario& scenario) {
   if (scenario.actuator.entry == nullptr) return {};
   const std::unique_ptr<Actuator> actuator = make_actuator(scenario.actuator, info(*scenario.robot));
@@ -35,9 +39,10 @@ namespace {
 std::string stated_sources(const Scenario& scenario) {
   std::vector<std::string> sources;
   for (const Node& document : *scenario.module_documents) {
-    const Node* actuator = document.find("actuator");
-    const Node* source = actuator == nullptr ? nullptr : actuator->find("source");
-    if (source != nullptr && std::ranges::find(sources, source->text) == sources.end()) sources.push_back(source->text);
+    for (const Node* map : preset_maps(document, Kind::actuator)) {
+      const Node* source = map->find("source");
+      if (source != nullptr && std::ranges::find(sources, source->text) == sources.end()) sources.push_back(source->text);
+    }
   }
   std::ranges::stable_partition(sources, [](const std::string& one) { return chosen(one); });
   std::string text;
@@ -78,7 +83,7 @@ std::string no_created_energy(const Scenario& scenario) {
 
 bool chosen(const std::string& source) {
   const std::size_t rest = source.find(kOfTheScenario);
-  return source.substr(rest == std::string::npos ? 0 : rest + kOfTheScenario.size()).starts_with("chosen");
+  return source.find("chosen", rest == std::string::npos ? 0 : rest + kOfTheScenario.size()) != std::string::npos;
 }
 
 }  // namespace gaitlab::report

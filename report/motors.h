@@ -10,6 +10,9 @@ namespace gaitlab::report {
 /// Whether the drives are DC motors, which have a voltage and a current.
 bool dc_motors(const Scenario& scenario);
 
+/// How many joints have a motor, whatever drives it.
+std::size_t driven_joints(const Robot& robot);
+
 /// N m, of every joint: the largest torque of its motor at rest, within its limits of voltage and current (eq. 1, 2); empty
 /// where the actuator is not made of DC motors.
 std::vector<double> rest_torques(const Scenario& scenario);
@@ -22,7 +25,7 @@ std::string motor_source(const Scenario& scenario);
 /// actuator has no such key.
 std::string no_created_energy(const Scenario& scenario);
 
-/// Whether a source says that its figures, or the rest of them, are chosen, not a maker's.
+/// Whether a source says of any of its figures that it is chosen, not a maker's: it has that word.
 bool chosen(const std::string& source);
 
 }  // namespace gaitlab::report

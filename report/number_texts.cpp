@@ -148,20 +148,21 @@ Lines limits(const RunData& run) {
   const std::size_t worst = run.summary.most_loaded();
   const std::size_t some = Judged::limited(judged.joints);
   const std::size_t all = Judged::limited(judged.whole);
+  const std::string joints = counted(driven_joints(*run.scenario.robot), "joint");
+  const std::string reach = fmt::format("{} of {} reach{} a limit", some, joints, some == 1 ? "es" : "");
   Lines lines;
   if (some == 0) {
     lines.emplace_back("no joint at a limit of its motor");
   } else if (judged.joints[worst].limited() > 0) {
-    lines.push_back(
-        fmt::format("{} of {} joints reach a limit, {} longest:", some, judged.joints.size(), joint_name(run, worst)));
+    lines.push_back(fmt::format("{}, {} longest:", reach, joint_name(run, worst)));
     lines.push_back("at its limit " + share_at_limit(judged.joints[worst]));
     for (std::string& other : other_limits(run, worst)) lines.push_back(std::move(other));
   } else {
-    lines.push_back(fmt::format("{} of {} joints reach a limit, for an instant", some, judged.joints.size()));
+    lines.push_back(reach + ", for an instant");
   }
   if (some == 0 && all > 0) {
     const auto longest = std::ranges::max_element(judged.whole, {}, &JudgedJoint::limited);
-    lines.push_back(fmt::format("before: {} of {} joints, {} longest: {} of the run", all, judged.whole.size(),
+    lines.push_back(fmt::format("before: {} of {}, {} longest: {} of the run", all, joints,
                                 joint_name(run, static_cast<std::size_t>(longest - judged.whole.begin())),
                                 percent(longest->limited())));
   }

@@ -23,16 +23,24 @@ const PaperRun& PanelSource::run() const {
 }
 
 std::vector<std::size_t> PanelSource::joints() const {
-  const std::vector<std::string> names = joint_names(*run().scenario.robot);
+  const Robot& robot = *run().scenario.robot;
+  const std::vector<std::string> names = joint_names(robot);
   std::vector<bool> chosen(names.size(), false);
   for (std::size_t k = 0; k < panel().joints.size(); ++k) {
     const std::string& pattern = panel().joints[k];
     bool any = false;
+    std::string passive;
     for (std::size_t j = 0; j < names.size(); ++j) {
       if (!glob(pattern, names[j]) && !glob(pattern, std::to_string(j))) continue;
-      chosen[j] = any = true;
+      if (robot.joints[j].driven()) {
+        chosen[j] = any = true;
+      } else {
+        passive = names[j];
+      }
     }
-    if (!any) problem({"joints", std::to_string(k)}, "no joint " + in_quotes(pattern) + offer(pattern, names, "joints"));
+    if (any) continue;
+    problem({"joints", std::to_string(k)}, passive.empty() ? "no joint " + in_quotes(pattern) + offer(pattern, names, "joints")
+                                                           : "joint " + passive + " has no motor");
   }
   std::vector<std::size_t> numbers;
   for (std::size_t j = 0; j < names.size(); ++j) {

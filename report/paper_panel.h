@@ -57,7 +57,8 @@ struct PanelSource {
   void problem(std::vector<std::string> path, const std::string& text) const;
   /// The run of `run:`, or the only one.
   [[nodiscard]] const PaperRun& run() const;
-  /// Numbers of the joints of `run()` that a pattern of `joints:` matches, in their order; a problem where one matches none.
+  /// Numbers of the joints of `run()` with a motor that a pattern of `joints:` matches, in their order; a problem where one
+  /// matches none.
   [[nodiscard]] std::vector<std::size_t> joints() const;
   /// Of the frame, px.
   [[nodiscard]] double height(double mm) const { return (panel().height > 0 ? panel().height : mm) * px_per_mm; }

@@ -26,7 +26,7 @@ struct PanelRecipe {
   std::string run;                ///< other kinds; empty: the only one
   AxisRecipe left, right;
   std::string stance;                    ///< name of a leg
-  std::vector<std::string> joints{"*"};  ///< patterns
+  std::vector<std::string> joints{"*"};  ///< patterns; without those that have no motor
   std::string joint;
   std::vector<double> times;  ///< s
   bool legend = true;

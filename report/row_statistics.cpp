@@ -61,7 +61,7 @@ class Moments {
       std::vector<Series> of_joints;
       for (std::size_t j = 0; j < joints_; ++j) {
         of_joints.push_back(record.joint(j, quantity));
-        if (of_joints.back().empty()) return std::vector<Series>();
+        if (of_joints.back().empty() && scenario.robot->joints[j].driven()) return std::vector<Series>();
       }
       return of_joints;
     };
@@ -98,7 +98,7 @@ class Moments {
     if (command_.empty() || speed_.empty()) return now;
     std::vector<double> command(joints_);
     std::vector<double> ignored(joints_);
-    for (std::size_t j = 0; j < joints_; ++j) command[j] = command_[j][row + 1];
+    for (std::size_t j = 0; j < joints_; ++j) command[j] = value(command_, j, row + 1);
     Moment given(joints_);
     available_.actuator().effort(command, now.speed, given.torque, ignored);
     available_.actuator().electrical(command, now.speed,
@@ -112,8 +112,9 @@ class Moments {
   }
 
  private:
+  /// 0 where only a joint without a motor does not have it.
   static double value(const std::vector<Series>& of, std::size_t joint, std::size_t row) {
-    return of.empty() ? kNotKnown : of[joint][row];
+    return of.empty() ? kNotKnown : of[joint].empty() ? 0.0 : of[joint][row];
   }
 
   /// Whether no control tick lies within the stretch behind the row.
@@ -188,6 +189,7 @@ void fill_ticks_from_rows(const Scenario& scenario, Recording& record) try {
     const Out row = row_of(k);
     row[0] = t[k];
     for (std::size_t j = 0; j < joints; ++j) {
+      if (!scenario.robot->joints[j].driven()) continue;
       const std::size_t at = 1 + j * kTickColumns;
       fill_row(from, to, j, t[k] - t[k - 1], row_of(k - 1).subspan(at, kTickColumns), row.subspan(at, kTickColumns));
     }
@@ -197,10 +199,10 @@ void fill_ticks_from_rows(const Scenario& scenario, Recording& record) try {
 } catch (const PluginError&) {  // an actuator that throws may have ended the run, which says so; nothing is known of it
 }
 
-std::string lacking(const Recording& record, std::size_t joints, TickColumn column) {
+std::string lacking(const Recording& record, const Robot& robot, TickColumn column) {
   for (const char* const quantity : needs(column)) {
-    for (std::size_t j = 0; j < joints; ++j) {
-      if (record.joint(j, quantity).empty()) return fmt::format("joint.{}.{}", j, quantity);
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+      if (robot.joints[j].driven() && record.joint(j, quantity).empty()) return fmt::format("joint.{}.{}", j, quantity);
     }
   }
   return "";

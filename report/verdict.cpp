@@ -54,7 +54,7 @@ constexpr CheckKind kChecks[] = {
     {"stops", "motion", "rad", "Joints keep their ranges",
      "farthest beyond the range of the hinge, of the whole run, over all steps", checks::stops},
     {"collision", "structure", "m", "Bodies keep apart",
-     "depth of two bodies in one another, of the whole run, at control ticks", checks::collision},
+     "depth of two bodies in one another, but for bodies on one hinge, of the whole run, at control ticks", checks::collision},
     {"dock_tension", "structure", "N", "Docks are not pulled apart", "largest tension of a dock against its rating",
      dock<DockQuantity::tension>},
     {"dock_shear", "structure", "N", "Docks do not shear", "largest shear force of a dock against its rating",
@@ -117,6 +117,7 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
     check.text = without_folders(std::move(check.text), scenario.plugins);
     const bool judged = check.status != CheckStatus::not_judged;
     made.chosen_motors = made.chosen_motors || (judged && check.group == "motor" && chosen(run.motor_source));
+    made.chosen_docks = made.chosen_docks || (judged && check.id.starts_with("dock_") && chosen(check.source));
     made.checks.push_back(std::move(check));
   }
   made.word = word(made.checks);

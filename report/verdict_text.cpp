@@ -37,6 +37,7 @@ std::string to_json(const Verdict& verdict) {
   json["format"] = 1;
   json["verdict"] = verdict.word;
   json["chosen_motors"] = verdict.chosen_motors;
+  json["chosen_docks"] = verdict.chosen_docks;
   json["statistics"] = verdict.of_rows.empty() ? "all steps" : "rows";
   if (!verdict.of_rows.empty()) json["statistics_text"] = verdict.of_rows;
   json["window"] = {{"from", verdict.from}, {"to", verdict.to}};
@@ -106,6 +107,7 @@ std::vector<std::string> to_lines(const Verdict& verdict) {
   if (!verdict.demand_doubt.empty()) wrap("demand: " + verdict.demand_doubt);
   if (!verdict.of_rows.empty()) wrap(verdict.of_rows);
   if (verdict.chosen_motors) wrap("rests on chosen figures of the motors, not on a maker's");
+  if (verdict.chosen_docks) wrap("rests on chosen figures of what docks hold");
   if (verdict.count(CheckStatus::fail) > 1) wrap("fails: " + names(CheckStatus::fail));
   if (verdict.count(CheckStatus::warn) > 0) wrap("warns: " + names(CheckStatus::warn));
   if (verdict.count(CheckStatus::not_judged) > 0) wrap("not judged: " + names(CheckStatus::not_judged));

@@ -82,11 +82,13 @@ struct OneOf {
 /// What a value per joint is to a verdict. limit: of what the actuator gives; a run without it shows what a gait demands.
 /// rating: what its maker states; 0 everywhere means that nobody does, and the resolved scenario leaves it out.
 /// required: nothing a plugin could assume; its initial value 0 means "not given", which its range excludes.
+/// `usual`: per joint, what holds where a limit is 0, which then means "not stated"; nullptr: 0 is a limit.
 enum class Role { setting, limit, rating, required };
 struct EachJoint {
   PerJoint& value;
   Spec spec;
   Role role = Role::setting;
+  const PerJoint* usual = nullptr;
 };
 /// A joint, by name or number in the file, by number here.
 struct Joint {
@@ -177,6 +179,11 @@ class Fields {
   /// The most that an actuator gives, in the unit of its command or of a current.
   void limit(const char* key, PerJoint& value, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::limit}});
+  }
+  /// The same where 0 means "not stated": then `usual` holds. Derive `usual` before the first limit is visited, which may raise
+  /// it.
+  void limit(const char* key, PerJoint& value, const PerJoint& usual, Spec spec) {
+    visit({key, spec.about, field::EachJoint{value, spec, field::Role::limit, &usual}});
   }
   /// A number that has no default: its initial value is 0 and its range is above 0. A joint without one is an error.
   void required(const char* key, PerJoint& value, Spec spec) {

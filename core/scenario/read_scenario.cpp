@@ -39,6 +39,11 @@ class ScenarioReader {
     if (!root) raise();
     root_ = std::move(*root);
     const std::vector<Retyped> retyped = apply_sets(root_, sets, problems_);
+    if (root_.find("gaitlab_module") != nullptr) {
+      problems_.add(root_.place,
+                    fmt::format("this is a module type, not a scenario; what is in it: gaitlab explain module {}", path_));
+      raise();
+    }
     Reader head(root_, "the scenario", problems_, nullptr);
     if (!head.version("gaitlab")) raise();  // another version's keys mean something else
     if (const Node* plugins = root_.find("plugins")) {
@@ -173,6 +178,10 @@ class ScenarioReader {
     if (const Node* sensors = reader.take("sensors")) check_sensors(*sensors);
     const TypePresets motors(Kind::actuator, scenario_.robot.get(), *scenario_.module_documents);
     const TypePresets gains(Kind::controller, scenario_.robot.get(), *scenario_.module_documents);
+    if (!motors.agreed() && !given(root_, "actuator")) {
+      motors.refuse(given(root_, "robot").value_or(root_.place), problems_);
+      raise();  // what one of them states would be reported as missing
+    }
     SectionFields sections(scenario_, &catalog_, &problems_, without_motors() ? "none" : motors.type());
     sections.controller.type = gains.type();
     sections.has_cpg = root_.find("cpg") != nullptr;
@@ -185,7 +194,6 @@ class ScenarioReader {
     if (const Node* ground = root_.find("ground"); ground != nullptr && reads("ground"))
       finish_ground(*ground, folder_, scenario_, problems_);
     ScenarioChecks checks(root_, scenario_, catalog_, problems_);
-    if (!motors.agreed() && !given(root_, "actuator")) motors.refuse(given(root_, "robot").value_or(root_.place), problems_);
     if (!gains.agreed() && !given(root_, "controller") && !sections.actuator.none) {
       gains.refuse(given(root_, "robot").value_or(root_.place), problems_);
     }

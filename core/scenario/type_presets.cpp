@@ -93,6 +93,16 @@ class PerJointMerge final : public Fields {
 
 }  // namespace
 
+std::vector<const Node*> preset_maps(const Node& document, Kind kind) {
+  std::vector<const Node*> maps;
+  const auto add = [&](const Node& of) {
+    if (const Node* map = map_of(of, kind)) maps.push_back(map);
+  };
+  add(document);
+  if (const Node* hinges = document.find("hinges")) std::ranges::for_each(hinges->items, add);
+  return maps;
+}
+
 TypePresets::TypePresets(Kind kind, const Robot* robot, const std::vector<Node>& documents)
     : kind_(kind), type_(describe(kind).default_type) {
   std::vector<const Node*> maps;

@@ -9,6 +9,9 @@
 
 namespace gaitlab {
 
+/// The maps in which a module type says something of a kind of plugin: its own, then those of its hinges.
+std::vector<const Node*> preset_maps(const Node& document, Kind kind);
+
 /// The presets of one kind of plugin, actuator or controller. Every joint takes those of its own module type and, over them key
 /// by key, those of its hinge. Where no module type is of format 2, one motor serves all, and types that name different ones
 /// disagree, as they do where they name different types of plugin.

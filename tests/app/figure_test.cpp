@@ -7,7 +7,7 @@
 #include "core/recording/csv.h"
 #include "core/recording/run_files.h"
 #include "report/recipe.h"
-#include "tests/program/fixture.h"
+#include "tests/program/cart.h"
 
 namespace gaitlab::test {
 namespace {
@@ -85,6 +85,23 @@ TEST_F(PaperFigure, RecipesAreReadStrictly) {
   refused("runs: {creep: walk}\npanels: [{left: {columns: [com.x]}}]\n",
           "figure.yaml:1:15: error: run 'creep': walk does not exist; simulate it first, or name its folder with --run "
           "creep=FOLDER");
+}
+
+TEST_F(PaperFigure, HingesWithoutAMotorAreLeftOut) {
+  folder.write("cart.yaml", kCastorFirst);
+  ASSERT_EQ(gaitlab("run cart.yaml --quiet --out cart", folder / "").code, 0);
+  const std::string runs = "runs: {cart: cart}\n";
+  for (const std::string kind : {"heat", "envelope"}) {
+    const Result result = draw(runs + "panels: [{kind: " + kind + "}]\n", "-o " + kind + ".svg");
+    EXPECT_EQ(result.code, 0) << result.err;
+    const std::string numbers = read(folder / (kind + ".csv"));
+    EXPECT_TRUE(contains(numbers, "m0/arm")) << kind;
+    EXPECT_FALSE(contains(numbers, "m0/castor")) << kind;
+    for (const std::string joint : {"m0/castor", "0"}) {
+      refused(runs + "panels: [{kind: " + kind + ", joints: [" + joint + "]}]\n",
+              fmt::format("figure.yaml:2:{}: error: joint m0/castor has no motor", 28 + kind.size()));
+    }
+  }
 }
 
 TEST_F(PaperFigure, SameBytesTwice) {

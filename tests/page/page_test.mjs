@@ -1,6 +1,6 @@
 // The report page in a browser. usage: node page_test.mjs NAME=FILE...
 // feasible, infeasible, failed, open (not judged), built: pages by what they say; markup: one of a scenario with markup in its text; csv, old
-// (a folder of format 1), jointless, built_ball: what there is little of; pair, robots, ball: two runs; strayed: of a golden.
+// (a folder of format 1), jointless, built_ball: what there is little of; castor, motorless: joint 0 has no motor, none has; pair, robots, ball: two runs; strayed: of a golden.
 // trace: CSV of the feasible run with body.* columns.
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
@@ -225,6 +225,7 @@ on("feasible: the envelope is that of the motor", pages.feasible, {}, async (pag
 });
 
 on("built: shows hinges, faces and axes, and no time", pages.built, {}, async (page, meta) => {
+  assert.deepEqual(await page.$$eval("[data-gender]:not([hidden])", (all) => all.map((e) => e.textContent)), ["active face", "passive face"]);
   assert.deepEqual(await page.$$eval("#faces, #axes", (all) => all.map((b) => b.getAttribute("aria-pressed"))), ["true", "true"]);
   for (const id of ["#transport", "#checks", "#motion", "#heat", "#path"]) assert.equal(await page.isVisible(id), false, id);
   const rows = await page.$$eval("#parts tbody tr", (all) => all.map((r) => r.firstChild.textContent));
@@ -257,6 +258,22 @@ for (const name of ["jointless", "built_ball"]) {
     assert.ok(await page.isVisible("#view"));
     for (const key of ["[", "]", "j", "a"]) await page.keyboard.press(key);
     assert.equal((await state(page)).joint, -1);
+  });
+}
+
+on("castor: what a joint without a motor does not have, the others do", pages.castor, {}, async (page, meta) => {
+  assert.deepEqual(meta.joints.map((j) => j.motor === null), [true, false]);
+  for (const id of ["#envelope canvas", "#heat canvas", "#power canvas"]) assert.ok(await page.isVisible(id), id);
+  assert.match(await page.textContent("#heat-note"), /of what the motor can give/);
+  assert.ok(await page.evaluate(() => window.gaitlab.page.loads.limited && Math.max(...window.gaitlab.page.loads.share(1)) > 0));
+  assert.deepEqual(await page.$$eval("[data-gender]:not([hidden])", (all) => all.map((e) => e.textContent)), ["face without gender"]);
+  await page.selectOption("#joint", "0");
+});
+
+for (const name of ["castor", "motorless", "jointless"]) {
+  on(`${name}: nothing is undefined`, pages[name], {}, async (page) => {
+    assert.doesNotMatch(await page.evaluate(() => [...document.querySelectorAll("body *:not(script, style)")].flatMap((e) => [...e.childNodes].filter((n) => n.nodeType === 3).map((n) => n.data)).join(" ")), /undefined|NaN/);
+    for (const id of name === "castor" ? [] : ["#heat", "#heat-ramp", "#envelope", "#power"]) assert.ok(await page.isHidden(id), id);
   });
 }
 

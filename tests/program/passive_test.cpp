@@ -161,6 +161,32 @@ TEST(PassiveHinge, TheSolverHasItsRow) {
   EXPECT_NEAR(solved.ledger.hinges, reference.ledger.hinges, 1e-3);
 }
 
+// Above 19 friction_speed tanh is 1 to the last bit, and its slope 0.
+TEST(PassiveHinge, TheSolverKeepsDryFrictionAtSpeed) {
+  const auto engines = catalog().engines();
+  if (std::ranges::find(engines, "bullet") == engines.end()) GTEST_SKIP() << "built without Bullet";
+  Rod rod{"bullet", "friction: 2, friction_speed: 0.1"};
+  rod.contact = ", law: bullet";
+  rod.gravity = "[0, 0, 0]";
+  rod.physics = "step: 1e-3";
+  rod.duration = 0.1;
+  const double w = 3 - 2 * 0.1 / kInertia;         // 2.4 rad/s
+  const double lost = kInertia / 2 * (9 - w * w);  // 0.54 J
+  const double rounding =
+      100 * 32 * std::numeric_limits<double>::epsilon();  // of 100 steps, some ten operations of 3 rad/s each
+  for (const std::string way : {"", "-"}) {
+    const Recording record = run(rod.read({"initial.speeds=[" + way + "3]"}));
+    EXPECT_NEAR(std::abs(end(record, "joint.0.speed")), w, rounding) << way;
+    EXPECT_NEAR(end(record, "energy.hinges"), lost, rounding) << "an impulse works at the mean of the speeds it joins";
+    EXPECT_LT(std::abs(record.ledger.residual()), rounding);
+  }
+  // One step's impulse would turn the hinge around: it stops.
+  rod.drive = "friction: 2000, friction_speed: 0.1";
+  const Recording stopped = run(rod.read({"initial.speeds=[3]"}));
+  EXPECT_LT(std::abs(end(stopped, "joint.0.speed")), 1e-12);
+  EXPECT_NEAR(end(stopped, "energy.hinges"), kInertia / 2 * 9, rounding);
+}
+
 // Lanes of other springs give the bits that each gives alone.
 TEST(PassiveHinge, LanesDoNotMeet) {
   const std::vector<std::size_t> widths = catalog().engine("articulated")->lanes;

@@ -43,17 +43,17 @@ trace: {{period: 0.01}}
   return std::ranges::find(made.checks, "envelope", &report::Check::id)->value;
 }
 
-const std::string kSource = "closed form of eq. 1, 2: T over eta Kt n min(i_max, (u_max - Ks n w) / R)";
+const std::string kEnvelopeLaw = "closed form of eq. 1, 2: T over eta Kt n min(i_max, (u_max - Ks n w) / R)";
 
 /// T = m g l at rest, which takes u = R T / (eta Kt n).
 TEST(EnvelopeCheck, OfAPendulumHeldAt90Degrees) {
   const double torque = 9.81 * 0.1;
   const double voltage = 4.3 * torque / kK;
   validate({"limits.envelope.current", "pendulum of 1 kg, 0.1 m held at 90 degrees, 1.2 A at most: envelope of the verdict",
-            kSource, ""},
+            kEnvelopeLaw, ""},
            envelope_of(0.1, voltage, 1.2, 0.5), torque / (kK * 1.2), 1e-13, "rounding; it turns by less than 1e-13 rad");
   validate({"limits.envelope.voltage", "pendulum of 1 kg, 0.1 m held at 90 degrees, 7.4 V at most: envelope of the verdict",
-            kSource, ""},
+            kEnvelopeLaw, ""},
            envelope_of(0.1, voltage, 5, 0.5), torque / (kK * 7.4 / 4.3), 1e-13, "rounding; it turns by less than 1e-13 rad");
 }
 
@@ -63,10 +63,10 @@ TEST(EnvelopeCheck, OfAWheelThatSpinsUp) {
   const double i_max = 5;
   const oracle::MotorSpinUp motor{4.3, 0.00395, 0.00395, kGearing, 0.7, i_max, 5, 0.05};
   const double back = kVolts * motor.speed(0.02);
-  validate(
-      {"limits.envelope.turning", "5 V on a flywheel, 5 A at most: envelope of the verdict 20 ms after the start", kSource, ""},
-      envelope_of(0, 5, i_max, 0.1), (5 - back) / (7.4 - back), 4e-7,
-      "extrapolated is of order 2: (18/s * 0.1 ms)^2 of 1.5 V, times 0.07/V");
+  validate({"limits.envelope.turning", "5 V on a flywheel, 5 A at most: envelope of the verdict 20 ms after the start",
+            kEnvelopeLaw, ""},
+           envelope_of(0, 5, i_max, 0.1), (5 - back) / (7.4 - back), 4e-7,
+           "extrapolated is of order 2: (18/s * 0.1 ms)^2 of 1.5 V, times 0.07/V");
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/verdict.h"
-#include "tests/program/fixture.h"
+#include "tests/program/cart.h"
 
 namespace gaitlab::test {
 namespace {
@@ -29,13 +29,13 @@ Recording rows_only(const Scenario& scenario, const Recording& whole, const std:
   return bare;
 }
 
-Verdict judged(const Scenario& scenario, const Recording& record) {
+Verdict verdict_of(const Scenario& scenario, const Recording& record) {
   return verdict(scenario, record, summarise(scenario, record, 0), overlaps(scenario, record));
 }
 
-const Check& check(const Verdict& verdict, const char* id) { return *std::ranges::find(verdict.checks, id, &Check::id); }
+const Check& check_of(const Verdict& verdict, const char* id) { return *std::ranges::find(verdict.checks, id, &Check::id); }
 
-/// A row at every step. The engine (explicit) takes torques at the start of a step under the command that begins there: peaks
+/// A row at every step. The engine takes torques at the start of a step under the command that begins there: peaks
 /// are those numbers, but for rounding, or what the row at the end of a hold has, which no step took: between two steps torques
 /// differ by the acceleration times a step, below 1 % of the peak here. Integrals are by trapezoids instead of rectangles,
 /// whose ends differ by half a step of the window, 5e-4 s of 3 s or more.
@@ -49,14 +49,14 @@ TEST(RowStatistics, OfEveryStepAreThoseOfAllSteps) {
     all.insert(all.end(), sets.begin(), sets.end());
     const Scenario s = shipped(name, all);
     const Recording whole = run(s);
-    const Verdict steps = judged(s, whole);
-    const Verdict rows = judged(s, rows_only(s, whole));
+    const Verdict steps = verdict_of(s, whole);
+    const Verdict rows = verdict_of(s, rows_only(s, whole));
     EXPECT_EQ(rows.word, steps.word) << name;
     EXPECT_EQ(steps.of_rows, "");
     EXPECT_EQ(rows.of_rows, "judged from the trace's rows, one per 0.5 ms: a peak between two rows is not seen");
     for (const char* const id : {"voltage", "current", "envelope", "speed", "heat", "tracking", "stops"}) {
-      const Check& of = check(steps, id);
-      const Check& from = check(rows, id);
+      const Check& of = check_of(steps, id);
+      const Check& from = check_of(rows, id);
       EXPECT_EQ(from.status, of.status) << name << ' ' << id;
       EXPECT_EQ(from.joint, of.joint) << name << ' ' << id;
       EXPECT_NEAR(from.value, of.value, 1e-2 * std::abs(of.value)) << name << ' ' << id;
@@ -85,22 +85,22 @@ TEST(RowStatistics, SeeThePeakWhereACommandBegins) {
     EXPECT_GT(rows.whole[j].torque_peak, 0.9 * peak) << j;
   }
   EXPECT_LT(least, 0.5) << "of the rows alone";
-  EXPECT_EQ(judged(s, bare).word, judged(s, whole).word);
+  EXPECT_EQ(verdict_of(s, bare).word, verdict_of(s, whole).word);
 }
 
 /// What lacks a column is not judged and names it; the rest is.
 TEST(RowStatistics, NameTheColumnThatIsNotThere) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=1", "physics.engine=articulated"});
   const Recording whole = run(s);
-  const auto without = [&](const char* column) { return judged(s, rows_only(s, whole, column)); };
+  const auto without = [&](const char* column) { return verdict_of(s, rows_only(s, whole, column)); };
   const auto lacks = [](const Verdict& verdict, const char* id, const std::string& column) {
-    const Check& of = check(verdict, id);
+    const Check& of = check_of(verdict, id);
     return of.status == CheckStatus::not_judged && of.text == "the trace has no column " + column && std::isnan(of.value);
   };
   const Verdict no_speed = without("joint.3.speed");
   for (const char* const id : {"speed", "envelope"}) EXPECT_TRUE(lacks(no_speed, id, "joint.3.speed")) << id;
   for (const char* const id : {"voltage", "current", "heat", "tracking", "stops"})
-    EXPECT_NE(check(no_speed, id).status, CheckStatus::not_judged) << id;
+    EXPECT_NE(check_of(no_speed, id).status, CheckStatus::not_judged) << id;
   const Verdict no_torque = without("joint.0.torque");
   EXPECT_TRUE(lacks(no_torque, "envelope", "joint.0.torque"));
   const Verdict no_state = without("joint.15.saturation");
@@ -109,11 +109,32 @@ TEST(RowStatistics, NameTheColumnThatIsNotThere) {
   EXPECT_TRUE(lacks(without("joint.1.setpoint"), "tracking", "joint.1.setpoint"));
   const Verdict no_angle = without("joint.2.angle");
   EXPECT_TRUE(lacks(no_angle, "tracking", "joint.2.angle"));
-  EXPECT_EQ(check(no_angle, "stops").status, CheckStatus::not_judged);
+  EXPECT_EQ(check_of(no_angle, "stops").status, CheckStatus::not_judged);
   for (const char* const id : {"ledger", "created", "torque_error"})
-    EXPECT_EQ(check(no_speed, id).status, CheckStatus::not_judged) << id << ": rows hold no energies";
-  EXPECT_EQ(check(no_torque, "voltage").definition,
+    EXPECT_EQ(check_of(no_speed, id).status, CheckStatus::not_judged) << id << ": rows hold no energies";
+  EXPECT_EQ(check_of(no_torque, "voltage").definition,
             "share of the window at the limit of the voltage, over the rows of the trace");
+}
+
+/// A hinge without a motor has none of the columns of a motor, and takes nothing from the joints that have one.
+TEST(RowStatistics, LeaveOutHingesWithoutAMotor) {
+  const Scenario s = scenario(kCastorFirst, {"duration=4", "physics.step=5e-4", "trace.period=5e-4"});
+  const Recording whole = run(s);
+  const Recording bare = rows_only(s, whole);
+  ASSERT_TRUE(bare.ticks_of_rows);
+  for (std::size_t c = 0; c < kTickColumns; ++c)
+    EXPECT_EQ(bare.tick(0, static_cast<TickColumn>(c)).back(), 0) << "of the castor";
+  const Verdict steps = verdict_of(s, whole);
+  const Verdict rows = verdict_of(s, bare);
+  EXPECT_EQ(rows.word, steps.word);
+  for (const char* const id : {"voltage", "current", "envelope", "speed", "tracking"}) {
+    EXPECT_NE(check_of(rows, id).status, CheckStatus::not_judged) << id << ": " << check_of(rows, id).text;
+    EXPECT_EQ(check_of(rows, id).status, check_of(steps, id).status) << id;
+    EXPECT_EQ(check_of(rows, id).joint, check_of(steps, id).joint) << id;
+    EXPECT_NEAR(check_of(rows, id).value, check_of(steps, id).value, 1e-2 * std::abs(check_of(steps, id).value)) << id;
+  }
+  EXPECT_EQ(check_of(verdict_of(s, rows_only(s, whole, "joint.1.torque")), "envelope").text,
+            "the trace has no column joint.1.torque");
 }
 
 TEST(RowStatistics, OfNothingAreNothing) {
@@ -121,7 +142,7 @@ TEST(RowStatistics, OfNothingAreNothing) {
   Recording none;
   fill_ticks_from_rows(s, none);
   EXPECT_FALSE(none.ticks_of_rows);
-  EXPECT_EQ(judged(s, none).word, "not judged");
+  EXPECT_EQ(verdict_of(s, none).word, "not judged");
   Recording whole = run(s);
   fill_ticks_from_rows(s, whole);
   EXPECT_FALSE(whole.ticks_of_rows) << "all steps are known";

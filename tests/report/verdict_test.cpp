@@ -7,7 +7,7 @@
 #include "core/scenario/resolved.h"
 #include "report/envelope.h"
 #include "report/motors.h"
-#include "tests/program/fixture.h"
+#include "tests/program/cart.h"
 
 namespace gaitlab::test {
 namespace {
@@ -80,6 +80,18 @@ TEST(Verdict, WarnsOfShortLimitsAndFailsByLongOnes) {
     EXPECT_TRUE(contains(check.text, std::string("1 of 16 joints reaches the limit of its ") + name)) << check.text;
     EXPECT_EQ(at_limit(column, 100).judged().word, "infeasible");
   }
+}
+
+/// Of the joints only those with a motor are counted.
+TEST(Verdict, CountsJointsWithAMotor) {
+  const Scenario s = scenario(kCastorFirst, {"actuator.u_max=0.05"});
+  const Recording record = run(s);
+  const Summary summary = summarise(s, record, 0);
+  const Verdict made = verdict(s, record, summary, overlaps(s, record));
+  const Check& voltage = *std::ranges::find(made.checks, std::string("voltage"), &Check::id);
+  EXPECT_TRUE(contains(voltage.text, "1 of 1 joint reaches the limit of its voltage, m0/arm longest")) << voltage.text;
+  const std::string text = to_text(summary, s, record, true);
+  EXPECT_TRUE(contains(text, "1 of 1 joint reaches a limit, m0/arm longest:")) << text;
 }
 
 /// The text leads with what decided: four ticks on end, of which the run cuts the last one, are 55 ms,

@@ -73,9 +73,10 @@ export class Energy implements Panel {
 
 /** Electrical power of all joints; null where nothing is known of it, or nothing is drawn. */
 function power(recording: Recording): Values | null {
-  if (!recording.has("joint.0.voltage") || !recording.has("joint.0.current")) return null;
+  const { joints } = recording.meta, known = (j: number) => recording.has(`joint.${j}.voltage`) && recording.has(`joint.${j}.current`);
+  if (!joints.every(({ motor }, j) => motor === null || known(j))) return null;
   const sum = new Float32Array(recording.rows);
-  recording.meta.joints.forEach((_, j) => {
+  joints.forEach((_, j) => {
     const u = recording.channel(`joint.${j}.voltage`), i = recording.channel(`joint.${j}.current`);
     sum.forEach((_w, k) => { sum[k] += u[k] * i[k]; });
   });

@@ -17,14 +17,14 @@ export class Envelope implements Panel {
 
   constructor(private readonly desk: Desk) {
     const host = element("envelope"), { recording } = desk;
-    if (!recording.has("joint.0.torque") || !recording.has("joint.0.speed")) leaveOut(host, recording.meta.motors.length ? "the recording has no torques and speeds of the joints (trace.columns)." : "the joints have no motors.");
+    if (!recording.any("torque") || !recording.any("speed")) leaveOut(host, recording.meta.motors.length ? "the recording has no torques and speeds of the joints (trace.columns)." : "the joints have no motors.");
     else this.board = new Board(host, "Torque over speed, in what the motor can give", (pen, width, height) => this.draw(pen, width, height));
   }
 
   paint(): void {
     if (!this.board) return;
     const motor = this.desk.loads.motor(this.desk.state.joint);
-    keys("envelope-key", [["", "--blue", this.desk.recording.meta.cycle ? "chosen joint, last period" : "chosen joint"], ["cloud", "--cloud", this.peers.length > 1 ? "all joints with this motor" : ""],
+    keys("envelope-key", [["", "--blue", this.desk.recording.meta.cycle ? "chosen joint, last period" : "chosen joint"], ["cloud", "--cloud", this.driven && this.peers.length > 1 ? "all joints with this motor" : ""],
       ["hatch", "--hatch", limited(motor) ? "out of reach" : ""], ["dash", "--purple", this.second() ? `${this.desk.ghost!.label}, its last period` : ""]]);
     this.board.paint();
   }
@@ -44,6 +44,8 @@ export class Envelope implements Panel {
     const { recording, loads } = ghost, speed = recording.find(`joint.${j}.speed`), torque = recording.find(`joint.${j}.torque`), { cycle } = recording.meta;
     return speed && torque && { speed, torque, motor: loads.motor(j), from: cycle ? Math.max(recording.judged, recording.row(recording.end - cycle.period)) : recording.judged };
   }
+
+  private get driven(): boolean { return this.desk.recording.has(`joint.${this.desk.state.joint}.torque`); }
 
   private get peers(): number[] {
     const { joints } = this.desk.recording.meta, mine = joints[this.desk.state.joint].motor;
@@ -134,7 +136,7 @@ export class Envelope implements Panel {
     if (!limited(motor)) {
       pen.fillStyle = ink.muted;
       pen.textBaseline = "top";
-      pen.fillText("no limit of this actuator is known", box.left + 8, box.top + 6);
+      pen.fillText(this.driven ? "no limit of this actuator is known" : "no torque of this joint is recorded", box.left + 8, box.top + 6);
       return;
     }
     const top = most(motor, -(motor.no_load ?? 0) || 0), label = motor.current && Math.abs(most(motor, 0) - top) < 0.01 * top ? `current limit ${number(motor.current)} A` : motor.rest ? `at rest ${number(motor.rest)} N m` : "";

@@ -114,7 +114,7 @@ function aside(meta: Meta): string[] {
   const warned = of(false, "warn"), doubtful = of(true, "warn", "fail"), open = of(false, "not judged"), bad = meta.verdict.verdict !== "feasible", gait = of(false, "fail"), limited = gait.some((c) => c.id === "voltage" || c.id === "current");
   return [
     ...(warned.length ? [bad ? `${capital(plural(meta.verdict.counts.warn, "warning"))}.` : `Warned of: ${briefly(warned)}.`] : []),
-    ...(meta.verdict.chosen_motors ? ["The figures of the motors are chosen, not a maker's."] : []),
+    ...(meta.verdict.chosen_motors ? ["Figures of the motors are chosen, not a maker's."] : []),
     ...(limited && !gait.some((c) => c.missing) ? [`How much is missing was not asked; gaitlab report --demand tells.`] : []),
     ...(doubtful.length ? [`Doubtful: ${briefly(doubtful)}.`] : []),
     ...(meta.verdict.demand?.doubt ? [ended(capital(meta.verdict.demand.doubt))] : []),

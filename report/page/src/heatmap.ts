@@ -26,7 +26,7 @@ export class HeatMap implements Panel {
     this.head = this.host.querySelector<HTMLElement>(".playhead")!;
     const what = element<HTMLSelectElement>("what"), order = element<HTMLSelectElement>("order");
     for (const [value, channel] of [["torque", "torque"], ["current", "current"], ["error", "setpoint"]]) {
-      if (!desk.recording.has(`joint.0.${channel}`)) what.querySelector(`[value=${value}]`)?.remove();
+      if (!desk.recording.any(channel)) what.querySelector(`[value=${value}]`)?.remove();
     }
     if (!desk.loads.limited) what.querySelector("[value=use]")?.remove();
     if (desk.recording.meta.joints.length <= 12) order.querySelector("[value=top]")?.remove();
@@ -43,6 +43,7 @@ export class HeatMap implements Panel {
   }
 
   paint(): void {
+    if (!this.quantity) return; // left out
     const rows = this.rows.length, { loads, ink } = this.desk;
     this.host.style.minHeight = `${foot + Math.max(Math.min(44 * rows, 132), Math.min(620, rows * (rows > 60 ? 3 : rows > 30 ? 11 : 16)))}px`;
     this.apart.clear();
@@ -55,12 +56,13 @@ export class HeatMap implements Panel {
     element("heat-ramp").style.background = apart ? differenceGradient(ink.theme) : gradient(ink.theme);
   }
 
-  /** What is drawn of a joint, by rows, a share of the scale; null: one run has no such joint. */
+  /** What is drawn of a joint, by rows, a share of the scale; null: a run has no such joint, or the joint no motor. */
   private values(joint: number): Values | null {
     const { loads, ghost, recording } = this.desk, known = this.apart.get(String(joint));
-    if (this.side === "own" || !ghost) return loads.of(this.quantity, joint);
+    const channel = { use: "torque", torque: "torque", current: "current", error: "setpoint" }[this.quantity];
+    if (this.side === "own" || !ghost) return recording.has(`joint.${joint}.${channel}`) ? loads.of(this.quantity, joint) : null;
     if (known !== undefined) return known;
-    const theirs = ghost.number("joint", joint), channel = { use: "torque", torque: "torque", current: "current", error: "setpoint" }[this.quantity];
+    const theirs = ghost.number("joint", joint);
     let made: Values | null = null;
     if (theirs >= 0 && ghost.recording.has(`joint.${theirs}.${channel}`) && recording.has(`joint.${joint}.${channel}`) && ghost.loads.limited === loads.limited) {
       const to = ghost.loads.scale(this.quantity) / loads.scale(this.quantity), own = loads.of(this.quantity, joint);

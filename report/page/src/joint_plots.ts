@@ -16,7 +16,7 @@ export class JointPlots implements Panel {
   constructor(private readonly desk: Desk) {
     const names: [Cell, string][] = [["angle", "angle"], ["error", "error"], ["speed", "speed"], ["torque", "torque"], ...(desk.loads.limited ? [["use", "of its motor"] as [Cell, string]] : [])];
     for (const [key, name] of names) {
-      if (!this.some(SOURCE[key])) continue;
+      if (!desk.recording.any(SOURCE[key])) continue;
       const cell = make("dd");
       this.cells.set(key, cell);
       element("now").append(make("div", make("dt", name), cell));
@@ -76,9 +76,8 @@ export class JointPlots implements Panel {
   /** So that a small motor's torque has three digits. */
   get decimals(): number { return Math.max(2, Math.ceil(-Math.log10(this.desk.loads.peak)) + 1); }
 
-  // Of the chosen joint, for hinges without a motor have no set point and no current; in the list of numbers of any.
+  // Of the chosen joint; in the list of numbers of any.
   private has(name: string): boolean { return this.desk.recording.has(`joint.${this.desk.state.joint}.${name}`); }
-  private some(name: string): boolean { return this.desk.recording.meta.joints.some((_, j) => this.desk.recording.has(`joint.${j}.${name}`)); }
 
   // What the motor is told (volts, or N m of those that take a torque) and the current it draws.
   private drive(bands: Span[]): void {

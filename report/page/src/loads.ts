@@ -19,7 +19,7 @@ export class Loads {
   constructor(private readonly recording: Recording) {
     const { joints } = recording.meta, from = recording.judged;
     // A share is of the torque at a speed: where the recording has no speeds, none is known.
-    this.limited = recording.has("joint.0.speed") && recording.has("joint.0.torque") && joints.some((_, j) => limited(this.motor(j)));
+    this.limited = recording.any("speed") && recording.any("torque") && joints.some((_, j) => limited(this.motor(j)));
     this.peaks = joints.map((_, j) => largest(recording.channel(`joint.${j}.torque`), from));
     this.peak = Math.max(...this.peaks, 1e-9);
     this.worst = new Float32Array(recording.rows);

@@ -52,6 +52,7 @@ export class Marks {
   }
 
   get anyFaces(): boolean { return this.decals.length > 0; }
+  hasFaces(gender: string): boolean { return this.meta.bodies.some((b) => this.meta.faces[b.type]?.some((f) => f.gender === gender)); }
 
   set(): void {
     const matrix = new Matrix4(), { kinematics, robot } = this;

@@ -36,6 +36,8 @@ export class Recording {
   get ran(): boolean { return this.meta.outcome !== "not run" && this.rows > 1; }
 
   has(name: string): boolean { return this.channels.has(name); }
+  /** Whether any joint has it: hinges without a motor have no set point, torque and current. */
+  any(quantity: string): boolean { return this.meta.joints.some((_, j) => this.has(`joint.${j}.${quantity}`)); }
   find(name: string): Values | null { return this.channels.get(name) ?? null; }
   /** Zeros where the recording has no such channel. */
   channel(name: string): Values { return this.channels.get(name) ?? (this.zeros ??= new Float32Array(this.rows)); }

@@ -28,6 +28,7 @@ export class Stage implements Panel {
     this.toggle("follow", desk.recording.ran, () => view.follow, (on) => { view.follow = on; });
     this.toggle("forces", view.arrows.any, () => view.forces, (on) => { view.forces = on; });
     this.toggle("faces", view.marks.anyFaces, () => view.marks.faces, (on) => { view.marks.faces = on; });
+    for (const words of document.querySelectorAll<HTMLElement>("[data-gender]")) words.hidden = !view.marks.hasFaces(words.dataset.gender!);
     this.toggle("axes", meta.joints.length > 0, () => view.marks.axes, (on) => { view.marks.axes = on; });
     const { ghost } = desk;
     this.toggle("align", !!ghost?.periodic, () => !!ghost?.aligned, align);

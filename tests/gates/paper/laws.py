@@ -24,7 +24,9 @@ class Motor:
             V, T0, k, I0, eta = get("voltage"), get("stall_torque"), get("voltage") / get("no_load_speed"), get("stall_current"), get("efficiency")
             I0 = np.where(I0 > 0, I0, T0 / (np.where(eta > 0, eta, 0.7) * k))
             self.R, self.Kt, self.Ks, self.n, self.eta = V / I0, k, k, np.ones(run.n), T0 / (I0 * k)
-            self.u_max, self.i_max, self.rotor = get("u_max"), get("i_max"), get("rotor_inertia")
+            u, i, self.rotor = get("u_max"), get("i_max"), get("rotor_inertia")
+            self.u_max = np.where(u > 0, u, V)
+            self.i_max = np.where(i > 0, i, self.u_max / self.R)
             self.directional, self.turn_speed = False, None
         motor = self.type in ("dc_motor", "servo")
         self.reflected = self.n**2 * self.rotor if motor else np.zeros(run.n)  # on the joint's inertia
