@@ -145,10 +145,10 @@ void judge_docks(const Scenario& scenario, const Recording& record, const Summar
                 : worst.share() <= 1                    ? CheckStatus::warn
                                                         : CheckStatus::fail;
   const auto unstated = std::ranges::count_if(peaks, [](const DockPeak& p) { return !p.limited(); });
-  made.text += fmt::format(", {} of what it holds{}{}", texts::percent(std::max(0.0, worst.share())),
-                           chosen(made.source) ? " by a chosen figure" : "",
-                           unstated > 0 ? fmt::format("; {} of {} docks are not judged: nobody states what they hold", unstated, peaks.size())
-                                        : "");
+  made.text += fmt::format(
+      ", {} of what it holds{}{}", texts::percent(std::max(0.0, worst.share())),
+      chosen(made.source) ? " by a chosen figure" : "",
+      unstated > 0 ? fmt::format("; {} of {} docks are not judged: nobody states what they hold", unstated, peaks.size()) : "");
 }
 
 void judge_slip(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {

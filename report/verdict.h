@@ -41,7 +41,7 @@ struct Verdict {
   std::vector<Check> checks;
   /// Whether a check that was judged rests on figures of motors that are chosen, not a maker's.
   bool chosen_motors = false;
-  bool chosen_docks = false;  ///< the same of what docks hold
+  bool chosen_docks = false;     ///< the same of what docks hold
   std::string first_joint = {};  ///< the first of the whole run at a limit of its motor, however shortly; empty: none is
   double first_time = 0;         ///< s, when that was
   /// That peaks, shares and spans are of the trace's rows, because the folder has nothing else; empty: they are of all steps.

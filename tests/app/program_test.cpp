@@ -44,10 +44,11 @@ TEST_F(Program, BuildFileErrorsNameTheRow) {
                       "bad.dat:1:1: note: it is docked here already");
   expect_refused_rows("1 1 4 7 0\n",
                       "bad.dat:1:1: error: unknown parent module 7: it is neither module 0 nor the child of a row");
-  expect_refused_rows("1 1 4 0 0\n1 2 4 1 0\n0 2 3 0 0\n",
-                      "bad.dat:3:1: error: this dock closes a ring: module 2 and module 0 are joined by others already; a robot "
-                      "stays one tree, closed chains are not supported\n"
-                      "bad.dat:2:1: note: it has its first parent here");
+  expect_refused_rows(
+      "1 1 4 0 0\n1 2 4 1 0\n0 2 3 0 0\n",
+      "bad.dat:3:1: error: this dock closes a ring: module 2 and module 0 are joined by others already; a robot "
+      "stays one tree, closed chains are not supported\n"
+      "bad.dat:2:1: note: it has its first parent here");
   expect_refused_rows("1 1 4 0 0\n1 2 4 3 0\n1 3 4 2 0\n",
                       "bad.dat:2:1: error: loop: modules 2 on 3 on 2 hang on one another and none on module 0");
   expect_refused_rows(
