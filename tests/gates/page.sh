@@ -125,7 +125,7 @@ pages=(feasible=feasible/report.html infeasible=infeasible/report.html open=open
   failed=failed/report.html csv=csv/report.html old=old.html jointless=jointless/report.html built_ball=built_ball.html castor=castor/report.html motorless=motorless/report.html
   pair=pair.html robots=robots.html ball=ball.html strayed=strayed/caterpillar-8.failure.html)
 if ! node "$page/test/page_test.mjs" "${pages[@]}" trace=trace.csv >"$work/log" 2>&1; then
-  show_log
+  grep -A 30 '^not ok' "$work/log" | head -n 300 >&2 || show_log # passed tests would fill what show_log shows
   fail "the page in $("$CHROMIUM" --version 2>/dev/null || printf %s "$CHROMIUM")"
 fi
 ok "the page in a browser: $(grep -E '^# pass|^ℹ pass' "$work/log")"

@@ -242,7 +242,9 @@ on("old: what a folder of format 1 lacks is said, and nothing is made up", pages
   assert.ok(meta.missing.length > 0);
   assert.deepEqual(await page.$$eval("#missing li", (all) => all.map((l) => l.textContent.replace(/[.]$/, ""))), meta.missing);
   assert.ok(await page.isVisible("#motion"));
-  assert.equal(await page.textContent('[data-check="voltage"] .value'), "not judged");
+  assert.ok(meta.missing.some((m) => /^judged from the trace's rows/.test(m)));
+  assert.equal(await page.textContent('[data-check="voltage"] .value'), "0 %");
+  assert.equal(await page.textContent('[data-check="dock_tension"] .value'), "not judged");
 });
 
 on("csv: a run whose trace is text", pages.csv, {}, async (page, meta) => {
