@@ -44,7 +44,7 @@ std::string stated_sources(const Scenario& scenario) {
       if (source != nullptr && std::ranges::find(sources, source->text) == sources.end()) sources.push_back(source->text);
     }
   }
-  std::ranges::stable_partition(sources, [](const std::string& one) { return chosen(one); });
+  std::stable_partition(sources.begin(), sources.end(), [](const std::string& one) { return chosen(one); });
   std::string text;
   for (const std::string& one : sources) text += (text.empty() ? "" : "; ") + one;
   return text;
