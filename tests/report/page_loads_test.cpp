@@ -1,4 +1,5 @@
 // What a page holds of motors, feet and docks.
+#include "actuators/dc_motor.h"
 #include "report/envelope.h"
 #include "tests/report/opened_page.h"
 
