@@ -12,7 +12,7 @@
 #include <unordered_set>
 
 #include "core/errors.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 
 namespace gaitlab {
 
@@ -173,8 +173,8 @@ void put_csv(const Trace& trace, const std::filesystem::path& path, std::size_t 
 
 }  // namespace
 
-void write_csv(const Trace& trace, const std::filesystem::path& path) {
-  AtomicFile file(path);
+void write_csv(const Trace& trace, const std::filesystem::path& path, Existing existing) {
+  AtomicFile file(path, existing);
   put_csv(trace, path, kPiece, [&](std::string_view text) { file.write(text); });
   file.commit();
 }
@@ -186,7 +186,7 @@ std::string csv_text(const Trace& trace, const std::filesystem::path& path) {
 }
 
 Trace read_csv(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
+  const std::string text = read_file(path, kMostTrace);
   if (text.empty()) throw InputError({path.string(), 1, 1}, "the file is empty: a header row of column names is missing");
   CsvReader reader(path.string(), text);
   reader.next_line();

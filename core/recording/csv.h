@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/files/atomic_file.h"
 #include "core/recording/trace.h"
 
 namespace gaitlab {
@@ -10,7 +11,7 @@ namespace gaitlab {
 /// One header row of names, then one line per row: the shortest text that reads back to the same double, whatever the locale;
 /// lines end in '\n'. Names that hold a comma or a quote are quoted (RFC 4180). The file appears whole or not at all. RunError:
 /// cannot be written (see AtomicFile), or a name that is empty or holds a line break.
-void write_csv(const Trace& trace, const std::filesystem::path& path);
+void write_csv(const Trace& trace, const std::filesystem::path& path, Existing existing = Existing::replaced);
 
 /// The same as a text; `path` is what an error calls it. All of it is in memory: for small tables.
 std::string csv_text(const Trace& trace, const std::filesystem::path& path);

@@ -33,6 +33,9 @@ class Library {
     // Before its first use: what a damaged file leaves open would else make HDF5 complain when the program ends.
     static const herr_t kNeverAtExit = H5dont_atexit();
     static_cast<void>(kNeverAtExit);
+    // A file names filters by number, for which HDF5 would load whatever library lies in a folder of the environment.
+    static const herr_t kNoPlugins = H5PLset_loading_state(0);
+    static_cast<void>(kNoPlugins);
     H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
@@ -235,8 +238,37 @@ std::vector<Column> read_columns(hid_t data, std::size_t count, const std::strin
   return columns;
 }
 
+/// A soft or an external link leads to another place, or to another file.
+void check_link(hid_t owner, const char* name) {
+  H5L_info_t link{};
+  checked(H5Lget_info(owner, name, &link, H5P_DEFAULT), name);
+  if (link.type != H5L_TYPE_HARD) throw ImageError(fmt::format("/{} is a link to another place", name));
+}
+
+/// Values in the file itself, packed by what writes them here. A virtual dataset or external storage is read from other files.
+void check_storage(hid_t data, const char* name) {
+  const Handle properties(H5Dget_create_plist(data), H5Pclose, name);
+  const H5D_layout_t layout = H5Pget_layout(properties);
+  if (layout != H5D_CHUNKED && layout != H5D_CONTIGUOUS && layout != H5D_COMPACT)
+    throw ImageError(fmt::format("/{} is not stored in this file", name));
+  if (checked(H5Pget_external_count(properties), name) != 0)
+    throw ImageError(fmt::format("/{} is not stored in this file", name));
+  const int filters = checked(H5Pget_nfilters(properties), name);
+  for (int k = 0; k < filters; ++k) {
+    unsigned flags = 0;
+    unsigned config = 0;
+    std::size_t values = 0;
+    const H5Z_filter_t filter =
+        H5Pget_filter2(properties, static_cast<unsigned>(k), &flags, &values, nullptr, 0, nullptr, &config);
+    if (filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE)
+      throw ImageError(fmt::format("/{} is packed by filter {}, which is neither shuffle nor gzip", name, filter));
+  }
+}
+
 Trace read_dataset(hid_t owner, const char* name, const std::string& bytes) {
+  check_link(owner, name);
   const Handle data(H5Dopen2(owner, name, H5P_DEFAULT), H5Dclose, name);
+  check_storage(data, name);
   const Handle type(H5Dget_type(data), H5Tclose, name);
   if (H5Tget_class(type) != H5T_FLOAT || H5Tget_size(type) != sizeof(double)) {
     throw ImageError(fmt::format("/{} is not float64", name));
@@ -302,6 +334,7 @@ StoredTrace from_image(const std::string& file_bytes) {
     throw ImageError(fmt::format("{} rows, of which not all were written", stored.trace.rows()));
   if (text("checksum") != hash(stored.trace)) throw ImageError("the trace does not match its checksum");
   if (first || checked(H5Lexists(file, "recording", H5P_DEFAULT), "recording") == 0) return stored;
+  check_link(file, "recording");
   const Handle group(H5Gopen2(file, "recording", H5P_DEFAULT), H5Gclose, "recording");
   for (const char* name : kBeside) {
     if (checked(H5Lexists(group, name, H5P_DEFAULT), name) == 0) continue;

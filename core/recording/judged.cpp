@@ -13,7 +13,7 @@ namespace {
 constexpr double kLongestStart = 2;    // s, without a limit cycle
 constexpr double kShareOfStart = 0.2;  // of the run, without a limit cycle
 constexpr double kWholePeriod = 1e-3;  // of a period: what it may miss and be whole
-constexpr double kSameTime = 1e-9;     // s
+constexpr double kSameInstant = 1e-9;  // s
 
 void window(Judged& judged, double end, const MotionCycle& cycle) {
   judged.to = end;
@@ -124,7 +124,7 @@ Judged judge(const Recording& r, const MotionCycle& cycle) {
   // The period is an estimate, which must not decide whether a row at the start of the window belongs to it.
   const double period = judged.periods > 0 ? cycle.period : 0;
   if (r.ticks.rows() > 0)
-    judged.first_row = row_at(Series(r.ticks, 0), judged.from, std::max(kSameTime, kWholePeriod * period));
+    judged.first_row = row_at(Series(r.ticks, 0), judged.from, std::max(kSameInstant, kWholePeriod * period));
   for (std::size_t j = 0; known && j < r.ticked(); ++j) {
     judged.joints[j] = from_ticks(r, j, judged.first_row);
     judged.whole[j] = from_ticks(r, j, 0);

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "core/errors.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "core/recording/csv.h"
 #include "core/recording/h5.h"
 
@@ -49,7 +49,7 @@ Trace read_trace(const fs::path& run) {
 
 nlohmann::json read_summary(const fs::path& folder) {
   const fs::path file = folder / "summary.json";
-  const std::string text = read_file(file);
+  const std::string text = read_file(file, kMostJson);
   try {
     nlohmann::json summary = nlohmann::json::parse(text);
     if (!summary.is_object())

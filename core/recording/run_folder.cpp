@@ -74,11 +74,14 @@ void RunFolder::use(const fs::path& out) {
   path_ = out.has_filename() ? out : out.parent_path();  // `DIR/` is DIR
   int error = make_parents(path_);
   if (error == 0) error = make(path_);
-  if (error == 0) return;
   std::error_code code;
   const fs::file_status status = fs::status(path_, code);
   if (!fs::exists(status) && error != EEXIST) throw refuse("cannot be made: " + reason(error));
   if (!fs::is_directory(status)) throw refuse("exists and is not a folder");
+  if (!lock_.take(path_)) {
+    if (error == 0) made_.pop_back();  // it is the other one's now
+    throw refuse("is being written by another process");
+  }
   const bool empty = fs::is_empty(path_, code);
   if (code) throw refuse("cannot be read: " + code.message());
   if (!empty) throw refuse("exists and is not empty");
@@ -94,7 +97,11 @@ void RunFolder::number(const std::string& name) {
     path_ = fs::path("runs") / (k == 1 ? name : fmt::format("{}-{}", name, k));
     int error = make_parents(path_);
     if (error == 0) error = make(path_);
-    if (error == 0) return;
+    if (error == 0 && lock_.take(path_)) return;
+    if (error == 0) {
+      made_.pop_back();  // another process has taken it as its --out
+      error = EEXIST;
+    }
     if (error == EEXIST) {
       ++k;
     } else if (error != ENOENT || ++vanished > kPatience) {

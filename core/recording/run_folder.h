@@ -5,16 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "core/files/folder_lock.h"
+
 namespace gaitlab {
 
-/// Owns the folder from its making to keep(). Destroyed before keep(), it removes the folders it made itself as far as they are
+/// Owns the folder from its making to keep(), and holds its lock for as long as it lives: of two processes that take the same
+/// folder the second one is refused. Destroyed before keep(), it removes the folders it made itself as far as they are
 /// empty: nothing written is lost, nothing it did not make is touched.
 class RunFolder {
  public:
   /// Without `out`: `runs/NAME` in the working folder, or the first of NAME-2, NAME-3 ... that does not exist (mkdir decides:
   /// two processes at once get different ones). With `out`: that folder, which must be empty or not exist; parents are made.
   /// InputError: `--out DIR: error: exists and is not empty`, `... is not a folder`, `... cannot be made: REASON`,
-  /// `... cannot be written: REASON`; a name that cannot be a folder's.
+  /// `... cannot be written: REASON`, `... is being written by another process`; a name that cannot be a folder's.
   RunFolder(const std::optional<std::filesystem::path>& out, const std::string& name);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
@@ -32,6 +35,7 @@ class RunFolder {
   void remove_made();
 
   std::filesystem::path path_;
+  FolderLock lock_;
   std::vector<std::filesystem::path> made_;  // outermost first
 };
 

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/files/hash.h"
+
 namespace gaitlab {
 
 struct Column {
@@ -30,12 +32,5 @@ struct Trace {
 
 /// FNV-1a (64 bit) over the names and the bytes of all values: the same trace, the same hash. 16 hex digits.
 std::string hash(const Trace& trace);
-
-/// FNV-1a (64 bit) of the bytes alone. 16 hex digits.
-std::string hash(std::string_view bytes);
-
-/// Of files, eight bytes at a time and so several times as fast: h = (h ^ word) * prime, h ^= h >> 32, words little-endian, the
-/// last one filled up with zeros; prime and start are those of FNV-1a (64 bit), the length is the first word. 16 hex digits.
-std::string hash_words(std::string_view bytes);
 
 }  // namespace gaitlab

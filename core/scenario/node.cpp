@@ -11,6 +11,7 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "core/files/atomic_file.h"
 #include "core/scenario/number_syntax.h"
 #include "core/scenario/text_file.h"
 #include "core/scenario/wording.h"
@@ -205,7 +206,7 @@ const Node* Node::find(const std::string& key) const {
 
 std::optional<Node> parse_yaml(const std::string& text, const std::string& file, Problems& problems) {
   try {
-    if (text.size() > kMaxTextSize) throw InputError({file}, "the text is larger than 1 MB");
+    if (text.size() > kMostScenario) throw InputError({file}, "the text is larger than 1 MB");
     check_text(text, file);
     // yaml-cpp would count the byte order mark in its positions.
     return build(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text, file, problems);

@@ -4,9 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <vector>
 
+#include "core/files/atomic_file.h"
+#include "core/files/hash.h"
 #include "core/scenario/reader.h"
 #include "core/scenario/wording.h"
 
@@ -55,6 +56,11 @@ void load(const PluginEntry& entry, const SourceLocation& place, const std::stri
     return;
   }
   const std::string hash = file_hash(canonical.string());
+  if (hash.empty()) {
+    problems.add(place,
+                 fmt::format("plugin '{}' cannot be read, or has more than {} MB", clipped(entry.path), kMostPage >> 20U));
+    return;
+  }
   if (!entry.hash.empty() && entry.hash != hash) {
     problems.add(place, fmt::format("plugin '{}' is not the file of the record: its hash is {}, recorded is {}",
                                     clipped(entry.path), hash, clipped(entry.hash)));
@@ -75,17 +81,11 @@ std::string path_from(const std::string& folder, const std::string& path) {
 }
 
 std::string file_hash(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
-  std::uint64_t hash = 14695981039346656037ULL;
-  std::vector<char> block(std::size_t{1} << 16);
-  do {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    for (std::streamsize i = 0; i < file.gcount(); ++i) {
-      hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) * 1099511628211ULL;
-    }
-  } while (file.gcount() > 0);
-  return fmt::format("{:016x}", hash);
+  try {
+    return hash(read_file(path, kMostPage));
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 std::vector<PluginFile> read_plugins(const Node& node, const std::string& folder, Catalog& catalog, Problems& problems) {

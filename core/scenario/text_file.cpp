@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
+#include "core/files/atomic_file.h"
 
 namespace gaitlab {
 namespace {
@@ -14,8 +11,6 @@ namespace {
   if (asked_at.file.empty()) throw InputError({path}, what);
   throw InputError(asked_at, fmt::format("file '{}' {}", path, what));
 }
-
-std::string cannot_be_read(const std::error_code& why) { return "cannot be read: " + why.message(); }
 
 /// Bytes of the UTF-8 character that starts at `at`; 0 where there is none (overlong forms and surrogates included).
 std::size_t utf8_length(const std::string& text, std::size_t at) {
@@ -47,20 +42,13 @@ std::string bad_character(const std::string& text, std::size_t at) {
 }  // namespace
 
 std::string read_text(const std::string& path, const SourceLocation& asked_at) {
-  std::error_code failure;
-  const auto status = std::filesystem::status(path, failure);
-  if (failure || !std::filesystem::exists(status)) {
-    refuse(path, asked_at, cannot_be_read(failure ? failure : std::make_error_code(std::errc::no_such_file_or_directory)));
+  std::string text;
+  try {
+    text = read_start(path, kMostScenario + 1);
+  } catch (const InputError& error) {
+    refuse(path, asked_at, error.problems().front().text);
   }
-  if (!std::filesystem::is_regular_file(status)) refuse(path, asked_at, "cannot be read: not a regular file");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse(path, asked_at, cannot_be_read({errno, std::generic_category()}));
-  std::string text(kMaxTextSize + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) refuse(path, asked_at, cannot_be_read({errno, std::generic_category()}));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kMaxTextSize) refuse(path, asked_at, "is larger than 1 MB");
+  if (text.size() > kMostScenario) refuse(path, asked_at, "is larger than 1 MB");
   return text;
 }
 

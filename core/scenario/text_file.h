@@ -6,10 +6,8 @@
 
 namespace gaitlab {
 
-inline constexpr std::size_t kMaxTextSize = std::size_t{1} << 20;  ///< bytes of a scenario, module or build file
-
-/// Reads a regular file of at most kMaxTextSize. Throws InputError at `asked_at`, the place that names the file, or at the file
-/// itself where asked_at is empty.
+/// Reads a regular file of at most kMostScenario bytes. Throws InputError at `asked_at`, the place that names the file, or at
+/// the file itself where asked_at is empty.
 std::string read_text(const std::string& path, const SourceLocation& asked_at = {});
 
 /// Throws InputError at the first byte that no text has: invalid UTF-8, NUL or another control character, a CR without LF.

@@ -114,7 +114,7 @@ TEST(Node, AMissingFileIsReportedWhereItWasAskedFor) {
               read_yaml("/nowhere/x.yaml", {"s.yaml", 3, 7});
             }),
             "s.yaml:3:7: error: file '/nowhere/x.yaml' cannot be read: No such file or directory");
-  EXPECT_EQ(error_of([] { read_yaml("/tmp"); }), "/tmp: error: cannot be read: not a regular file");
+  EXPECT_EQ(error_of([] { read_yaml("/tmp"); }), "/tmp: error: cannot be read: Is a directory");
   EXPECT_EQ(error_of([] { read_yaml("/dev/zero"); }), "/dev/zero: error: cannot be read: not a regular file");
 }
 
