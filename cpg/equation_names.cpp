@@ -8,18 +8,8 @@
 namespace gaitlab::cpg {
 namespace {
 
-using Op = EquationFunction::Op;
 using Kind = EquationNames::Kind;
 using Where = EquationNames::Where;
-
-constexpr EquationFunction kFunctions[] = {
-    {"~", 1, Op::neg},   {"not", 1, Op::no},      {"+", 2, Op::add},    {"-", 2, Op::sub},     {"*", 2, Op::mul},
-    {"/", 2, Op::div},   {"^", 2, Op::pow},       {"<", 2, Op::lt},     {"<=", 2, Op::le},     {">", 2, Op::gt},
-    {">=", 2, Op::ge},   {"==", 2, Op::eq},       {"!=", 2, Op::ne},    {"and", 2, Op::both},  {"or", 2, Op::either},
-    {"sin", 1, Op::sin}, {"cos", 1, Op::cos},     {"tan", 1, Op::tan},  {"tanh", 1, Op::tanh}, {"exp", 1, Op::exp},
-    {"log", 1, Op::log}, {"sqrt", 1, Op::sqrt},   {"abs", 1, Op::abs},  {"sign", 1, Op::sign}, {"min", 2, Op::min},
-    {"max", 2, Op::max}, {"clamp", 3, Op::clamp}, {"if", 3, Op::choose}};
-constexpr std::size_t kOperators = 15;  // those of the grammar: not written as calls
 
 /// Hinges between the joint's and the base.
 double depth(const RobotInfo& robot, std::size_t joint) {
@@ -77,11 +67,6 @@ std::string offer_name(const std::string& found, const std::vector<std::string>&
   return "; known " + kind + ": " + all;
 }
 
-const EquationFunction* find_equation_function(const std::string& name) {
-  const auto* const it = std::ranges::find_if(kFunctions, [&](const EquationFunction& f) { return name == f.name; });
-  return it == std::end(kFunctions) ? nullptr : it;
-}
-
 std::span<const GivenValue> given_values() { return kGiven; }
 
 EquationNames::EquationNames()
@@ -93,7 +78,7 @@ EquationNames::EquationNames()
 
 std::string EquationNames::declare(const std::string& name, Kind kind, std::size_t slot) {
   static const std::vector<std::string> kWords{"i", "j", "in", "neighbours", "sum"};
-  const bool word = std::ranges::find(kWords, name) != kWords.end() || find_equation_function(name) != nullptr;
+  const bool word = std::ranges::find(kWords, name) != kWords.end() || expression::find_function(name) != nullptr;
   const Entry* taken = find(name);
   if (taken != nullptr && (taken->kind == Kind::parameter || taken->kind == Kind::state)) {
     return in_quotes(name) + " is a parameter and a state; give one of them another name";
@@ -134,12 +119,12 @@ std::string EquationNames::unknown(const std::string& name, const SourceLocation
   return in_quotes(name) + " is unknown" + offer_name(name, known, "names");
 }
 
-void EquationNames::check_name(const Term& term, const SourceLocation& place, std::vector<EquationFault>& faults) const {
+void EquationNames::check_name(const Term& term, const SourceLocation& place, std::vector<expression::Fault>& faults) const {
   const auto wrong = [&](const std::string& what) { faults.push_back({term.offset, what}); };
   const std::string name = in_quotes(term.name);
   const Entry* entry = find(term.name);
   if (entry == nullptr) {
-    const bool function = term.name == "sum" || find_equation_function(term.name) != nullptr;
+    const bool function = term.name == "sum" || expression::find_function(term.name) != nullptr;
     return wrong(function ? name + " is a function; put its arguments in brackets after it" : unknown(term.name, place));
   }
   const bool pair = entry->kind == Kind::weight || entry->kind == Kind::lag;
@@ -161,7 +146,7 @@ void EquationNames::check_name(const Term& term, const SourceLocation& place, st
   }
 }
 
-void EquationNames::check(const Term& term, const SourceLocation& place, std::vector<EquationFault>& faults) const {
+void EquationNames::check(const Term& term, const SourceLocation& place, std::vector<expression::Fault>& faults) const {
   SourceLocation inside = place;
   if (term.kind == Term::Kind::name) check_name(term, place, faults);
   if (term.kind == Term::Kind::sum) {
@@ -169,11 +154,11 @@ void EquationNames::check(const Term& term, const SourceLocation& place, std::ve
     inside.in_sum = true;
   }
   if (term.kind == Term::Kind::call) {
-    const EquationFunction* function = find_equation_function(term.name);
+    const Function* function = expression::find_function(term.name);
     const std::size_t found = term.arguments.size();
     if (function == nullptr) {
       std::vector<std::string> known;
-      for (const EquationFunction& f : std::span(kFunctions).subspan(kOperators)) known.emplace_back(f.name);
+      for (const Function& f : expression::functions()) known.emplace_back(f.name);
       known.emplace_back("sum");
       faults.push_back(
           {term.offset, in_quotes(term.name) + " is not a function" +
@@ -186,7 +171,7 @@ void EquationNames::check(const Term& term, const SourceLocation& place, std::ve
   for (const Term& argument : term.arguments) check(argument, inside, faults);
 }
 
-void EquationNames::check(const Term& term, Where where, std::size_t slot, std::vector<EquationFault>& faults) const {
+void EquationNames::check(const Term& term, Where where, std::size_t slot, std::vector<expression::Fault>& faults) const {
   check(term, SourceLocation{where, slot, false}, faults);
 }
 

@@ -3,48 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "core/expression/expression.h"
+#include "core/expression/functions.h"
 #include "core/plugin/oscillators.h"
-#include "cpg/equation_expression.h"
 
 namespace gaitlab::cpg {
 
-/// A function or operator by its name in the tree.
-struct EquationFunction {
-  enum class Op {
-    neg,
-    no,
-    add,
-    sub,
-    mul,
-    div,
-    pow,
-    lt,
-    le,
-    gt,
-    ge,
-    eq,
-    ne,
-    both,
-    either,
-    sin,
-    cos,
-    tan,
-    tanh,
-    exp,
-    log,
-    sqrt,
-    abs,
-    sign,
-    min,
-    max,
-    clamp,
-    choose
-  };
-  const char* name;
-  std::size_t arguments;
-  Op op;
-};
-const EquationFunction* find_equation_function(const std::string& name);
+using expression::Function;
+using expression::Term;
 
 /// How a message on an unknown name ends: the nearest name, or all.
 std::string offer_name(const std::string& found, const std::vector<std::string>& known, const std::string& kind);
@@ -73,7 +39,7 @@ class EquationNames {
 
   [[nodiscard]] const Entry* find(const std::string& name) const;
   /// Adds what is wrong with a tree that belongs to `where`. `slot`: of the parameter itself.
-  void check(const Term& term, Where where, std::size_t slot, std::vector<EquationFault>& faults) const;
+  void check(const Term& term, Where where, std::size_t slot, std::vector<expression::Fault>& faults) const;
 
  private:
   struct SourceLocation {
@@ -81,8 +47,8 @@ class EquationNames {
     std::size_t slot;
     bool in_sum;
   };
-  void check(const Term& term, const SourceLocation& place, std::vector<EquationFault>& faults) const;
-  void check_name(const Term& term, const SourceLocation& place, std::vector<EquationFault>& faults) const;
+  void check(const Term& term, const SourceLocation& place, std::vector<expression::Fault>& faults) const;
+  void check_name(const Term& term, const SourceLocation& place, std::vector<expression::Fault>& faults) const;
   [[nodiscard]] static bool may_name(const Entry& entry, const SourceLocation& place);
   [[nodiscard]] std::string unknown(const std::string& name, const SourceLocation& place) const;
 

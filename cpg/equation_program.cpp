@@ -4,93 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/math/functions.h"
-
 namespace gaitlab::cpg {
 namespace {
 
-using Op = EquationFunction::Op;
+using Op = expression::Function::Op;
 using Kind = EquationNames::Kind;
-
-template <class F>
-void each(std::size_t n, double* out, const double* a, F f) {
-  for (std::size_t k = 0; k < n; ++k) out[k] = f(a[k]);
-}
-
-template <class F>
-void each(std::size_t n, double* out, const double* a, const double* b, F f) {
-  for (std::size_t k = 0; k < n; ++k) out[k] = f(a[k], b[k]);
-}
-
-double truth(bool value) { return value ? 1 : 0; }
-
-// NaN goes through min, max and sign: a model that left the numbers must not look well.
-double smaller(double x, double y) { return y < x || std::isnan(y) ? y : x; }
-double larger(double x, double y) { return y > x || std::isnan(y) ? y : x; }
-double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : x; }
-
-void calculate(Op op, std::size_t n, double* out, const double* a, const double* b, const double* c) {
-  switch (op) {
-    case Op::neg:
-      return each(n, out, a, [](double x) { return -x; });
-    case Op::no:
-      return each(n, out, a, [](double x) { return truth(x == 0); });
-    case Op::add:
-      return each(n, out, a, b, [](double x, double y) { return x + y; });
-    case Op::sub:
-      return each(n, out, a, b, [](double x, double y) { return x - y; });
-    case Op::mul:
-      return each(n, out, a, b, [](double x, double y) { return x * y; });
-    case Op::div:
-      return each(n, out, a, b, [](double x, double y) { return x / y; });
-    case Op::pow:
-      return each(n, out, a, b, [](double x, double y) { return math::pow(x, y); });
-    case Op::lt:
-      return each(n, out, a, b, [](double x, double y) { return truth(x < y); });
-    case Op::le:
-      return each(n, out, a, b, [](double x, double y) { return truth(x <= y); });
-    case Op::gt:
-      return each(n, out, a, b, [](double x, double y) { return truth(x > y); });
-    case Op::ge:
-      return each(n, out, a, b, [](double x, double y) { return truth(x >= y); });
-    case Op::eq:
-      return each(n, out, a, b, [](double x, double y) { return truth(x == y); });
-    case Op::ne:
-      return each(n, out, a, b, [](double x, double y) { return truth(x != y); });
-    case Op::both:
-      return each(n, out, a, b, [](double x, double y) { return truth(x != 0 && y != 0); });
-    case Op::either:
-      return each(n, out, a, b, [](double x, double y) { return truth(x != 0 || y != 0); });
-    case Op::sin:
-      return each(n, out, a, [](double x) { return math::sin(x); });
-    case Op::cos:
-      return each(n, out, a, [](double x) { return math::cos(x); });
-    case Op::tan:
-      return each(n, out, a, [](double x) { return math::tan(x); });
-    case Op::tanh:
-      return each(n, out, a, [](double x) { return math::tanh(x); });
-    case Op::exp:
-      return each(n, out, a, [](double x) { return math::exp(x); });
-    case Op::log:
-      return each(n, out, a, [](double x) { return math::log(x); });
-    case Op::sqrt:
-      return each(n, out, a, [](double x) { return std::sqrt(x); });
-    case Op::abs:
-      return each(n, out, a, [](double x) { return std::abs(x); });
-    case Op::sign:
-      return each(n, out, a, sign);
-    case Op::min:
-      return each(n, out, a, b, smaller);
-    case Op::max:
-      return each(n, out, a, b, larger);
-    case Op::clamp:
-      for (std::size_t k = 0; k < n; ++k) out[k] = smaller(larger(a[k], b[k]), c[k]);
-      return;
-    case Op::choose:
-      for (std::size_t k = 0; k < n; ++k) out[k] = a[k] != 0 ? b[k] : c[k];
-      return;
-  }
-}
 
 }  // namespace
 
@@ -211,7 +129,7 @@ EquationProgram::Block EquationProgram::compile_name(const Term& term, Over over
 
 EquationProgram::Block EquationProgram::compile_call(const Term& term, Over over) {
   Instruction call;
-  call.op = find_equation_function(term.name)->op;
+  call.op = expression::find_function(term.name)->op;
   const std::vector<Term>& arguments = term.arguments;
   // A square is a product: cheaper, and right for every sign.
   const bool square = call.op == Op::pow && arguments[1].kind == Term::Kind::number && arguments[1].number == 2;
@@ -247,7 +165,7 @@ void EquationProgram::execute(const Instruction& instruction, const Bases& bases
   const std::size_t n = instruction.count;
   switch (instruction.move) {
     case Move::none:
-      return calculate(instruction.op, n, out, a, block(1), block(2));
+      return expression::calculate(instruction.op, n, out, a, block(1), block(2));
     case Move::copy:
       std::copy_n(a, n, out);
       return;

@@ -43,7 +43,7 @@ class EquationProgram {
   enum class Move : std::uint8_t { none, copy, time, gather_from, gather_to, gather_module, sum };
   struct Instruction {
     Move move = Move::none;  ///< none: `op`
-    EquationFunction::Op op = {};
+    Function::Op op = {};
     std::array<Block, 3> in = {};
     Block out = {};
     std::size_t count = 0;

@@ -109,15 +109,15 @@ struct Parsed {
   /// An empty text is one whose fault is known already; 0 stands in for it.
   Term tree(const char* key, const std::string& name, const std::string& text, Where where, std::size_t slot) {
     if (text.empty()) return {};
-    std::vector<EquationFault> wrong;
+    std::vector<expression::Fault> wrong;
     Term term;
     try {
-      term = parse_equation(text);
+      term = expression::parse(text);
       names.check(term, where, slot, wrong);
-    } catch (const EquationFault& fault) {
+    } catch (const expression::Fault& fault) {
       wrong.push_back(fault);
     }
-    for (const EquationFault& fault : wrong) faults.push_back({key, name, fault.offset, fault.what});
+    for (const expression::Fault& fault : wrong) faults.push_back({key, name, fault.offset, fault.what});
     return term;
   }
 };

@@ -5,7 +5,7 @@
 
 namespace gaitlab::cpg {
 
-/// Texts by the grammar of equation_expression.h. The defaults are the model of `phase_oscillator`.
+/// Texts by the grammar of core/expression/expression.h. The defaults are the model of `phase_oscillator`.
 struct EquationsModel {
   double coupling = 1;
   std::vector<Named> states{{"phi", "omega + sum(j in neighbours, w[i,j]*sin(phi[j] - phi[i] - psi[i,j]))"},

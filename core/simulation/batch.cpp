@@ -1,7 +1,8 @@
 #include "core/simulation/batch.h"
 
 #include <algorithm>
-#include <exception>
+#include <mutex>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/scenario/read_scenario.h"
@@ -10,7 +11,7 @@ namespace gaitlab {
 
 namespace {
 
-using LaneGroup = std::vector<std::size_t>;  ///< indices of rollouts; one that stands twice fills a lane that nobody needs
+using LaneGroup = std::vector<std::size_t>;  ///< indices of rollouts that wait
 
 /// How many lanes to take for so many rollouts that are left: all that the widest gives, or the fewest that hold the rest.
 std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::size_t most) {
@@ -23,79 +24,141 @@ std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::si
   return best;
 }
 
-std::vector<LaneGroup> lane_groups(std::span<const Scenario> rollouts, std::size_t most) {
-  std::vector<LaneGroup> groups;
-  for (std::size_t i = 0; i < rollouts.size(); ++i) {
-    const auto group = std::find_if(groups.begin(), groups.end(),
-                                    [&](const LaneGroup& g) { return can_share(rollouts[g.front()], rollouts[i]); });
-    if (group == groups.end()) {
-      groups.push_back({i});
-    } else {
-      group->push_back(i);
+/// What waits to be run, and the packs that threads take of it.
+class Waiting {
+ public:
+  Waiting(const BatchStream& stream, const BatchSettings& settings, std::size_t look_ahead)
+      : stream_(stream), settings_(settings), look_ahead_(look_ahead) {}
+
+  /// Rollouts that share lanes, in the order of next(); empty when all were given.
+  std::vector<Rollout> take() {
+    const std::lock_guard lock(mutex_);
+    while (more_ && waiting_.size() < look_ahead_) {
+      std::optional<Rollout> one = stream_.next();
+      more_ = one.has_value();
+      if (one) waiting_.push_back(std::move(*one));
+    }
+    if (waiting_.empty()) return {};
+    const Scenario& first = waiting_.front().scenario;
+    LaneGroup group;
+    for (std::size_t i = 0; i < waiting_.size(); ++i) {
+      if (i == 0 || can_share(first, waiting_[i].scenario)) group.push_back(i);
+    }
+    group.resize(std::min(group.size(), width(first.physics.engine->lanes, fair(group.size()), settings_.lanes)));
+    std::vector<Rollout> pack;
+    for (const std::size_t i : group) pack.push_back(std::move(waiting_[i]));
+    for (std::size_t k = group.size(); k-- > 0;) waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(group[k]));
+    if (stream_.begin) stream_.begin(pack);
+    return pack;
+  }
+
+ private:
+  /// The last ones are divided among the threads.
+  [[nodiscard]] std::size_t fair(std::size_t left) const {
+    const auto threads = static_cast<std::size_t>(std::max(1, settings_.threads));
+    return more_ ? left : (left + threads - 1) / threads;
+  }
+
+  const BatchStream& stream_;
+  const BatchSettings& settings_;
+  std::size_t look_ahead_;
+  std::mutex mutex_;
+  std::vector<Rollout> waiting_;
+  bool more_ = true;
+};
+
+/// One by itself; false: stopped.
+bool run_alone(RolloutEnd& end, const BatchStream& stream, Loads loads, const std::atomic<bool>& stop) {
+  try {
+    Simulation simulation({&end.rollout.scenario, 1}, loads);
+    if (stream.watch) simulation.watch([&](std::size_t, const Recording& so_far) { return stream.watch(end.rollout, so_far); });
+    std::string thrown;
+    try {
+      if (!simulation.run({}, &stop)) return false;
+    } catch (const SimulationError& error) {
+      thrown = error.what();
+    }
+    end.recording = simulation.take_recording(0);
+    if (!thrown.empty()) end.recording.outcome = std::move(thrown);
+  } catch (const InputError& error) {
+    end.refused = error.problems();
+  }
+  return true;
+}
+
+/// All of a pack; false: stopped.
+bool run_pack(std::vector<RolloutEnd>& pack, const BatchStream& stream, const BatchSettings& settings, Loads loads,
+              const std::atomic<bool>& stop) {
+  if (pack.size() > 1) {
+    try {
+      std::vector<Scenario> lanes;
+      for (const RolloutEnd& one : pack) lanes.push_back(one.rollout.scenario);
+      // One that stands twice fills a lane that nobody needs.
+      lanes.resize(width(lanes.front().physics.engine->lanes, lanes.size(), settings.lanes), lanes.back());
+      Simulation simulation(lanes, loads);
+      if (stream.watch) {
+        simulation.watch([&](std::size_t lane, const Recording& so_far) {
+          return stream.watch(pack[std::min(lane, pack.size() - 1)].rollout, so_far);
+        });
+      }
+      if (!simulation.run({}, &stop)) return false;
+      for (std::size_t l = 0; l < pack.size(); ++l) pack[l].recording = simulation.take_recording(l);
+      return true;
+    } catch (const RunError&) {  // one lane's, or of what all share: each tells for itself
+    } catch (const InputError&) {
     }
   }
-  std::vector<LaneGroup> all;
-  for (const LaneGroup& group : groups) {
-    const std::vector<std::size_t>& widths = rollouts[group.front()].physics.engine->lanes;
-    for (std::size_t from = 0; from < group.size();) {
-      const std::size_t lanes = width(widths, group.size() - from, most);
-      LaneGroup together;
-      for (std::size_t l = 0; l < lanes; ++l) together.push_back(group[std::min(from + l, group.size() - 1)]);
-      all.push_back(together);
-      from += lanes;
-    }
-  }
-  return all;
+  return std::ranges::all_of(pack, [&](RolloutEnd& one) { return run_alone(one, stream, loads, stop); });
 }
 
 }  // namespace
 
-void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings,
-               const std::function<void(std::size_t, Recording&&)>& end) {
-  const std::vector<LaneGroup> all = lane_groups(rollouts, settings.lanes);
-  std::vector<std::exception_ptr> refused(rollouts.size());
-  const auto alone = [&](std::size_t i) {
+bool run_pulled(const BatchStream& stream, const BatchSettings& settings, Loads loads, std::atomic<bool>& stop,
+                std::size_t look_ahead) {
+  Waiting waiting(stream, settings, look_ahead);
+  std::atomic<bool> whole = true;
+  const auto threads = static_cast<std::size_t>(std::max(1, settings.threads));
+  parallel(threads, settings.threads, [&](std::size_t) {
     try {
-      Simulation simulation({&rollouts[i], 1});
-      std::string outcome = "done";
-      try {
-        simulation.run();
-      } catch (const SimulationError& error) {
-        outcome = error.what();
+      while (!stop) {
+        std::vector<RolloutEnd> pack;
+        for (Rollout& one : waiting.take()) pack.push_back({std::move(one)});
+        if (pack.empty()) return;
+        if (!run_pack(pack, stream, settings, loads, stop)) break;
+        stream.end(std::move(pack));
       }
-      Recording recording = simulation.take_recording(0);
-      recording.outcome = std::move(outcome);
-      end(i, std::move(recording));
-    } catch (const InputError&) {
-      refused[i] = std::current_exception();
-    }
-  };
-  parallel(all.size(), settings.threads, [&](std::size_t p) {
-    LaneGroup together = all[p];
-    std::vector<Scenario> lanes;
-    for (const std::size_t i : together) lanes.push_back(rollouts[i]);
-    together.erase(std::unique(together.begin(), together.end()), together.end());
-    std::unique_ptr<Simulation> simulation;
-    try {
-      if (together.size() > 1) {
-        simulation = std::make_unique<Simulation>(lanes);
-        simulation->run();
-      }
-    } catch (const RunError&) {  // one lane's, or of what all share: each tells for itself
-      simulation.reset();
-    } catch (const InputError&) {
-      simulation.reset();
-    }
-    for (std::size_t l = 0; l < together.size(); ++l) {
-      if (simulation == nullptr) {
-        alone(together[l]);
-        continue;
-      }
-      end(together[l], simulation->take_recording(l));
+      whole = false;
+    } catch (...) {
+      stop = true;
+      throw;
     }
   });
-  for (const std::exception_ptr& error : refused) {
-    if (error) std::rethrow_exception(error);
+  return whole;
+}
+
+void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings,
+               const std::function<void(std::size_t, Recording&&)>& end) {
+  std::vector<std::vector<Problem>> refused(rollouts.size());
+  std::size_t next = 0;
+  std::atomic<bool> stop = false;
+  const BatchStream stream{.next = [&]() -> std::optional<Rollout> {
+                             if (next == rollouts.size()) return {};
+                             const std::size_t number = next++;
+                             return Rollout{number, rollouts[number]};
+                           },
+                           .end =
+                               [&](std::vector<RolloutEnd>&& pack) {
+                                 for (RolloutEnd& one : pack) {
+                                   if (one.refused.empty()) {
+                                     end(one.rollout.number, std::move(one.recording));
+                                   } else {
+                                     refused[one.rollout.number] = std::move(one.refused);
+                                   }
+                                 }
+                               }};
+  run_pulled(stream, settings, Loads::left_out, stop, rollouts.size());
+  for (std::vector<Problem>& problems : refused) {
+    if (!problems.empty()) throw InputError(std::move(problems));
   }
 }
 

@@ -1,6 +1,7 @@
 // Many rollouts of one robot: side by side in lanes, and packs of lanes side by side in threads.
 #pragma once
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <functional>
 #include <optional>
@@ -27,6 +28,39 @@ struct BatchSettings {
 /// Throws InputError where a scenario's step is refused or its plugin cannot be made: the first such, after all others ended.
 void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings,
                const std::function<void(std::size_t, Recording&&)>& end);
+
+/// A rollout under the number that its maker gives it.
+struct Rollout {
+  std::size_t number = 0;
+  Scenario scenario;
+};
+
+/// How it ended: `recording`, also of one that diverged or whose plugin threw (Recording::outcome); or why it could not begin.
+struct RolloutEnd {
+  Rollout rollout;
+  Recording recording = {};
+  std::vector<Problem> refused = {};  ///< none: it ran
+};
+
+/// Where a batch takes its rollouts from and gives their ends to.
+struct BatchStream {
+  /// The next rollout, or nothing when all were given. One call at a time.
+  std::function<std::optional<Rollout>()> next;
+  /// Those that run side by side from now on. One call at a time; may be empty.
+  std::function<void(std::span<const Rollout>)> begin = {};
+  /// Asked of each once every simulated second, with what it has recorded so far (Simulation::watch): why it is to end there,
+  /// which becomes its outcome, or "". From several threads at once; may be empty.
+  std::function<std::string(const Rollout&, const Recording& so_far)> watch = {};
+  /// Of those that ran side by side. From several threads at once, in any order.
+  std::function<void(std::vector<RolloutEnd>&&)> end;
+};
+
+/// run_batch for any number of rollouts: as a thread becomes free it takes the next ones that can share lanes, of those it
+/// looks ahead to (`look_ahead` of them, and those that run, exist at a time). Once `stop` is set, no pack begins, those that
+/// run end at their next step, and nothing is told of them. False: it was stopped. What `next`, `begin` or `end` throw stops
+/// the batch, and is thrown when all threads have ended.
+bool run_pulled(const BatchStream& stream, const BatchSettings& settings, Loads loads, std::atomic<bool>& stop,
+                std::size_t look_ahead = 64);
 
 /// The same for any number of rollouts, of which few exist at a time: `next()` gives the scenarios one by one, nothing at the
 /// end; `digest(scenario, recording)` makes of each what is kept, in several threads at once, and does not throw;

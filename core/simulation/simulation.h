@@ -49,6 +49,9 @@ class Simulation {
   [[nodiscard]] bool done() const;  ///< every lane has ended
   /// Why a lane ended early; empty: it did not.
   [[nodiscard]] const std::string& failure(std::size_t lane) const;
+  /// Asked of each lane that runs, once every simulated second, with what it has recorded so far: rows, statistics of joints
+  /// and time alone. Why the lane is to end there; "": it goes on. A lane is asked the same whatever the others are.
+  void watch(std::function<std::string(std::size_t lane, const Recording& so_far)> watch) { watch_ = std::move(watch); }
   /// Steps to the end; `progress(share)` about 200 times; stops early (returns false) once `stop` is set.
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
 
@@ -86,6 +89,7 @@ class Simulation {
   void place_at_start(Lane& lane);
   void check_standing();
   void watch_error();
+  void ask_watch();
   void watch_stability();
   void evaluate_motors(In speeds);
   void evaluate_available(In speeds, In torques);
@@ -125,6 +129,8 @@ class Simulation {
   double within_ = 0;             ///< s: how far into the step that row is
   Meter meter_;
   Stability standing_;
+  std::function<std::string(std::size_t, const Recording&)> watch_;
+  double asked_ = 0;  ///< s: when the watch was asked
 };
 
 /// Number of steps in `period`: the nearest integer, which the scenario's check has made exact to 1e-9.

@@ -1,11 +1,11 @@
-#include "cpg/equation_expression.h"
+#include "core/expression/expression.h"
 
 #include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
-namespace gaitlab::cpg {
+namespace gaitlab::expression {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -27,7 +27,20 @@ std::string found(const Token& token) {
 
 class Lexer {
  public:
-  explicit Lexer(std::string_view text) : text_(text) {}
+  Lexer(std::string_view text, Names names) : text_(text), names_(names) {}
+
+  /// The text up to a `]`, which it goes behind; blanks at both ends are left out.
+  Token bracketed() {
+    const std::size_t end = text_.find(']', at_);
+    if (end == std::string_view::npos) throw Fault{text_.size(), "found the end of the text; expected ']'"};
+    std::size_t begin = at_;
+    std::size_t last = end;
+    while (begin < last && is_space(text_[begin])) ++begin;
+    while (last > begin && is_space(text_[last - 1])) --last;
+    at_ = end + 1;
+    if (begin == last) throw Fault{begin, "found nothing in [ ]; expected the name of a joint"};
+    return {Token::Kind::name, begin, text_.substr(begin, last - begin)};
+  }
 
   Token next() {
     while (at_ < text_.size() && is_space(text_[at_])) ++at_;
@@ -49,8 +62,7 @@ class Lexer {
     const std::size_t begin = at_;
     std::size_t end = digits(begin);
     if (end - begin > 1 && text_[begin] == '0') {
-      throw EquationFault{begin,
-                          "found " + quoted(text_.substr(begin, end - begin)) + "; expected a number without a leading zero"};
+      throw Fault{begin, "found " + quoted(text_.substr(begin, end - begin)) + "; expected a number without a leading zero"};
     }
     if (end < text_.size() && text_[end] == '.') end = digits(end + 1);
     if (end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
@@ -64,14 +76,25 @@ class Lexer {
     const bool zero = token.text.find_first_of("123456789") >= std::min(token.text.find_first_of("eE"), token.text.size());
     // Both are checked: whether from_chars reports an underflow differs between library versions.
     if (failure != std::errc() || !std::isfinite(token.number) || (token.number == 0 && !zero)) {
-      throw EquationFault{begin, "found " + quoted(token.text) + "; expected a number that fits a double"};
+      throw Fault{begin, "found " + quoted(token.text) + "; expected a number that fits a double"};
     }
     return token;
   }
 
+  void word() {
+    while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]) || text_[at_] == '_')) ++at_;
+  }
+
   Token name() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]) || text_[at_] == '_')) ++at_;
+    word();
+    const auto dotted = [&] {
+      return at_ + 1 < text_.size() && text_[at_] == '.' && (is_letter(text_[at_ + 1]) || text_[at_ + 1] == '_');
+    };
+    while (names_ == Names::figures && dotted()) {
+      ++at_;
+      word();
+    }
     return {Token::Kind::name, begin, text_.substr(begin, at_ - begin)};
   }
 
@@ -82,19 +105,20 @@ class Lexer {
     }
     if (at_ == begin && std::string_view("+-*/^()[],<>").find(text_[begin]) != std::string_view::npos) ++at_;
     if (at_ > begin) return {Token::Kind::sign, begin, text_.substr(begin, at_ - begin)};
-    if (text_[begin] == '=') throw EquationFault{begin, "found '='; compare with '=='"};
+    if (text_[begin] == '=') throw Fault{begin, "found '='; compare with '=='"};
     do ++at_;
     while (at_ < text_.size() && (static_cast<unsigned char>(text_[at_]) & 0xC0U) == 0x80);  // the rest of a UTF-8 character
-    throw EquationFault{begin, "found " + quoted(text_.substr(begin, at_ - begin)) + ", which has no meaning here"};
+    throw Fault{begin, "found " + quoted(text_.substr(begin, at_ - begin)) + ", which has no meaning here"};
   }
 
   std::string_view text_;
+  Names names_;
   std::size_t at_ = 0;
 };
 
 class Parser {
  public:
-  explicit Parser(std::string_view text) : lexer_(text) { advance(); }
+  Parser(std::string_view text, Names names) : lexer_(text, names), names_(names) { advance(); }
 
   Term whole() {
     Term term = expression();
@@ -107,8 +131,8 @@ class Parser {
   class Level {
    public:
     explicit Level(Parser& parser) : parser_(parser) {
-      if (++parser.levels_ > kMostEquationLevels) {
-        throw EquationFault{parser.token_.offset, "nested deeper than " + std::to_string(kMostEquationLevels) + " levels"};
+      if (++parser.levels_ > kMostLevels) {
+        throw Fault{parser.token_.offset, "nested deeper than " + std::to_string(kMostLevels) + " levels"};
       }
     }
     ~Level() { --parser_.levels_; }
@@ -120,7 +144,7 @@ class Parser {
   };
 
   [[noreturn]] void refuse(const std::string& expected) const {
-    throw EquationFault{token_.offset, found(token_) + "; expected " + expected};
+    throw Fault{token_.offset, found(token_) + "; expected " + expected};
   }
 
   [[nodiscard]] bool at(std::string_view text) const { return token_.kind != Token::Kind::end && token_.text == text; }
@@ -131,8 +155,8 @@ class Parser {
   }
 
   Term node(Term term) {
-    if (++terms_ > kMostEquationTerms) {
-      throw EquationFault{term.offset, "more than " + std::to_string(kMostEquationTerms) + " numbers, names and operators"};
+    if (++terms_ > kMostTerms) {
+      throw Fault{term.offset, "more than " + std::to_string(kMostTerms) + " numbers, names and operators"};
     }
     return term;
   }
@@ -188,7 +212,7 @@ class Parser {
     const Token sign = token_;
     advance();
     Term right = addition();
-    if (compares()) throw EquationFault{token_.offset, found(token_) + " after a comparison; write a < b and b < c"};
+    if (compares()) throw Fault{token_.offset, found(token_) + " after a comparison; write a < b and b < c"};
     return call(sign.text, sign.offset, std::move(left), std::move(right));
   }
 
@@ -235,13 +259,16 @@ class Parser {
     const Token name = token_;
     advance();
     Term term{Term::Kind::name, name.offset, std::string(name.text)};
-    if (at("[")) {
+    if (at("[") && names_ == Names::figures) {
+      term.joint = lexer_.bracketed().text;
+      advance();
+    } else if (at("[")) {
       advance();
       term.index = index();
     } else if (at("(")) {
       advance();
       term.kind = Term::Kind::call;
-      if (name.text == "sum") {
+      if (name.text == "sum" && names_ == Names::joints) {
         term.kind = Term::Kind::sum;
         take("j", "'j': sum(j in neighbours, TERM)");
         take("in", "'in': sum(j in neighbours, TERM)");
@@ -274,17 +301,18 @@ class Parser {
   }
 
   Lexer lexer_;
+  Names names_;
   Token token_;
   std::size_t terms_ = 0, levels_ = 0;
 };
 
 }  // namespace
 
-Term parse_equation(const std::string& text) {
-  if (text.size() > kMostEquationText) {
-    throw EquationFault{kMostEquationText, "longer than " + std::to_string(kMostEquationText) + " characters"};
+Term parse(const std::string& text, Names names) {
+  if (text.size() > kMostText) {
+    throw Fault{kMostText, "longer than " + std::to_string(kMostText) + " characters"};
   }
-  return Parser(text).whole();
+  return Parser(text, names).whole();
 }
 
-}  // namespace gaitlab::cpg
+}  // namespace gaitlab::expression

@@ -1,0 +1,54 @@
+// What expressions may calculate: operators and functions, over many values at once.
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace gaitlab::expression {
+
+/// A function or operator by its name in the tree.
+struct Function {
+  enum class Op {
+    neg,
+    no,
+    add,
+    sub,
+    mul,
+    div,
+    pow,
+    lt,
+    le,
+    gt,
+    ge,
+    eq,
+    ne,
+    both,
+    either,
+    sin,
+    cos,
+    tan,
+    tanh,
+    exp,
+    log,
+    sqrt,
+    abs,
+    sign,
+    min,
+    max,
+    clamp,
+    choose
+  };
+  const char* name;
+  std::size_t arguments;
+  Op op;
+};
+/// nullptr: there is none.
+const Function* find_function(const std::string& name);
+/// Those that are written as calls: without the operators.
+std::span<const Function> functions();
+
+/// out[k] = op(a[k], b[k], c[k]) for k < n; operands that the function does not have are not looked at. What compares gives 1
+/// or 0, and what is not 0 counts as true.
+void calculate(Function::Op op, std::size_t n, double* out, const double* a, const double* b, const double* c);
+
+}  // namespace gaitlab::expression
