@@ -1,0 +1,274 @@
+#include "studies/study_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "core/files/atomic_file.h"
+#include "core/scenario/explainer.h"
+#include "core/scenario/reader.h"
+#include "core/scenario/value.h"
+#include "core/scenario/wording.h"
+#include "studies/parameter_file.h"
+
+namespace gaitlab::studies {
+
+namespace {
+
+/// Keys that stand as they are in `fields`: one walk reads and explains them.
+struct Plain {
+  Study& study;
+  std::string& scenario;
+  void fields(Fields& f) const {
+    f.text("name", study.name, "Name of the study; without it that of the file.");
+    f.text("scenario", scenario, "Scenario file, relative to this file.");
+    f.texts("set", study.sets, "Settings of all runs, as for --set: physics.step=0.001.");
+    f.integer("seed", study.seed, {"", 0, 9e15, "Seed of what is drawn: points and replicates."});
+    f.texts("figures", study.figures,
+            "Figures shown in tables and drawn, by name with * and ?; without any the speed. Those of one joint, "
+            "torque.peak[m3/*], become columns.");
+  }
+};
+
+struct MethodKeys {
+  Study& study;
+  void fields(Fields& f) {
+    f.choice(
+        "type", study.method, kMethods,
+        "grid: every combination of values; random, sobol: points drawn, at random or evenly by a Sobol sequence; morris, "
+        "sobol_indices: which parameters matter, by elementary effects or shares of the variance. The others search (gaitlab "
+        "optimize): cma, xnes, sade, pso for one objective, nsga2 for two or three.");
+    f.integer("trajectories", study.trajectories,
+              {"", 2, 1e6, "Of morris: each has one point more than there are parameters."});
+    f.integer("samples", study.samples,
+              {"", 2, 1e7, "Of sobol_indices, best a power of 2: each has two points more than there are parameters."});
+    f.integer("population", study.search.population,
+              {"", 0, 10000,
+               "Points of a generation, at least 5 (sade 7; nsga2: a multiple of 4 from 8). 0: 4 + 3 ln n of n "
+               "parameters, rounded up to a multiple of 8, at least 16."});
+    f.integer("instances", study.search.instances, {"", 1, 1000, "Searches side by side, which share the budget."});
+    f.integer("restarts", study.search.restarts,
+              {"", 0, 10, "How often a search that has converged starts again, each time with twice the population."});
+    f.number("sigma", study.search.sigma, {"", 1e-3, 1, "First step of cma and xnes, as a share of the box."});
+  }
+};
+
+struct VerifyKeys {
+  Verify& verify;
+  void fields(Fields& f) {
+    f.integer("best", verify.best, {"", 1, 100, "How many of the best points are tried again."});
+    f.flag("halve_step", verify.halve_step, "With half the step (of integrators that choose it: half the accuracy's limit).");
+    f.text("engine", verify.engine, "In another engine, with its own step; none: in no other.");
+    f.number("change", verify.change, {"", 1e-6, 10, "Largest change of an objective, as a share, of a point that stands."});
+  }
+};
+
+struct BudgetKeys {
+  std::int64_t& runs;
+  void fields(Fields& f) {
+    f.integer("runs", runs, {"", 1, 1e9, "Runs of methods that draw or search points, replicates counted."});
+  }
+};
+
+void read_objective(const Node& node, Objective& objective, Problems& problems) {
+  const std::size_t before = problems.size();
+  Reader reader(node, "objective", problems, nullptr);
+  if (node.kind != Node::Kind::map) return;
+  const Node* most = reader.take("maximize");
+  const Node* least = reader.take("minimize");
+  reader.finish();
+  const Node* chosen = most != nullptr ? most : least;
+  if (chosen == nullptr && problems.size() > before) return;  // a misspelt key says enough
+  if (chosen == nullptr || (most != nullptr && least != nullptr)) {
+    problems.add(node.place, "objective is not one expression; expected {maximize: speed} or {minimize: ...}");
+  } else if (chosen->kind != Node::Kind::scalar) {
+    problems.add(chosen->place, "objective is " + found(*chosen) + "; expected an expression");
+  } else {
+    objective = {{chosen->text, *chosen}, most != nullptr};
+  }
+}
+
+/// One, {maximize: speed}, or a list of up to three.
+void read_objectives(const Node& node, std::vector<Objective>& objectives, Problems& problems) {
+  if (node.kind != Node::Kind::list) return read_objective(node, objectives.front(), problems);
+  if (node.items.empty() || node.items.size() > kMostObjectives)
+    problems.add(node.place, fmt::format("objective is a list of {}; expected 1 to {}", node.items.size(), kMostObjectives));
+  objectives.assign(std::clamp<std::size_t>(node.items.size(), 1, kMostObjectives), {});
+  for (std::size_t k = 0; k < std::min(objectives.size(), node.items.size()); ++k)
+    read_objective(node.items[k], objectives[k], problems);
+}
+
+void read_constraints(const Node& node, Study& study, Problems& problems) {
+  if (node.kind != Node::Kind::list) problems.add(node.place, "constraints is " + found(node) + "; expected a list of texts");
+  for (const Node& item : node.items) {
+    if (node.kind != Node::Kind::list) return;
+    if (item.kind != Node::Kind::scalar) {
+      problems.add(item.place, "a constraint is " + found(item) + "; expected a text: torque.rms <= 0.6");
+    } else {
+      study.constraints.push_back({item.text, item});
+    }
+  }
+}
+
+/// Texts, each an expression, with ` after SECONDS` behind it or without.
+void read_stops(const Node& node, Study& study, Problems& problems) {
+  if (node.kind != Node::Kind::list) problems.add(node.place, "stop is " + found(node) + "; expected a list of texts");
+  for (const Node& item : node.items) {
+    if (node.kind != Node::Kind::list) return;
+    if (item.kind != Node::Kind::scalar) {
+      problems.add(item.place, "a rule is " + found(item) + "; expected a text: saturated.voltage > 0.3 after 4");
+      continue;
+    }
+    StopText stop{{item.text, item}};
+    constexpr std::string_view kAfter = " after ";
+    if (const std::size_t at = item.text.rfind(kAfter); at != std::string::npos) {
+      const std::string seconds = item.text.substr(at + kAfter.size());
+      const char* end = seconds.data() + seconds.size();
+      const auto read = std::from_chars(seconds.data(), end, stop.after);
+      if (read.ec != std::errc() || read.ptr != end || !(stop.after >= 0) || !std::isfinite(stop.after))
+        problems.add(item.place,
+                     "a rule ends with after " + in_quotes(seconds) + "; expected a number of seconds: fell after 2");
+      stop.when.text.resize(at);
+    }
+    study.stops.push_back(std::move(stop));
+  }
+}
+
+void read_guards(const Node& node, Study& study, Problems& problems) {
+  if (node.kind == Node::Kind::scalar && (node.text == "gait" || node.text == "none")) {
+    study.guarded = node.text == "gait";
+    return;
+  }
+  if (node.kind != Node::Kind::map) {
+    problems.add(node.place, "guards is " + found(node) + "; expected gait, none, or limits by name: {range.share: 0.1}");
+    return;
+  }
+  for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    const Reading<double> limit = read_number(node.items[i], "");
+    if (limit.ok()) {
+      study.guards.push_back({node.keys[i].first, limit.value, node.keys[i].second});
+    } else {
+      problems.add(node.items[i].place, "guards." + clipped(node.keys[i].first) + " " + limit.wrong);
+    }
+  }
+}
+
+Explainer study_keys() {
+  Explainer explainer;
+  Study study;
+  std::string scenario;
+  explainer.row("gaitlab_study", "", "1", "1", "Format version; by this key a file is known as a study.");
+  Plain{study, scenario}.fields(explainer);
+  explainer.row("parameters", "", "required", "", "Keys of the scenario, as for --set, that change from point to point.");
+  explainer.row("  KEY.low", "", "", "", "Least value, in the unit of the scenario's key.");
+  explainer.row("  KEY.high", "", "", "above low", "Largest value.");
+  explainer.row("  KEY.scale", "", "linear", "linear or log", "Whether values are even in themselves or in their logarithm.");
+  explainer.row("  KEY.count", "", "", "2 to 1e9", "Of a grid: number of values from low to high, both included.");
+  explainer.row("  KEY.values", "", "", "", "Instead of low and high: numbers or words, one by one.");
+  explainer.row(
+      "replicates", "", "none", "",
+      "Runs of each point that differ in their seed and in what `vary` draws; the draws are the same for every point.");
+  explainer.row("  count", "", "required", "1 to 1e6", "Runs of each point.");
+  explainer.row("  vary.KEY", "", "", "normal: [MEAN, DEVIATION] (with low, high), uniform: [LOW, HIGH], values: [...]",
+                "How a key of the scenario is drawn; {times: LAW}: as a multiple of the value that the point has.");
+  explainer.row("  combine", "", "worst", "mean, worst, median or quantile(Q)",
+                "What the replicates of a point count for together.");
+  explainer.row("objective", "", "{maximize: FIGURE}", "{maximize: EXPRESSION} or {minimize: EXPRESSION}",
+                "What points are ordered by; without it by the first of `figures`. A list of two or three: the points that no "
+                "other is better than in all.");
+  explainer.row("constraints", "", "[]", "texts a <= b, a >= b or a == b", "What a point must keep to be feasible.");
+  explainer.row("guards", "", "gait", "gait, none or {NAME: LIMIT}",
+                "Limits without which the figures of a gait may be those of a numerical accident.");
+  explainer.row("stop", "", "[]", "texts EXPRESSION or EXPRESSION after SECONDS",
+                "Rules that end a run early, asked once every simulated second of figures so far: fell, or what a joint did.");
+  MethodKeys method{study};
+  explainer.group("method", method, "How points are chosen.");
+  BudgetKeys budget{study.runs};
+  explainer.group("budget", budget, "How much is run.");
+  VerifyKeys verify{study.verify};
+  explainer.group("verify", verify, "How `gaitlab optimize` tries the best points again.");
+  return explainer;
+}
+
+}  // namespace
+
+bool is_study(const std::string& file) {
+  Problems problems;
+  const std::string text = read_file(file, kMostScenario);
+  const std::optional<Node> root = parse_yaml(text, file, problems);
+  // What is not valid YAML is told by who reads it as what it seems to be.
+  return root ? root->find("gaitlab_study") != nullptr : text.find("gaitlab_study:") != std::string::npos;
+}
+
+Study read_study(const std::string& file, Purpose purpose) {
+  Study study;
+  study.asked = purpose == Purpose::evaluate;
+  study.file = file;
+  const Node root = read_yaml(file);
+  Problems problems;
+  Reader reader(root, "the study", problems, nullptr);
+  if (!reader.version("gaitlab_study")) problems.raise();
+  std::string scenario;
+  study.name = std::filesystem::path(file).stem().string();
+  Plain{study, scenario}.fields(reader);
+  if (!is_name(study.name, "_.-") || study.name[0] == '.') {
+    const Node* name = root.find("name");
+    problems.add(name != nullptr ? name->place : root.place,
+                 "name " + in_quotes(study.name) + " is not allowed; expected letters, digits, _ . and -, not a . first");
+  }
+  if (const Node* sets = root.find("set")) {
+    for (const Node& set : sets->items) study.set_places.push_back(set.place);
+  }
+  if (const Node* figures = root.find("figures")) study.figures_place = figures->place;
+  study.scenario = (std::filesystem::path(file).parent_path() / scenario).lexically_normal().string();
+  MethodKeys method{study};
+  const bool chosen = reader.has("method");
+  reader.group("method", method, "");
+  BudgetKeys budget{study.runs};
+  reader.group("budget", budget, "");
+  VerifyKeys verify{study.verify};
+  reader.group("verify", verify, "");
+  if (const Node* node = root.find("verify")) {
+    const Node* engine = node->kind == Node::Kind::map ? node->find("engine") : nullptr;
+    study.verify.place = engine != nullptr ? engine->place : node->place;
+  }
+  if (const Node* node = reader.take("parameters")) read_parameters(*node, study, problems);
+  if (const Node* node = reader.take("replicates")) read_replicates(*node, study.replicates, problems);
+  if (const Node* node = reader.take("objective")) read_objectives(*node, study.objectives, problems);
+  if (const Node* node = reader.take("constraints")) read_constraints(*node, study, problems);
+  if (const Node* node = reader.take("guards")) read_guards(*node, study, problems);
+  if (const Node* node = reader.take("stop")) read_stops(*node, study, problems);
+  reader.require({"scenario", "parameters"});
+  reader.finish();
+  const bool grid = std::ranges::all_of(study.parameters, &Parameter::in_grid);
+  const Method search = study.objectives.size() > 1 ? Method::nsga2 : Method::cma;
+  if (!chosen && !(grid && purpose == Purpose::sweep)) study.method = purpose == Purpose::optimize ? search : Method::random;
+  if (study.asked) study.method = Method::random;  // whatever it says: none is used
+  if (problems.empty()) check_study(study, root.place, problems);
+  problems.raise();
+  return study;
+}
+
+std::string explain_study() {
+  return wrapped(
+             "A study runs the points of a scenario: `gaitlab sweep STUDY.yaml`; `gaitlab optimize STUDY.yaml` searches the "
+             "best. Expressions name figures as summary.json "
+             "does, with "
+             "dots; one per joint without the joint is its largest, torque.peak[m3/active] that of one. They take + - * / ^, "
+             "comparisons, and, or, not, min, max, abs, sqrt, log, if and the other functions of CPG `equations`.") +
+         "\n" + table(study_keys().rows());
+}
+
+std::string study_page() {
+  return "# The file of a study\n\n"
+         "<!-- Written by `tests/gates/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n"
+         "Every key of what `gaitlab sweep STUDY.yaml` and `gaitlab optimize STUDY.yaml` read, as `gaitlab explain study` "
+         "prints it; what is done with it:\n"
+         "[studies](../studies.md). Studies that come with the program: `scenarios/studies/`.\n\n" +
+         markdown_table(study_keys().rows());
+}
+
+}  // namespace gaitlab::studies
