@@ -1,6 +1,7 @@
 #include "report/collisions.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -81,6 +82,18 @@ class Row {
     moved_[i] = true;
     return there_[i];
   }
+  /// m, as penetration(). The axis that showed two apart shows it at the next tick, too, nearly always.
+  double depth(std::size_t a, std::size_t b, double ignored) {
+    const auto last = apart_.find({a, b});
+    const auto place = [&](std::size_t i) { return Pose{k_->R[pieces_[i].link], k_->p[pieces_[i].link]}; };
+    if (last != apart_.end() && are_apart(pieces_[a].local, place(a), pieces_[b].local, place(b), last->second, ignored)) {
+      return 0;
+    }
+    Vec3 apart;
+    const double depth = penetration(piece(a), piece(b), ignored, apart);
+    if (!(depth > 0)) apart_[{a, b}] = apart;
+    return depth;
+  }
   [[nodiscard]] double lowest(std::size_t i) const { return balls_[i].z() - pieces_[i].reach; }
 
   /// Pairs of pieces that can meet and whose balls do, by a sweep along x.
@@ -105,6 +118,7 @@ class Row {
   std::vector<Convex> there_ = {};
   std::vector<bool> moved_;
   std::vector<std::size_t> order_ = {};
+  std::map<std::pair<std::size_t, std::size_t>, Vec3> apart_ = {};  ///< of two pieces, the last axis that showed it
 };
 
 /// What was found so far.
@@ -117,7 +131,7 @@ class Search {
     double deepest = 0;
     const bool first = met_.empty();
     row.pairs(can_, [&](std::size_t a, std::size_t b) {
-      const double depth = penetration(row.piece(a), row.piece(b), limits_.touch);
+      const double depth = row.depth(a, b, limits_.touch);
       if (!(depth > 0)) return;
       const Pair pair = std::minmax(pieces_[a].body, pieces_[b].body);
       met_.insert(pair);

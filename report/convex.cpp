@@ -44,6 +44,18 @@ Convex prism(double radius, double length, bool half) {
   return made;
 }
 
+/// Of a convex's points along a unit axis.
+std::pair<double, double> range(const Convex& of, const Vec3& axis) {
+  double lo = std::numeric_limits<double>::infinity();
+  double hi = -lo;
+  for (const Vec3& vertex : of.vertices) {
+    const double at = axis.dot(vertex);
+    lo = std::min(lo, at);
+    hi = std::max(hi, at);
+  }
+  return {lo - of.radius, hi + of.radius};
+}
+
 /// Smallest overlap so far; 0 from the first axis on that separates, or nearly.
 class Overlap {
  public:
@@ -53,28 +65,20 @@ class Overlap {
   bool along(const Vec3& direction) {
     const double length = direction.norm();
     if (length < kNoAxis) return true;
-    const Vec3 axis = direction / length;
-    const auto [a_lo, a_hi] = range(a_, axis);
-    const auto [b_lo, b_hi] = range(b_, axis);
+    axis_ = direction / length;
+    const auto [a_lo, a_hi] = range(a_, axis_);
+    const auto [b_lo, b_hi] = range(b_, axis_);
     least_ = std::min({least_, a_hi - b_lo, b_hi - a_lo});
     return least_ > ignored_;
   }
   [[nodiscard]] double depth() const { return least_ > ignored_ ? least_ : 0; }
+  [[nodiscard]] const Vec3& axis() const { return axis_; }  ///< the last
 
  private:
-  static std::pair<double, double> range(const Convex& of, const Vec3& axis) {
-    double lo = std::numeric_limits<double>::infinity();
-    double hi = -lo;
-    for (const Vec3& vertex : of.vertices) {
-      lo = std::min(lo, axis.dot(vertex));
-      hi = std::max(hi, axis.dot(vertex));
-    }
-    return {lo - of.radius, hi + of.radius};
-  }
-
   const Convex& a_;
   const Convex& b_;
   double ignored_, least_ = std::numeric_limits<double>::infinity();
+  Vec3 axis_ = Vec3::Zero();
 };
 
 bool apart_from_sphere(Overlap& overlap, const Convex& sphere, const Convex& other) {
@@ -87,6 +91,23 @@ bool apart_from_sphere(Overlap& overlap, const Convex& sphere, const Convex& oth
     }
   }
   return false;
+}
+
+/// False from the first axis on that shows them apart.
+bool overlap_everywhere(Overlap& overlap, const Convex& a, const Convex& b) {
+  for (const Convex* of : {&a, &b}) {
+    for (const Vec3& normal : of->normals) {
+      if (!overlap.along(normal)) return false;
+    }
+  }
+  if (a.radius > 0 && apart_from_sphere(overlap, a, b)) return false;
+  if (b.radius > 0 && apart_from_sphere(overlap, b, a)) return false;
+  for (const Vec3& first : a.directions) {
+    for (const Vec3& second : b.directions) {
+      if (!overlap.along(first.cross(second))) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -115,20 +136,22 @@ Convex moved(const Convex& local, const Pose& pose) {
 }
 
 double penetration(const Convex& a, const Convex& b, double ignored) {
+  Vec3 apart;
+  return penetration(a, b, ignored, apart);
+}
+
+double penetration(const Convex& a, const Convex& b, double ignored, Vec3& apart) {
   Overlap overlap(a, b, ignored);
-  for (const Convex* of : {&a, &b}) {
-    for (const Vec3& normal : of->normals) {
-      if (!overlap.along(normal)) return 0;
-    }
-  }
-  if (a.radius > 0 && apart_from_sphere(overlap, a, b)) return 0;
-  if (b.radius > 0 && apart_from_sphere(overlap, b, a)) return 0;
-  for (const Vec3& first : a.directions) {
-    for (const Vec3& second : b.directions) {
-      if (!overlap.along(first.cross(second))) return 0;
-    }
-  }
-  return overlap.depth();
+  if (overlap_everywhere(overlap, a, b)) return overlap.depth();
+  apart = overlap.axis();
+  return 0;
+}
+
+bool are_apart(const Convex& a, const Pose& a_place, const Convex& b, const Pose& b_place, const Vec3& axis, double ignored) {
+  const auto [a_lo, a_hi] = range(a, a_place.R.transpose() * axis);
+  const auto [b_lo, b_hi] = range(b, b_place.R.transpose() * axis);
+  const double way = axis.dot(b_place.p - a_place.p);
+  return std::min(a_hi - b_lo - way, b_hi - a_lo + way) <= ignored;
 }
 
 }  // namespace gaitlab::report

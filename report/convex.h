@@ -24,6 +24,11 @@ void move(const Convex& local, const Pose& pose, Convex& there);
 /// m: the shortest way that takes one out of the other; 0 where they are apart, and where the way is `ignored` or less.
 /// Separating axis theorem: the smallest overlap over the faces' normals and the products of edges (Gottschalk, Lin, Manocha,
 /// OBBTree, SIGGRAPH 1996, section 5); of a sphere over the ways from its centre to faces, edges and vertices.
+/// `apart`: where the way is 0, the axis that shows it, unit.
+double penetration(const Convex& a, const Convex& b, double ignored, Vec3& apart);
 double penetration(const Convex& a, const Convex& b, double ignored);
+
+/// Whether two in these places overlap by `ignored` or less along an axis: then their penetration is 0. Needs no move.
+bool are_apart(const Convex& a, const Pose& a_place, const Convex& b, const Pose& b_place, const Vec3& axis, double ignored);
 
 }  // namespace gaitlab::report

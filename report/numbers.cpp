@@ -1,11 +1,15 @@
 #include "report/numbers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 
+#include "report/fall.h"
 #include "report/number_texts.h"
+#include "report/posture.h"
 #include "report/trust.h"
 
 namespace gaitlab::report {
@@ -55,6 +59,26 @@ Json tracked(R run, double F::*figure) {
   return has_motors(run) ? Json(run.record.joints[texts::worst(run.record, &F::error_peak)].*figure) : Json();
 }
 
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
+/// Null of what is not a number.
+Json or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json forward_speed(R run) {
+  constexpr double kLeast = 1e-6;  // of the axis: less is rounding
+  const Vec3 axis = rpy(run.scenario.orientation) * Vec3::UnitX();
+  const double level = std::sqrt(axis.x() * axis.x() + axis.y() * axis.y());
+  const double way = axis.x() * run.summary.displacement_x + axis.y() * run.summary.displacement_y;
+  return or_null(level > kLeast && run.summary.simulated > 0 ? way / level / run.summary.simulated : kNoNumber);
+}
+
+Json fallen(R run) {
+  const std::optional<Fall> found = fall(run.scenario, run.record);
+  return found ? Json(found->share() < run.scenario.limits.height) : Json();
+}
+
+Json held(R run, double Posture::*figure) { return or_null(posture(run.scenario, run.record, run.summary.judged).*figure); }
+
 template <class Named>
 Json names(const Named& all) {
   Json list = Json::array();
@@ -66,11 +90,13 @@ std::vector<SummaryNumber> list() {
   return {
       {.key = "name",
        .definition = "Name of the scenario.",
+       .words = true,
        .value = [](R r) { return r.scenario.name; },
        .line = {10, nullptr, texts::simulated},
        .compare = {.place = 10, .if_different = true}},
       {.key = "engine",
        .definition = "Engine that simulated it.",
+       .words = true,
        .value = [](R r) { return r.scenario.physics.engine->name; },
        .line = {90, "engine", texts::engine},
        .compare = {.place = 20, .if_different = true}},
@@ -83,9 +109,11 @@ std::vector<SummaryNumber> list() {
       {.key = "step_setting",
        .unit = "s",
        .definition = "What the scenario says of the step: a number, or `auto`.",
+       .words = true,
        .value = [](R r) { return r.scenario.physics.adaptive_step ? Json("auto") : Json(r.scenario.physics.step); }},
       {.key = "integrator",
        .definition = "Integrator of the engine.",
+       .words = true,
        .value = [](R r) { return r.scenario.physics.integrator->name; },
        .compare = {.place = 30, .if_different = true}},
       {.key = "accuracy",
@@ -108,6 +136,7 @@ std::vector<SummaryNumber> list() {
        .value = [](R r) { return estimated(r, [](const TorqueError& e) { return e.share; }); }},
       {.key = "torque_error.joint",
        .definition = "The worst joint.",
+       .words = true,
        .value = [](R r) { return estimated(r, [&](const TorqueError& e) { return r.scenario.robot->joints[e.joint].name; }); }},
       {.key = "torque_error.per_joint",
        .unit = "N m",
@@ -121,6 +150,7 @@ std::vector<SummaryNumber> list() {
        .compare = {.place = 50, .if_different = true}},
       {.key = "outcome",
        .definition = "`done`, or why the run ended early.",
+       .words = true,
        .value = [](R r) { return r.summary.outcome; },
        .compare = {.place = 70, .if_different = true}},
       {.key = "simulated",
@@ -140,6 +170,7 @@ std::vector<SummaryNumber> list() {
       {.key = "judged.joint",
        .definition = "The most loaded joint in the window: longest at a limit, then of the largest torque RMS, then peak; "
                      "`judged.joint` and the next two are null where nothing drives the joints.",
+       .words = true,
        .value = [](R r) { return of_motors(r, [&](const Judged& j) { return r.scenario.robot->joints[j.order[0]].name; }); },
        .compare = {.place = 215, .if_different = true}},
       {.key = "judged.saturated",
@@ -167,6 +198,7 @@ std::vector<SummaryNumber> list() {
        .compare = {.place = 80, .if_different = true}},
       {.key = "build",
        .definition = "Version, compiler and libraries of the program.",
+       .words = true,
        .value = [](R r) { return r.summary.build; },
        .compare = {.place = 90, .if_different = true}},
       {.key = "modules",
@@ -224,6 +256,21 @@ std::vector<SummaryNumber> list() {
        .value = [](R r) { return r.summary.path_length; },
        .compare = {160},
        .golden = {40}},
+      {.key = "straightness",
+       .definition = "distance / path_length: 1 of a straight way; null where the robot has not moved.",
+       .value =
+           [](R r) { return or_null(r.summary.path_length > 0 ? r.summary.distance / r.summary.path_length : kNoNumber); }},
+      {.key = "forward_speed",
+       .unit = "m/s",
+       .definition =
+           "Part of `displacement` along the base's x axis at the start, level, over `simulated`: negative of a robot "
+           "that goes backwards; null where that axis is upright.",
+       .value = [](R r) { return forward_speed(r); }},
+      {.key = "cycle_speed",
+       .unit = "m/s",
+       .definition = "Horizontal way of the centre of mass in the judged window, which is whole periods, over its length; null "
+                     "without a limit cycle.",
+       .value = [](R r) { return or_null(cycle_speed(r.record, r.summary.judged)); }},
       {.key = "heading_change",
        .unit = "rad",
        .definition =
@@ -361,6 +408,7 @@ std::vector<SummaryNumber> list() {
        .swap = {60, "tracking", "error, rad", 10, texts::tracking_cell}},
       {.key = "tracking_error.joint",
        .definition = "The joint that has it.",
+       .words = true,
        .value =
            [](R r) {
              return has_motors(r) ? Json(r.scenario.robot->joints[texts::worst(r.record, &F::error_peak)].name) : Json();
@@ -414,6 +462,35 @@ std::vector<SummaryNumber> list() {
        .unit = "J",
        .definition = "What the ledger does not account for: the error of the integration.",
        .value = [](R r) { return r.record.ledger.residual(); }},
+      {.key = "energy.residual_share",
+       .definition = "Magnitude of `residual` over what was drawn (or stored, or lifts the robot by 1 mm, if that is more).",
+       .value = [](R r) { return or_null(std::abs(r.record.ledger.residual()) / energy_scale(r.scenario, r.record)); }},
+      {.key = "energy.created_share",
+       .definition = "`created` over the same.",
+       .value = [](R r) { return or_null(texts::created(r.record) / energy_scale(r.scenario, r.record)); }},
+      {.key = "fell",
+       .definition =
+           "Whether the centre of mass came below `limits.height` of its height at the start; null where a height says "
+           "nothing: of a base that is not floating, or above other ground than a plane and boxes.",
+       .value = [](R r) { return fallen(r); }},
+      {.key = "airborne_share",
+       .definition =
+           "Share of the trace ticks in the judged window at which the ground bears less than 5 % of the weight; null "
+           "without gravity, of a base that does not float, or of a robot without contact elements.",
+       .value = [](R r) { return held(r, &Posture::airborne_share); }},
+      {.key = "height.min",
+       .unit = "m",
+       .definition = "Least height of the centre of mass at the trace ticks in the judged window.",
+       .value = [](R r) { return held(r, &Posture::height_min); }},
+      {.key = "height.max",
+       .unit = "m",
+       .definition = "The largest.",
+       .value = [](R r) { return held(r, &Posture::height_max); }},
+      {.key = "tilt.max",
+       .unit = "rad",
+       .definition = "Largest angle between the base's z axis and the vertical at these ticks (the check `tilt` of the verdict "
+                     "is of the turn since the start).",
+       .value = [](R r) { return held(r, &Posture::tilt_max); }},
       {.key = "limit_cycle.found",
        .definition = "Whether the motion has become periodic: see below.",
        .value = [](R r) { return r.summary.limit_cycle.found; },
@@ -442,9 +519,11 @@ std::vector<SummaryNumber> list() {
        .value = [](R r) { return r.summary.stability_share; }},
       {.key = "stability.source",
        .definition = "What has the largest lambda.",
+       .words = true,
        .value = [](R r) { return r.summary.stability_source; }},
       {.key = "trace_hash",
        .definition = "FNV-1a, 64 bit, over the names and the bytes of all columns.",
+       .words = true,
        .value = [](R r) { return r.summary.trace_hash; },
        .compare = {250}},
   };

@@ -25,6 +25,7 @@ struct SummaryNumber {
   const char* key = "";
   const char* unit = "";        ///< "": a share, a count, a name
   const char* definition = "";  ///< as in docs/conventions.md
+  bool words = false;           ///< a text, or may be one: not for a calculation
   /// null: not known. A group (`torque_error`) of which a number is null is null.
   std::function<nlohmann::ordered_json(const RunData&)> value = {};
   std::function<double(const RunData&, std::size_t joint)> of_joint = {};  ///< instead of `value`: for every joint

@@ -83,6 +83,13 @@ void put(Json& json, const SummaryNumber& number, const std::string& joint, cons
 
 }  // namespace
 
+Summary travelled(const Recording& r) {
+  Summary s;
+  s.simulated = r.simulated;
+  travel(r, s);
+  return s;
+}
+
 Summary summarise(const Scenario& scenario, const Recording& r, double wall_time) {
   Summary s;
   s.wall_time = wall_time;

@@ -27,6 +27,9 @@ struct Summary {
   [[nodiscard]] std::size_t most_loaded() const { return judged.order.empty() ? 0 : judged.order.front(); }
 };
 
+/// Of a recording of which little is known yet: time, ways and speeds alone.
+Summary travelled(const Recording& record);
+
 Summary summarise(const Scenario& scenario, const Recording& record, double wall_time);
 
 /// The text of summary.json.

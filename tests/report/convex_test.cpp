@@ -57,6 +57,22 @@ TEST(Convex, HalfCylindersOfOneModuleTouch) {
   }
 }
 
+/// The axis that showed two boxes apart shows it still when one has moved a little, and no more when they meet.
+TEST(Convex, TheAxisThatShowsTwoApartServesAgain) {
+  const Convex one = convex(box(2, 2, 2));
+  const Convex other = convex(box(1, 1, 1));
+  const Pose here{turn(Vec3::UnitZ(), 0.3).toRotationMatrix(), {5, 1, 0}};
+  const auto there = [&](double gap) { return here * Pose{turn(Vec3::UnitX(), 0.7).toRotationMatrix(), {1.5 + gap, 0, 0}}; };
+  Vec3 apart = Vec3::Zero();
+  ASSERT_EQ(penetration(moved(one, here), moved(other, there(0.1)), 0, apart), 0);
+  EXPECT_NEAR(std::abs(apart.dot(here.R.col(0))), 1, 1e-15);
+  EXPECT_TRUE(are_apart(one, here, other, there(0.1), apart, 0));
+  EXPECT_TRUE(are_apart(other, there(0.1), one, here, apart, 0));
+  EXPECT_TRUE(are_apart(one, here, other, there(0.01), apart, 0));
+  EXPECT_FALSE(are_apart(one, here, other, there(-0.01), apart, 0));
+  EXPECT_TRUE(are_apart(one, here, other, there(-0.01), apart, 0.02)) << "ignored";
+}
+
 /// The depth is the least value of the support function of the Minkowski difference, which 20 000 directions find from above.
 TEST(Convex, AgreesWithSampledDirections) {
   std::mt19937 random(1);

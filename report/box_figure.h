@@ -1,0 +1,26 @@
+// A figure of boxes: how a value spreads, group by group.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace gaitlab::report {
+
+struct BoxGroup {
+  std::string name;
+  std::vector<double> values;  ///< NaN: not known
+  bool feasible = true;
+};
+
+struct BoxFigure {
+  std::string title, note, axis, below;  ///< axis: of the values; below: of the names
+  std::vector<BoxGroup> groups;          ///< at most 12 are drawn
+};
+
+/// A box from the first to the third quartile with the median, lines to the least and the largest, and a dot for each of up to
+/// 500 values.
+std::string box_svg(const BoxFigure& figure);
+
+/// The value that a share of the sorted values does not exceed, linear between neighbours (Hyndman and Fan 1996, type 7).
+double quartile(const std::vector<double>& sorted, double share);
+
+}  // namespace gaitlab::report
