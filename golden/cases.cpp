@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/errors.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "core/scenario/read_scenario.h"
 
 namespace gaitlab::golden {

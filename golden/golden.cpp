@@ -1,9 +1,6 @@
 #include "golden/golden.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -13,7 +10,8 @@
 #include <system_error>
 
 #include "core/errors.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
+#include "core/files/folder_lock.h"
 
 namespace gaitlab {
 
@@ -116,12 +114,21 @@ std::string json_text(const Golden& golden, std::string_view trace_bytes) {
 
 InputError wrong(const fs::path& file, std::string text) { return {SourceLocation{file.string()}, std::move(text)}; }
 
+/// Discarded where it is not JSON, or is deeper than a golden: copies of what is nested without end would end the stack.
+Json parsed(const std::string& text) {
+  constexpr int kDeepest = 8;
+  bool deep = false;
+  Json json = Json::parse(
+      text, [&](int depth, Json::parse_event_t, Json&) { return !(deep = deep || depth > kDeepest); }, false);
+  return deep ? Json(Json::value_t::discarded) : json;
+}
+
 // The document, its version and checksum seen to.
 Json checked(const fs::path& file, const std::string& text) {
   if (text.empty()) throw wrong(file, "is truncated: 0 bytes");
   const std::string start = fmt::format("{{\n  \"{}\": ", kVersionKey);
   const bool ours = text.starts_with(start);
-  Json json = Json::parse(text, nullptr, false);
+  Json json = parsed(text);
   if (!ours && !start.starts_with(text) && (json.is_discarded() || !json.is_object() || !json.contains(kVersionKey)))
     throw wrong(file, "is not a golden of gaitlab");
   if (json.is_discarded()) {
@@ -158,6 +165,7 @@ Golden from_json(const Json& json) {
   if (json.contains("resolved")) golden.origin.resolved = resolved_of(json["resolved"], golden.origin.scenario);
   for (const Json& entry : json.at("history"))
     golden.history.push_back({entry.at("number"), entry.at("reason"), entry.at("build")});
+  if (golden.history.empty()) throw std::runtime_error("its history is empty");
   for (const auto& [name, entry] : json.at("numbers").items()) {
     golden.numbers.push_back({name, entry.at("unit"), entry.at("value")});
     golden.number_bands.push_back(band_of(entry));
@@ -171,12 +179,12 @@ RoundedTrace matching_trace(const fs::path& folder, const std::string& wanted) {
   const bool missing = !fs::exists(folder / kTraceFile, error);
   for (const char* name : {kTraceFile, kNextTraceFile}) {
     if (!fs::exists(folder / name, error)) continue;
-    const std::string bytes = read_file(folder / name);
+    const std::string bytes = read_file(folder / name, kMostTrace);
     if (hash(bytes) == wanted) return unpack(bytes, folder / name);
   }
   const fs::path file = folder / kTraceFile;
   if (missing) throw wrong(file, "is missing: the golden is only half there");
-  (void)unpack(read_file(file), file);  // says what is wrong with it, where something is
+  (void)unpack(read_file(file, kMostTrace), file);  // says what is wrong with it, where something is
   throw wrong(file, "belongs to another approval than golden.json");
 }
 
@@ -197,29 +205,11 @@ void take_bands(const Json& columns, Golden& golden) {
 void finish_rename(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder / kNextTraceFile, error) || !fs::exists(folder / kJsonFile, error)) return;
-  const Json json = Json::parse(read_file(folder / kJsonFile), nullptr, false);
-  if (!json.is_object() || !json.contains("trace") || json["trace"] != hash(read_file(folder / kNextTraceFile))) return;
+  const Json json = parsed(read_file(folder / kJsonFile, kMostJson));
+  if (!json.is_object() || !json.contains("trace") || json["trace"] != hash(read_file(folder / kNextTraceFile, kMostTrace)))
+    return;
   fs::rename(folder / kNextTraceFile, folder / kTraceFile, error);
 }
-
-/// One at a time: the files' temporary names are the same for all.
-class Lock {
- public:
-  explicit Lock(const fs::path& folder) : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      ::close(descriptor_);
-      throw InputError(SourceLocation{folder.string()}, "is being written by another process; call again");
-    }
-  }
-  ~Lock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-
- private:
-  int descriptor_;
-};
 
 }  // namespace
 
@@ -231,11 +221,17 @@ void write_golden(const Golden& golden, const fs::path& folder) {
   std::error_code error;
   fs::create_directory(folder, error);
   if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
-  const Lock lock(folder);
+  FolderLock lock;
+  if (!lock.take(folder)) throw wrong(folder, "is being written by another process; call again");
   finish_rename(folder);
   const std::string bytes = pack(golden.run.trace);
   write_file(folder / kNextTraceFile, bytes);
-  write_file(folder / kJsonFile, json_text(golden, bytes));  // from here on the new one holds
+  try {
+    write_file(folder / kJsonFile, json_text(golden, bytes));  // from here on the new one holds
+  } catch (...) {
+    fs::remove(folder / kNextTraceFile, error);
+    throw;
+  }
   fs::rename(folder / kNextTraceFile, folder / kTraceFile, error);
   if (error) throw RunError(fmt::format("{}: cannot be written: {}", (folder / kTraceFile).string(), error.message()));
 }
@@ -246,7 +242,7 @@ Golden read_golden(const fs::path& folder) {
   if (kind == fs::file_type::not_found) throw wrong(folder, "there is no such golden; gaitlab approve makes it");
   if (kind != fs::file_type::directory) throw wrong(folder, "is not a golden: a golden is a folder");
   if (kind_of(file) == fs::file_type::not_found) throw wrong(file, "is missing: the golden is only half there");
-  const Json json = checked(file, read_file(file));
+  const Json json = checked(file, read_file(file, kMostJson));
   try {
     Golden golden = from_json(json);
     golden.run = matching_trace(folder, json.at("trace"));

@@ -5,9 +5,12 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "core/errors.h"
 #include "core/recording/trace.h"
+#include "golden/compare.h"
+#include "golden/golden.h"
 
 namespace gaitlab::test {
 
@@ -41,5 +44,22 @@ inline std::string refusal(const std::function<void()>& action) {
   }
   return "";
 }
+
+using Sentences = std::vector<std::string>;
+
+inline Golden sample_golden(const Trace& trace) {
+  Golden golden;
+  golden.origin = {"walk", "bullet", "semi_implicit", 2.5e-5, "0.1.0+abc (GNU 12.2.0)", "GNU 12.2.0", "00000000000000aa"};
+  golden.history = {{1, "first \"golden\"", "0.1.0+abc"}, {2, "stiffer feet", "0.1.0+abd"}};
+  golden.run = {trace, unpack(pack(trace), "x").precision};
+  golden.rounding.assign(trace.columns.size(), 0.0);
+  golden.bands.assign(trace.columns.size(), Band{1e-5, 3e-4, 1e-6});
+  golden.bands[0] = {};
+  golden.numbers = {{"distance", "m", 0.5}, {"m0/active.torque.peak", "N m", 1.3}};
+  golden.number_bands = {{1e-6, 2e-6, 1e-3}, {1e-3, 0, 1e-6}};
+  return golden;
+}
+
+inline GoldenRun run_of(const Golden& golden) { return {golden.run.trace, golden.numbers}; }
 
 }  // namespace gaitlab::test

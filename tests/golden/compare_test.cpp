@@ -1,0 +1,139 @@
+// Goldens as judges: only what strays fails.
+#include "golden/compare.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "golden/report.h"
+#include "tests/golden/golden_sample.h"
+
+namespace gaitlab::test {
+namespace {
+
+TEST(GoldenCompare, TheSameRunPassesWithNothingLeft) {
+  const Golden golden = sample_golden(walk());
+  Golden read = golden;
+  read.run = unpack(pack(golden.run.trace), "x");  // as it comes from the file
+  read.rounding = mean_squares(golden.run.trace, read.run.trace);
+  EXPECT_LE(std::sqrt(read.rounding[1]), 0.5 * read.run.precision[1]);
+  EXPECT_GT(read.rounding[1], 0);
+  const GoldenDifference d = compare(read, run_of(golden));
+  EXPECT_TRUE(d.passed());
+  EXPECT_EQ(d.findings, Sentences{});
+  for (const ColumnCheck& column : d.columns) {
+    EXPECT_EQ(column.rms, 0) << column.name;
+    EXPECT_LT(column.maximum, 1e-15) << column.name;  // half a step of the grid, less itself
+    EXPECT_FALSE(column.outside);
+  }
+  EXPECT_EQ(d.numbers[0].change, 0);
+}
+
+// A fifth of the grid's step, which rounding alone would make a third of it.
+TEST(GoldenCompare, MeasuresBelowThePrecision) {
+  std::mt19937_64 random(4);
+  Trace noise = walk(1001);
+  for (std::size_t k = 0; k < 1001; ++k) noise.values[k * 5 + 3] = static_cast<double>(random() >> 11U) * 0x1p-53;
+  const Golden golden = sample_golden(noise);
+  Golden read = golden;
+  read.run = unpack(pack(noise), "x");
+  read.rounding = mean_squares(noise, read.run.trace);
+  GoldenRun run = run_of(golden);
+  const double by = 0.2 * read.run.precision[3];
+  for (std::size_t k = 0; k < 1001; ++k) run.trace.values[k * 5 + 3] += random() % 2 == 0 ? by : -by;
+  // Rounding errors e do not cancel over 1001 rows: 2 by e / sqrt(1001) of by^2, e = precision / sqrt(12): 9 %; thrice the
+  // half.
+  EXPECT_NEAR(compare(read, run).columns[2].rms * scales(read.run.trace)[3], by, 0.14 * by);
+}
+
+TEST(GoldenCompare, WhatStraysFailsAlone) {
+  const Golden golden = sample_golden(walk());
+  GoldenRun run = run_of(golden);
+  const std::size_t width = golden.run.trace.columns.size();
+  for (std::size_t k = 50; k < 101; ++k) run.trace.values[k * width + 1] += 2.6 * 1.5e-3;  // 5 bands, from 1 s on
+  run.numbers[0].value = 0.5004;                                                           // 0.8 of its band
+  const GoldenDifference d = compare(golden, run);
+  EXPECT_FALSE(d.passed());
+  EXPECT_EQ(d.findings, Sentences{});
+  EXPECT_FALSE(d.columns[0].passed());
+  EXPECT_TRUE(d.columns[1].passed());
+  EXPECT_TRUE(d.columns[2].passed());
+  EXPECT_TRUE(d.columns[3].passed());
+  // Of 101 rows 51 are off; the range is a sine's at 50 samples a period, 0.2 % less than 2.6; the grid's step is 1.5e-5.
+  EXPECT_NEAR(d.columns[0].rms, 1.5e-3 * std::sqrt(51.0 / 101), 3e-5);
+  EXPECT_NEAR(d.columns[0].maximum, 1.5e-3, 3e-5);
+  EXPECT_EQ(*d.columns[0].outside, 1.0);
+  EXPECT_EQ(d.worst_column()->name, "joint.0.torque");
+  EXPECT_TRUE(d.numbers[0].passed());
+  EXPECT_NEAR(d.worst_number()->ratio(), 0.8, 1e-12);
+  run = run_of(golden);
+  run.numbers[0].value = 0.501;
+  EXPECT_FALSE(compare(golden, run).passed());
+}
+
+// Rounding alone is far beyond three such bands, and no difference.
+TEST(GoldenCompare, RoundingIsNotOutside) {
+  Golden golden = sample_golden(walk());
+  const Trace exact = golden.run.trace;
+  golden.run = unpack(pack(exact), "x");
+  golden.rounding = mean_squares(exact, golden.run.trace);
+  golden.bands.assign(golden.bands.size(), Band{0, 0, 1e-6});
+  GoldenRun run{exact, golden.numbers};
+  EXPECT_FALSE(compare(golden, run).columns[0].outside);
+  for (std::size_t k = 60; k < 101; ++k) run.trace.values[k * 5 + 1] += 2 * golden.run.precision[1];
+  EXPECT_EQ(compare(golden, run).columns[0].outside, 1.2);
+}
+
+TEST(GoldenCompare, LateIsToldApartFromAnotherShape) {
+  const Golden golden = sample_golden(walk());
+  GoldenRun run = run_of(golden);
+  for (std::size_t k = 0; k < 101; ++k)
+    run.trace.values[k * 5 + 1] = 1.3 * std::sin(2 * std::numbers::pi * (static_cast<double>(k) * kSpacing - 0.013));
+  const ColumnCheck torque = compare(golden, run).columns[0];
+  EXPECT_FALSE(torque.passed());
+  EXPECT_NEAR(torque.time_shift, 0.013, 1e-4);  // see time_shift: wrong by (w h)^3 of a sample, 0.002 * 0.02 s
+  EXPECT_LT(torque.rms_after_shift, 0.01 * torque.rms);
+}
+
+TEST(GoldenCompare, FormComesFirst) {
+  const Golden golden = sample_golden(walk());
+  GoldenRun run = run_of(golden);
+  run.trace.values[3 * 5 + 2] = kNan;
+  GoldenDifference d = compare(golden, run);
+  EXPECT_EQ(d.findings, Sentences{"joint.1.torque is not finite at t = 0.06 s"});
+  EXPECT_EQ(d.columns.size(), 3U);
+  EXPECT_FALSE(d.passed());
+
+  run = run_of(golden);
+  run.trace = walk(61);
+  d = compare(golden, run);
+  EXPECT_EQ(d.findings, Sentences{"61 rows, in the golden 101"});
+  EXPECT_EQ(d.columns.size(), 4U);
+  EXPECT_TRUE(d.columns[0].passed());
+  EXPECT_FALSE(d.passed());
+
+  run = run_of(golden);
+  run.trace.columns[2].name = "joint.7.torque";
+  EXPECT_EQ(compare(golden, run).findings, (Sentences{"1 column only in the golden: joint.1.torque",
+                                                      "1 column only in this run: "
+                                                      "joint.7.torque"}));
+  run = run_of(golden);
+  for (std::size_t k = 0; k < 101; ++k) run.trace.values[k * 5] *= 0.5;
+  d = compare(golden, run);
+  EXPECT_EQ(d.findings, Sentences{"a row every 0.01 s, in the golden every 0.02 s"});
+  EXPECT_TRUE(d.columns.empty());
+  EXPECT_EQ(d.worst_column(), nullptr);
+
+  run = run_of(golden);
+  run.numbers[1].value = kNan;
+  d = compare(golden, run);
+  EXPECT_EQ(d.findings, Sentences{"m0/active.torque.peak is not finite"});
+  EXPECT_FALSE(d.numbers[1].passed());
+  EXPECT_EQ(d.worst_number()->name, "m0/active.torque.peak");
+  run.numbers.pop_back();
+  EXPECT_EQ(compare(golden, run).findings, Sentences{"m0/active.torque.peak is a number of the golden only"});
+  EXPECT_FALSE(compare(golden, {}).passed());
+}
+
+}  // namespace
+}  // namespace gaitlab::test
