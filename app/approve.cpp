@@ -14,7 +14,7 @@
 #include "app/commands.h"
 #include "app/progress.h"
 #include "core/errors.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "golden/advice.h"
 #include "golden/cases.h"
 #include "golden/compare.h"

@@ -7,8 +7,8 @@
 
 #include "app/commands.h"
 #include "app/run_time.h"
+#include "core/files/atomic_file.h"
 #include "core/plugin/robot_info.h"
-#include "core/recording/atomic_file.h"
 #include "core/scenario/wording.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
@@ -39,7 +39,7 @@ void write_page(const Scenario& s, const std::string& file) {
   const Recording start = report::start_row(s);
   report::Verdict verdict;
   verdict.word = "not judged";
-  write_file(file, report::page(report::page_data(s, start, report::summarise(s, start, 0), verdict)));
+  write_file(file, report::page(report::page_data(s, start, report::summarise(s, start, 0), verdict)), Existing::refused);
 }
 
 constexpr double kLittleCreep = 0.001;  // m/s (docs/modules.md, wheels)

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/app.h"
+#include "core/files/atomic_file.h"
 
 namespace gaitlab::app {
 
@@ -42,8 +43,9 @@ std::string not_empty(const std::string& text);
 void check_new(const std::string& name);
 
 inline constexpr const char* kPageFile = "report.html";  ///< in a run folder
-/// InputError where a page cannot be written there: as check_new, but for `own`, which it may take the place of.
-void check_page(const std::string& name, const std::filesystem::path& own = {});
+/// InputError where a page cannot be written there: as check_new, but for `own`, which it may take the place of. Returns how it
+/// is to be written.
+Existing check_page(const std::string& name, const std::filesystem::path& own = {});
 /// Says where a page is.
 void print_page(const std::filesystem::path& file);
 
@@ -54,6 +56,10 @@ void add_check(Commands& commands);
 void add_manuals(Commands& commands);
 void add_converge(Commands& commands);
 void add_swap(Commands& commands);
+void add_sweep(Commands& commands);
+void add_optimize(Commands& commands);
+void add_evaluate(Commands& commands);
+void add_study(Commands& commands);
 void add_dynamics(Commands& commands);
 void add_figure(Commands& commands);
 void add_compare(Commands& commands);

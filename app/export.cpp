@@ -5,7 +5,7 @@
 #include "app/commands.h"
 #include "app/stored_scenario.h"
 #include "core/errors.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "core/recording/csv.h"
 #include "core/recording/run_files.h"
 #include "interchange/gltf.h"
@@ -33,7 +33,7 @@ void refuse_sets(const ExportArguments& arguments, const char* expected) {
 void export_trace(const ExportArguments& arguments) {
   refuse_sets(arguments, "--to mjcf or urdf");
   const Trace trace = read_trace(arguments.source.file);
-  write_csv(trace, arguments.file);
+  write_csv(trace, arguments.file, Existing::refused);
   fmt::print("{}: {} rows of {} columns\n", arguments.file, trace.rows(), trace.columns.size());
 }
 
@@ -46,7 +46,7 @@ void export_robot(const ExportArguments& arguments) {
   }
   Catalog catalog = standard_catalog();
   const Scenario scenario = read(arguments.source, catalog);
-  write_file(arguments.file, arguments.format == "mjcf" ? to_mjcf(scenario) : to_urdf(scenario));
+  write_file(arguments.file, arguments.format == "mjcf" ? to_mjcf(scenario) : to_urdf(scenario), Existing::refused);
   fmt::print("{}: {} bodies, {} joints\n", arguments.file, scenario.robot->bodies.size(), scenario.robot->joints.size());
 }
 
@@ -63,7 +63,7 @@ GltfLook look() {
 
 void write_gltf(const ExportArguments& arguments, const Scenario& scenario, const Recording* recording) {
   const Gltf made = to_gltf(scenario, recording, look());
-  write_file(arguments.file, made.bytes);
+  write_file(arguments.file, made.bytes, Existing::refused);
   fmt::print("{}: {} bodies, {} joints, {}\n", arguments.file, scenario.robot->bodies.size(), scenario.robot->joints.size(),
              made.frames > 1 ? fmt::format("{} frames", made.frames) : "standing");
   if (const auto hidden = bodies_without_shape(*scenario.robot); !hidden.empty()) {

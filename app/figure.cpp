@@ -7,7 +7,7 @@
 #include "app/commands.h"
 #include "app/stored_scenario.h"
 #include "core/errors.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "core/recording/csv.h"
 #include "core/recording/recording_file.h"
 #include "core/recording/run_files.h"
@@ -88,7 +88,7 @@ std::vector<report::PaperRun> read_runs(const report::Recipe& recipe, const std:
 /// somebody else's.
 void check_free(const fs::path& figure, const fs::path& file, const std::string& bytes) {
   if (kind_of(figure) != fs::file_type::not_found || kind_of(file) == fs::file_type::not_found) return;
-  if (kind_of(file) == fs::file_type::regular && read_file(file) == bytes) return;
+  if (kind_of(file) == fs::file_type::regular && read_file(file, kMostPage) == bytes) return;
   throw InputError(SourceLocation{file.string()},
                    fmt::format("exists with other numbers, and {} does not exist; nothing was written", figure.string()));
 }
@@ -138,7 +138,7 @@ int figure(const FigureArguments& arguments) {
   }
   const std::string drawn = picture(figure, file);
   for (std::size_t i = 0; i < files.size(); ++i) write_file(files[i], texts[i]);
-  write_file(file, drawn);
+  write_file(file, drawn, arguments.out ? Existing::replaced : Existing::refused);
   for (const std::string& note : figure.notes()) fmt::print(stderr, "{}: note: {}\n", arguments.recipe, note);
   const report::Paper& paper = figure.paper();
   fmt::print("{}: {:.1f} x {:.1f} mm\n", file.string(), paper.width * paper.mm, paper.height * paper.mm);

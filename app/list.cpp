@@ -12,6 +12,7 @@
 #include "core/scenario/wording.h"
 #include "report/module_table.h"
 #include "report/recipe.h"
+#include "studies/study_file.h"
 
 namespace gaitlab::app {
 
@@ -102,8 +103,19 @@ int explain(const ManualArguments& arguments) {
     fmt::print("{}", explain_scenario(catalog));
     return 0;
   }
-  const std::vector<std::string> known = kinds();
-  if (std::find(known.begin(), known.end(), kind) == known.end()) unknown("kind", kind, known);
+  if (kind == "study" && name.empty()) {
+    fmt::print("{}", studies::explain_study());
+    return 0;
+  }
+  std::vector<std::string> known = kinds();
+  if (std::find(known.begin(), known.end(), kind) == known.end()) {
+    known.emplace_back("study");
+    unknown("kind", kind, known);
+  }
+  if (name.empty())
+    throw InputError(SourceLocation{"gaitlab explain"},
+                     "NAME is missing: name as `gaitlab list` prints it; of a module also its file, NAME.yaml; expected "
+                     "gaitlab explain [KIND] [NAME]");
   if (kind == "module") return explain_module(name, catalog);
   const std::vector<std::string> all = names(kind, catalog);
   if (std::find(all.begin(), all.end(), name) == all.end()) {
@@ -130,6 +142,7 @@ int reference(const ManualArguments& arguments) {
   const Catalog catalog = standard_catalog();
   fmt::print("{}", arguments.kind == "scenario" ? scenario_page(catalog)
                    : arguments.kind == "figure" ? report::recipe_page()
+                   : arguments.kind == "study"  ? studies::study_page()
                                                 : plugins_page(catalog));
   return 0;
 }
@@ -146,10 +159,8 @@ void add_manuals(Commands& commands) {
   add_command<ManualArguments>(
       commands, "explain", "Print the manual of KIND NAME; without them, that of the scenario file.", explain,
       [](CLI::App& command, ManualArguments& arguments) {
-        CLI::Option* kind =
-            command.add_option("KIND", arguments.kind, "cpg, controller, actuator, engine, module, robot, figure");
-        kind->needs(command.add_option("NAME", arguments.name,
-                                       "name as `gaitlab list` prints it; of a module also its file, NAME.yaml"));
+        command.add_option("KIND", arguments.kind, "cpg, controller, actuator, engine, module, robot, figure; or study, alone");
+        command.add_option("NAME", arguments.name, "name as `gaitlab list` prints it; of a module also its file, NAME.yaml");
         add_plugins(command, arguments);
       });
   add_command<ManualArguments>(commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,
@@ -157,9 +168,9 @@ void add_manuals(Commands& commands) {
   add_command<ManualArguments>(commands, "reference", "Print a page of docs/reference.", reference,
                                [](CLI::App& command, ManualArguments& arguments) {
                                  command.group("");  // not in the help
-                                 command.add_option("PAGE", arguments.kind, "scenario, plugins or figure")
+                                 command.add_option("PAGE", arguments.kind, "scenario, plugins, figure or study")
                                      ->required()
-                                     ->check(CLI::IsMember({"scenario", "plugins", "figure"}));
+                                     ->check(CLI::IsMember({"scenario", "plugins", "figure", "study"}));
                                });
 }
 

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
+#include <system_error>
 
 #include "app/commands.h"
 #include "app/skeletons.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "core/scenario/wording.h"
 
 namespace gaitlab::app {
@@ -63,14 +66,46 @@ std::string filled(std::string text, const std::string& mark, const std::string&
   return text;
 }
 
-fs::path new_folder(const std::string& name) {
-  fs::path folder = fs::path(name).lexically_normal();
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(folder, error))) throw InputError(SourceLocation{name}, "exists; nothing was written");
-  fs::create_directories(folder, error);
-  if (error) throw InputError(SourceLocation{name}, "cannot be made: " + error.message());
-  return folder;
-}
+/// A folder that gets its name when all is in it, and is gone where that fails.
+class NewFolder {
+ public:
+  explicit NewFolder(const std::string& name) : name_(name), folder_(fs::path(name).lexically_normal()) {
+    if (!folder_.has_filename()) folder_ = folder_.parent_path();
+    std::error_code error;
+    if (fs::exists(fs::symlink_status(folder_, error))) refuse(EEXIST);
+    const fs::path beside = folder_.has_parent_path() ? folder_.parent_path() : ".";
+    fs::create_directories(beside, error);
+    if (error) refuse(error.value());
+    std::string part = (beside / ("." + folder_.filename().string() + ".XXXXXX")).string();
+    if (::mkdtemp(part.data()) == nullptr) refuse(errno);
+    part_ = part;
+    constexpr auto kOthers = fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read | fs::perms::others_exec;
+    fs::permissions(part_, kOthers, fs::perm_options::add, error);
+  }
+  ~NewFolder() {
+    std::error_code none;
+    if (!part_.empty()) fs::remove_all(part_, none);
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+
+  /// Until commit().
+  [[nodiscard]] const fs::path& part() const { return part_; }
+  fs::path commit() {
+    if (const int error = rename_new(part_, folder_); error != 0) refuse(error);
+    part_.clear();
+    return folder_;
+  }
+
+ private:
+  [[noreturn]] void refuse(int error) const {
+    throw InputError(SourceLocation{name_}, error == EEXIST ? "exists; nothing was written"
+                                                            : "cannot be made: " + std::generic_category().message(error));
+  }
+
+  std::string name_;
+  fs::path folder_, part_;
+};
 
 /// Where this program is installed, if it is.
 std::string prefix() {
@@ -83,20 +118,15 @@ int new_plugin(const NewPluginArguments& arguments) {
   const Skeleton& text = skeleton(arguments.kind);
   const std::string& name = arguments.name;
   check_name(text, name);
-  const fs::path folder = new_folder(arguments.out.value_or(name));
+  NewFolder made(arguments.out.value_or(name));
   const auto write = [&](const std::string& file, const std::string& content) {
-    write_file(folder / file, filled(filled(content, "@NAME@", name), "@CLASS@", class_name(name, arguments.kind)));
+    write_file(made.part() / file, filled(filled(content, "@NAME@", name), "@CLASS@", class_name(name, arguments.kind)));
   };
-  try {
-    write("CMakeLists.txt", kSkeletonBuild);
-    write(name + ".cpp", text.code);
-    write("scenario.yaml", text.scenario);
-    write("test.cmake", filled(kSkeletonTest, "@TEST@", text.test));
-  } catch (...) {
-    std::error_code none;
-    fs::remove_all(folder, none);
-    throw;
-  }
+  write("CMakeLists.txt", kSkeletonBuild);
+  write(name + ".cpp", text.code);
+  write("scenario.yaml", text.scenario);
+  write("test.cmake", filled(kSkeletonTest, "@TEST@", text.test));
+  const fs::path folder = made.commit();
   fmt::print("{0}: CMakeLists.txt, {1}.cpp, scenario.yaml, test.cmake; next:\n  cd {0}\n", folder.string(), name);
   fmt::print("  cmake -B build -DCMAKE_PREFIX_PATH={}{}\n", prefix(),
              prefix() == "PREFIX" ? "      # where gaitlab is installed: cmake --install build/release --prefix PREFIX" : "");

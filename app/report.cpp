@@ -11,21 +11,17 @@
 #include "app/commands.h"
 #include "app/stored_scenario.h"
 #include "core/errors.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "core/recording/run_files.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/changed_lines.h"
-#include "core/scenario/joint_patterns.h"
 #include "core/scenario/resolved.h"
-#include "core/scenario/sections.h"
 #include "report/demand.h"
 #include "report/page.h"
 #include "report/page_overlay.h"
 #include "report/plugin_names.h"
 #include "report/run_figure.h"
 #include "report/summary.h"
-#include "report/trust.h"
-#include "report/warnings.h"
 
 namespace gaitlab::app {
 
@@ -69,7 +65,7 @@ std::vector<std::string> told_missing(std::vector<std::string> missing, const fs
 
 /// What the run's own `--demand` found, which no recording holds.
 void keep_demand(report::Verdict& verdict, const fs::path& file) {
-  if (kind_of(file) != fs::file_type::regular || report::take_demand(verdict, read_file(file))) return;
+  if (kind_of(file) != fs::file_type::regular || report::take_demand(verdict, read_file(file, kMostJson))) return;
   fmt::print(stderr, "{}: note: is not of this recording, so that what --demand found there is left out\n", file.string());
 }
 
@@ -118,7 +114,8 @@ void warn(const JudgedRun& run) {
 
 int report_one(const ReportArguments& arguments) {
   const std::string& name = arguments.runs.front();
-  if (arguments.page) check_page(*arguments.page, trace_file(name).parent_path() / kPageFile);
+  Existing existing = Existing::refused;
+  if (arguments.page) existing = check_page(*arguments.page, trace_file(name).parent_path() / kPageFile);
   Catalog catalog = standard_catalog();
   const JudgedRun run = judged_run(name, catalog, arguments.joints, arguments.shown);
   const Scenario& scenario = run.read.scenario;
@@ -132,7 +129,7 @@ int report_one(const ReportArguments& arguments) {
   }
   std::string page;
   if (arguments.out || arguments.page) page = report::page(run.page_data());
-  if (arguments.page) write_file(*arguments.page, page);
+  if (arguments.page) write_file(*arguments.page, page, existing);
   if (arguments.out) {
     RunFolder out(*arguments.out, scenario.name);
     write_file(out.path() / "figure.svg", report::run_figure(scenario, run.recording(), run.summary));
@@ -157,14 +154,14 @@ std::string settings(const Scenario& scenario) { return report::without_folders(
 int report_two(const ReportArguments& arguments) {
   const fs::path own = trace_file(arguments.runs[0]).parent_path() / kPairFile;
   const std::string file = arguments.page.value_or(own.string());
-  check_page(file, own);
+  const Existing existing = check_page(file, own);
   std::array<Catalog, 2> catalogs{standard_catalog(), standard_catalog()};
   const JudgedRun a = judged_run(arguments.runs[0], catalogs[0], {}, arguments.shown);
   const JudgedRun b = judged_run(arguments.runs[1], catalogs[1], {}, arguments.shown);
   report::PageOverlay overlay;
   overlay.differs = changed_lines(settings(a.read.scenario), settings(b.read.scenario), 6);
   constexpr std::size_t kEach = report::kMostData / 2;
-  write_file(file, report::page(report::overlaid(a.page_data(kEach), b.page_data(kEach), overlay)));
+  write_file(file, report::page(report::overlaid(a.page_data(kEach), b.page_data(kEach), overlay)), existing);
   int code = 0;
   for (const auto& [label, run] : {std::pair{"A", &a}, std::pair{"B", &b}}) {
     fmt::print("{}: ", label);
@@ -185,82 +182,6 @@ int report(const ReportArguments& arguments) {
 }
 
 }  // namespace
-
-void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                   const report::Verdict& verdict, const SummaryOptions& shown) {
-  const std::string text = report::to_text(summary, scenario, recording, shown.verbose);
-  const std::size_t head = text.find('\n') + 1;
-  fmt::print("{}", text.substr(0, head));
-  const char* title = "verdict";
-  for (const std::string& line : report::to_lines(verdict)) {
-    fmt::print("  {:<13} {}\n", title, line);
-    title = "";
-  }
-  fmt::print("{}", text.substr(head));
-  if (shown.joints) fmt::print("{}", report::joint_table(summary, scenario));
-}
-
-report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                       const report::Overlaps& overlaps, const SummaryOptions& shown) {
-  report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
-  if (!shown.demand || Judged::limited(summary.judged.joints) == 0) return verdict;
-  Catalog catalog = standard_catalog();
-  const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario)};
-  Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
-  if (!report::raise_limits(twin)) {
-    verdict.demand_doubt = "the actuator declares no limits above 0 that could be raised";
-    return verdict;
-  }
-  report::add_demand(verdict, scenario, summary, report::demand(twin, recording, summary));
-  return verdict;
-}
-
-int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {
-  if (!shown.fail_infeasible) return 0;
-  return verdict.word == "failed" ? 1 : verdict.word == "infeasible" ? 3 : 0;
-}
-
-void add_shown(CLI::App& command, SummaryOptions& shown) {
-  command.add_flag("--joints", shown.joints, "print a row per joint, the most loaded first");
-  command.add_flag("--fail-infeasible", shown.fail_infeasible,
-                   "exit code 3 where the verdict is infeasible, 1 where the run failed");
-  command.add_flag("--demand", shown.demand,
-                   "simulate once more without the limits of the motors where joints reach them, and tell how much is missing");
-  command.add_flag("--verbose", shown.verbose, "print the energy ledger and the limit of the step, too");
-}
-
-void add_joint(CLI::App& command, std::vector<std::string>& joints) {
-  command
-      .add_option("--joint", joints,
-                  "joint to draw in figure.svg, by name or pattern ('m3/*'); once per joint (default: the most loaded one)")
-      ->allow_extra_args(false);
-}
-
-void draw_joints(Scenario& scenario, const std::vector<std::string>& joints) {
-  if (joints.empty()) return;
-  const std::vector<std::string> known = joint_names(*scenario.robot);
-  std::vector<Problem> problems;
-  for (const std::string& name : joints) {
-    if (const std::string wrong = no_joint(name, known); !wrong.empty())
-      problems.push_back({SourceLocation{"--joint " + name}, wrong});
-  }
-  if (!problems.empty()) throw InputError(std::move(problems));
-  scenario.figure.joints = joints_meant(joints, known);
-}
-
-void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                 const report::Overlaps& overlaps) {
-  if (const std::string fall = report::fall_warning(scenario, recording); !fall.empty())
-    fmt::print(stderr, "{}: warning: {}\n", scenario.file, fall);
-  const std::string where = to_string(scenario.place("physics.step"));
-  const std::string warning = report::stability_warning(summary, scenario, recording);
-  if (!warning.empty()) fmt::print(stderr, "{}: warning: {}\n", where, warning);
-  for (const report::Warning& doubt : report::run_warnings(scenario, recording, overlaps))
-    fmt::print(stderr, "{}: warning: {}\n", to_string(doubt.place), doubt.text);
-  if (recording.outcome != "done") return;
-  for (const std::string& doubt : report::trust_warnings(scenario, recording))
-    fmt::print(stderr, "{}: warning: {}\n", where, doubt);
-}
 
 void add_report(Commands& commands) {
   add_command<ReportArguments>(

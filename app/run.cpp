@@ -1,15 +1,14 @@
 #include <fmt/format.h>
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <functional>
 
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/run_time.h"
-#include "core/recording/atomic_file.h"
+#include "app/stop_on_signal.h"
+#include "core/files/atomic_file.h"
 #include "core/recording/recording_file.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
@@ -23,22 +22,6 @@
 namespace gaitlab::app {
 
 namespace {
-
-std::atomic<bool> interrupted{false};
-
-/// SIGINT and SIGTERM end the run at the next step; what was simulated is written.
-class StopOnSignal {
- public:
-  StopOnSignal() {
-    struct sigaction action = {};
-    action.sa_handler = [](int) { interrupted = true; };
-    for (const int signal : {SIGINT, SIGTERM}) {
-      struct sigaction before = {};
-      sigaction(signal, nullptr, &before);
-      if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // a shell's background job ignores SIGINT
-    }
-  }
-};
 
 void write_run(const std::filesystem::path& folder, const std::string& format, const Scenario& scenario,
                const Recording& recording, const report::Summary& summary) {
@@ -82,13 +65,13 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
         scenario.file, needed.rows, needed.columns, needed.bytes() / 1e6);
   }
 
-  const StopOnSignal stop;
+  const StopOnSignal stop(StopOnSignal::Second::is_ignored);
   std::string failure;
   const auto start = std::chrono::steady_clock::now();
   try {
     if (!arguments.quiet) note_time(scenario, simulation);
     const Progress progress(arguments.quiet);
-    if (!simulation.run(std::cref(progress), &interrupted))
+    if (!simulation.run(std::cref(progress), &stopped()))
       failure = fmt::format("interrupted at t = {:.6g} s", simulation.time());
   } catch (const SimulationError& error) {
     failure = error.what();

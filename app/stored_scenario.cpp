@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "core/errors.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "core/recording/h5.h"
 #include "core/recording/run_files.h"
 #include "core/scenario/node.h"
@@ -91,7 +91,7 @@ std::vector<PluginFile> recorded_plugins(const StoredScenario& stored) {
 StoredScenario stored_scenario(const std::string& run) {
   const fs::path yaml = fs::path(run) / "scenario.resolved.yaml";
   std::error_code none;
-  if (fs::exists(yaml, none)) return {yaml.string(), yaml.string(), read_file(yaml)};
+  if (fs::exists(yaml, none)) return {yaml.string(), yaml.string(), read_file(yaml, kMostScenario)};
   const fs::path trace = trace_file(run);
   if (trace.extension() == ".h5") return {"", trace.string() + " (its scenario)", read_h5(trace).origin.scenario};
   throw InputError(SourceLocation{trace.string()}, "a CSV trace does not hold its scenario, and there is no " + yaml.string());
@@ -106,8 +106,7 @@ std::vector<PluginChange> changed_plugins(const StoredScenario& stored) {
   return changed;
 }
 
-Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugins others) {
-  std::vector<std::string> sets;
+Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugins others, std::vector<std::string> sets) {
   if (others == OtherPlugins::taken && !changed_plugins(stored).empty()) {
     nlohmann::json paths = nlohmann::json::array();  // JSON is YAML: it quotes whatever a path holds
     for (const PluginFile& file : recorded_plugins(stored)) paths.push_back(file.path);

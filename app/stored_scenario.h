@@ -27,8 +27,8 @@ std::vector<PluginChange> changed_plugins(const StoredScenario& stored);
 /// What to do with such libraries: a run from the record refuses them, a comparison with it takes them and says so.
 enum class OtherPlugins { refused, taken };
 
-/// Reads it. InputError with places in `shown`.
-Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugins others);
+/// Reads it, with more settings, as for --set. InputError with places in `shown`.
+Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugins others, std::vector<std::string> sets = {});
 
 /// A run as it lies in its folder.
 struct StoredRun {

@@ -7,7 +7,7 @@
 
 #include "app/commands.h"
 #include "core/errors.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "core/recording/run_folder.h"
 #include "core/simulation/batch.h"
 #include "golden/report.h"

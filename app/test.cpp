@@ -13,7 +13,7 @@
 #include "app/failure_page.h"
 #include "app/progress.h"
 #include "core/errors.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
 #include "golden/advice.h"
@@ -210,7 +210,7 @@ void check_report(const std::string& path) {
   const SourceLocation place{"--junit " + path};
   const fs::file_type kind = kind_of(path);
   if (kind == fs::file_type::directory) throw InputError(place, "is a folder");
-  if (kind == fs::file_type::regular && fs::file_size(path) > 0 && !read_file(path).starts_with("<?xml"))
+  if (kind == fs::file_type::regular && size_of(path) > 0 && !read_start(path, 5).starts_with("<?xml"))
     throw InputError(place, "is there and is not XML; it would be overwritten");
   const fs::path folder = fs::path(path).parent_path();
   if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)

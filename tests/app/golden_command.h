@@ -1,6 +1,6 @@
 // What the tests of `approve` and `test` share: a folder with a scenario and its golden.
 #pragma once
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "golden/golden.h"
 #include "tests/program/fixture.h"
 

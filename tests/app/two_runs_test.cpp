@@ -1,7 +1,7 @@
 // `gaitlab report RUN_A RUN_B`: one page of two runs.
 #include <nlohmann/json.hpp>
 
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {

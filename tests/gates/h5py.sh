@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A trace read by h5py with the lines of docs/conventions.md as they stand there, against the same trace as CSV.
-# usage: h5py.sh PROGRAM     (exit code 77: no h5py here)
+# Then forged ones. usage: h5py.sh PROGRAM     (exit code 77: no h5py here; FLIPS, 40: files with flipped bits)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
@@ -45,3 +45,6 @@ assert ticks["t"][-1] == t[-1] and max(ticks["joint.3.torque_peak"]) >= max(abs(
 TEXT
 "$python" recipe.py
 ok "h5py reads names, units, definitions, origin, tables and every bit; the hash is that of docs/conventions.md"
+mkdir forged && cd forged
+if "$python" "$root/tests/gates/forged.py" "$program" ../runs/walk/trace.h5 "${FLIPS:-40}"; then ok "forged traces are refused"; else bad "forged traces"; fi
+verdict

@@ -60,7 +60,7 @@ whole() {
 
 count_state() {
   local folder=$1 what=nothing
-  if compgen -G "$folder/*.part" >/dev/null; then what="a .part file"
+  if compgen -G "$folder/.*.part" >/dev/null; then what="a .part file"
   elif [[ -e $folder/summary.json ]]; then what="a whole run"
   elif compgen -G "$folder/*" >/dev/null; then what="some of the files"
   fi

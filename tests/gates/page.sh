@@ -81,30 +81,7 @@ END
 expect 0 "$program" run jointless.yaml --quiet --out jointless
 expect 0 "$program" check jointless.yaml --quiet --page built_ball.html
 # Hinges without a motor: joint 0 of two, and the only one.
-cat >castor.yaml <<'END'
-gaitlab: 1
-robot:
-  base: fixed
-  position: [0, 0, 1]
-  modules:
-    gaitlab_module: 2
-    name: cart
-    bodies:
-      support: {mass: 1, inertia: [1, 1, 1, 0, 0, 0], shape: [{box: [0.1, 0.1, 0.1]}]}
-      tail: {mass: 0.1, com: [0, 0, -0.05], inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0], shape: [{sphere: 0.03}]}
-      upper: {mass: 0.2, com: [0, 0, -0.05], inertia: [1e-3, 1e-3, 1e-3, 0, 0, 0], shape: [{sphere: 0.03}]}
-    hinges:
-      - {name: castor, parent: support, child: tail, axis: [0, 1, 0], range: free, drive: none, damping: 0.01}
-      - {name: arm, parent: support, child: upper, origin: [0.3, 0, 0], axis: [0, 1, 0], range: [-1, 1]}
-    faces:
-      - {id: 0, body: support, gender: none, origin: [0, 0, 0.05], normal: [0, 0, 1], reference: [1, 0, 0]}
-ground: {type: none}
-contact: {on: none}
-physics: {engine: articulated}
-cpg: {type: phase_oscillator, frequency: 1, amplitude: 0.3}
-duration: 2
-trace: {columns: ["joint.*"]}
-END
+cp -- "$root/tests/data/castor-first.yaml" castor.yaml
 sed -e '/name: arm/d' -e '/upper:/d' -e '/^cpg:/d' -e 's,^contact:,initial: {angles: 0.5}\n&,' castor.yaml >motorless.yaml
 expect 0 "$program" run castor.yaml --quiet --out castor
 expect 0 "$program" run motorless.yaml --quiet --out motorless

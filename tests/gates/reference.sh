@@ -24,5 +24,6 @@ page() {
 page docs/reference/scenario.md reference scenario
 page docs/reference/plugins.md reference plugins
 page docs/reference/figure.md reference figure
+page docs/reference/study.md reference study
 page scenarios/gaitlab.schema.json schema
 verdict

@@ -1,0 +1,283 @@
+// The program `gaitlab-mpi`: the studies of `gaitlab`, whose runs the processes that mpirun started do together. Each reads the
+// same files. The first (rank 0) asks for runs, writes the journal and does runs, too; the others do the runs that it sends, in
+// packs, and answer with rows. A rank that dies ends them all: what has ended is in the journal.
+#include <mpi.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <future>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "app/program.h"
+#include "app/study_run.h"
+#include "core/errors.h"
+#include "report/build_id.h"
+#include "studies/draws.h"
+#include "studies/parcel.h"
+#include "studies/study_folder.h"
+
+namespace {
+
+using namespace gaitlab;
+using namespace gaitlab::studies;
+
+enum Tag : int {
+  kHello = 1,
+  kRows,
+  kJobs,
+  kOver,
+  kBye
+};                                                // to the first: kHello, kRows (asks for more jobs), kBye (why it ended)
+constexpr std::chrono::microseconds kOften{200};  // between looks: MPI would wait at the cost of a processor
+
+struct Message {
+  int rank = 0, tag = 0;
+  Bytes bytes;
+};
+
+Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+std::string text_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+
+void send(int rank, Tag tag, const Bytes& bytes) {
+  MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, rank, tag, MPI_COMM_WORLD);
+}
+
+std::optional<Message> received() {
+  MPI_Status status;
+  int there = 0;
+  MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
+  if (there == 0) return {};
+  int size = 0;
+  MPI_Get_count(&status, MPI_BYTE, &size);
+  Message message{status.MPI_SOURCE, status.MPI_TAG, Bytes(static_cast<std::size_t>(size))};
+  MPI_Recv(message.bytes.data(), size, MPI_BYTE, message.rank, message.tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  return message;
+}
+
+/// Host, study, scenario and build, a line each: what must be the same everywhere but for the first.
+std::string hello(const Plan& plan) {
+  const JournalHead head = plan.head();
+  return host() + "\n" + digest(head.definition) + "\n" + digest(head.scenario) + "\n" + report::build_id();
+}
+
+std::size_t pack_size(const BatchSettings& settings) {
+  constexpr std::size_t kLanes = 8;  // the most of any engine
+  return static_cast<std::size_t>(settings.threads) * (settings.lanes > 0 ? settings.lanes : kLanes);
+}
+
+/// Rows of jobs, in the order of their numbers; nothing: `stop` was set.
+std::optional<std::vector<Row>> done(const Executor& local, std::vector<Job> jobs, std::atomic<bool>& stop) {
+  std::vector<Row> all;
+  std::mutex mutex;
+  std::size_t at = 0;
+  const Work work{.next = [&] { return at < jobs.size() ? std::optional(std::move(jobs[at++])) : std::nullopt; },
+                  .begin = [](std::span<const std::uint64_t>) {},
+                  .end =
+                      [&](std::vector<Row>&& rows) {
+                        const std::lock_guard lock(mutex);
+                        std::ranges::move(rows, std::back_inserter(all));
+                      }};
+  if (!local(work, stop)) return {};
+  std::ranges::sort(all, {}, &Row::run);
+  return all;
+}
+
+/// The other processes, as the first one sees them.
+class Others {
+ public:
+  explicit Others(int size) : left_(static_cast<std::size_t>(size), true) { left_[0] = false; }
+
+  /// All have read what the first has read; InputError: one has not.
+  void greet(const Plan& plan) {
+    const std::vector<std::string> own = lines(hello(plan));
+    for (auto waits = std::ranges::count(left_, true); waits > 0;) {
+      const std::optional<Message> message = next();
+      if (message && message->tag == kBye) throw RunError("rank " + std::to_string(message->rank) + " was stopped");
+      if (!message || message->tag != kHello) continue;
+      --waits;
+      const std::vector<std::string> other = lines(text_of(message->bytes));
+      constexpr std::array<const char*, 3> kWhat{"another study", "another scenario", "another build of the program"};
+      for (std::size_t k = 1; k < own.size(); ++k) {
+        if (other[k] != own[k])
+          throw InputError(SourceLocation{"gaitlab-mpi"}, "rank " + std::to_string(message->rank) + " on " + other[0] +
+                                                              " has " + kWhat[k - 1] + " than rank 0 on " + own[0] +
+                                                              "; expected the same files and the same program everywhere");
+      }
+    }
+  }
+
+  /// An Executor's call.
+  bool lead(const Executor& local, std::size_t pack, const Work& work, std::atomic<bool>& stop) {
+    std::mutex asking;
+    const auto take = [&] {
+      const std::lock_guard lock(asking);
+      std::vector<Job> jobs;
+      std::vector<std::uint64_t> runs;
+      while (jobs.size() < pack && !stop) {
+        std::optional<Job> job = work.next();
+        if (!job) break;
+        runs.push_back(job->row.run);
+        jobs.push_back(std::move(*job));
+      }
+      if (!jobs.empty()) work.begin(runs);
+      return jobs;
+    };
+    std::future<void> own = std::async(std::launch::async, [&] {
+      try {
+        for (std::vector<Job> jobs = take(); !jobs.empty() && !stop; jobs = take()) {
+          if (std::optional<std::vector<Row>> rows = done(local, std::move(jobs), stop)) work.end(std::move(*rows));
+        }
+      } catch (...) {
+        stop = true;
+        throw;
+      }
+    });
+    std::set<int> busy;  // that do packs
+    bool more = true;
+    try {
+      while (!stop && (more || !busy.empty() || own.wait_for(std::chrono::seconds(0)) != std::future_status::ready)) {
+        for (; more && !idle_.empty(); idle_.pop_back()) {
+          const std::vector<Job> jobs = take();
+          more = !jobs.empty();
+          if (!more) break;
+          busy.insert(idle_.back());
+          send(idle_.back(), kJobs, packed(jobs));
+        }
+        const std::optional<Message> message = next();
+        if (!message) continue;
+        busy.erase(message->rank);
+        if (message->tag == kBye) stop = true;
+        if (message->tag != kRows) continue;
+        idle_.push_back(message->rank);
+        if (!message->bytes.empty()) work.end(rows_of(message->bytes));  // else it has just begun
+      }
+    } catch (...) {
+      stop = true;
+      own.wait();
+      throw;
+    }
+    own.get();
+    if (stop) recall(busy);
+    return !stop;
+  }
+
+  /// Ends those that are left.
+  void dismiss() {
+    for (std::size_t rank = 0; rank < left_.size(); ++rank) {
+      if (left_[rank]) send(static_cast<int>(rank), kOver, {});
+    }
+    while (std::ranges::count(left_, true) > 0) {
+      const std::optional<Message> message = received();
+      if (message && message->tag == kBye) left_[static_cast<std::size_t>(message->rank)] = false;
+      if (!message) std::this_thread::sleep_for(kOften);
+    }
+  }
+
+ private:
+  /// Stops those that do packs. RunError: one does not answer: it has died, which is why mpirun stops the others, and the runs
+  /// of its pack keep the count of their starts.
+  void recall(std::set<int> busy) {
+    constexpr std::chrono::milliseconds kPatience{700};  // mpirun kills 1 s after its SIGTERM
+    for (const int rank : busy) send(rank, kOver, {});
+    const auto since = std::chrono::steady_clock::now();
+    while (!busy.empty() && std::chrono::steady_clock::now() - since < kPatience) {
+      if (const std::optional<Message> message = next()) busy.erase(message->rank);
+    }
+    if (busy.empty()) return;
+    for (const int rank : busy) left_[static_cast<std::size_t>(rank)] = false;
+    throw RunError("rank " + std::to_string(*busy.begin()) +
+                   " does not answer any more; what has ended is in the journal, and the same command goes on");
+  }
+
+  static std::vector<std::string> lines(const std::string& text) {
+    std::vector<std::string> all(1);
+    for (const char c : text) c == '\n' ? all.emplace_back() : all.back().append(1, c);
+    return all;
+  }
+
+  /// The next message, if there is one; kBye: that process was stopped. InputError: it ended by itself, and why.
+  std::optional<Message> next() {
+    std::optional<Message> message = received();
+    if (!message) std::this_thread::sleep_for(kOften);
+    if (!message || message->tag != kBye) return message;
+    left_[static_cast<std::size_t>(message->rank)] = false;
+    const std::string why = text_of(message->bytes);
+    if (why.empty()) return message;
+    throw InputError(SourceLocation{"rank " + std::to_string(message->rank)}, why.substr(0, why.find_last_not_of('\n') + 1));
+  }
+
+  std::vector<bool> left_;  ///< by rank
+  std::vector<int> idle_;   ///< that have asked for jobs
+};
+
+/// Thrown by a process that has done its part.
+struct Served {};
+
+/// Does the jobs that the first sends.
+[[noreturn]] void serve(const Plan& plan, const BatchSettings& settings, const Measure& measure) {
+  const app::StopOnSignal signals(app::StopOnSignal::Second::ends_the_process);
+  std::atomic<bool>& stop = app::stopped();
+  const Executor local = local_executor(plan, settings, measure);
+  send(0, kHello, bytes_of(hello(plan)));
+  send(0, kRows, {});
+  std::future<std::optional<std::vector<Row>>> pack;
+  while (!stop || pack.valid()) {
+    const std::optional<Message> message = received();
+    if (message && message->tag == kOver) stop = true;
+    if (message && message->tag == kJobs)
+      pack = std::async(std::launch::async, [&, bytes = message->bytes] { return done(local, jobs_of(bytes), stop); });
+    if (!pack.valid()) {
+      std::this_thread::sleep_for(kOften);
+    } else if (pack.wait_for(kOften) == std::future_status::ready) {
+      if (const std::optional<std::vector<Row>> rows = pack.get()) send(0, kRows, packed(*rows));
+    }
+  }
+  throw Served();
+}
+
+std::string said;  ///< by a process that is not the first, which the first says for it
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int provided = 0;
+  int rank = 0;
+  int size = 1;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  std::signal(SIGXFSZ, SIG_IGN);  // as in main.cpp
+  constexpr void (*kCommands[])(app::Commands&) = {app::add_sweep, app::add_optimize, app::add_evaluate};
+  const auto run = [&] { return app::program(kCommands, argc, argv); };
+  int code = 0;
+  if (rank == 0) {
+    Others others(size);
+    if (size > 1) {
+      app::team() = [&others](const Plan& plan, const BatchSettings& settings, Measure measure) -> Executor {
+        others.greet(plan);
+        return [&others, pack = pack_size(settings), local = local_executor(plan, settings, std::move(measure))](
+                   const Work& work, std::atomic<bool>& stop) { return others.lead(local, pack, work, stop); };
+      };
+    }
+    code = app::guarded(run, [](const char* text) { (void)std::fputs(text, stderr); });
+    others.dismiss();
+  } else {
+    if (std::freopen("/dev/null", "w", stdout) == nullptr) return 1;
+    app::team() = [](const Plan& plan, const BatchSettings& settings, Measure measure) -> Executor {
+      serve(plan, settings, measure);
+    };
+    try {
+      (void)app::guarded(run, [](const char* text) { said += text; });
+    } catch (const Served&) {
+    }
+    send(0, kBye, bytes_of(said));
+  }
+  MPI_Finalize();
+  return code;
+}

@@ -1,0 +1,16 @@
+// What the programs share: arguments in, one subcommand, an exit code out.
+#pragma once
+#include <functional>
+#include <span>
+
+#include "app/commands.h"
+
+namespace gaitlab::app {
+
+/// Bad arguments and bad input exit with 2, failed runs with 1; nobody sees a raw exception. `say` is told why, piece by piece.
+int guarded(const std::function<int()>& command, void (*say)(const char* text));
+
+/// Runs the command that the arguments name, of those that are given. Throws what that throws.
+int program(std::span<void (*const)(Commands&)> commands, int argc, char** argv);
+
+}  // namespace gaitlab::app

@@ -1,0 +1,95 @@
+// What every command that has a run prints of it, warns of, and returns.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/commands.h"
+#include "app/stored_scenario.h"
+#include "core/errors.h"
+#include "core/scenario/joint_patterns.h"
+#include "core/scenario/resolved.h"
+#include "core/scenario/sections.h"
+#include "report/demand.h"
+#include "report/summary.h"
+#include "report/trust.h"
+#include "report/warnings.h"
+
+namespace gaitlab::app {
+
+void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                   const report::Verdict& verdict, const SummaryOptions& shown) {
+  const std::string text = report::to_text(summary, scenario, recording, shown.verbose);
+  const std::size_t head = text.find('\n') + 1;
+  fmt::print("{}", text.substr(0, head));
+  const char* title = "verdict";
+  for (const std::string& line : report::to_lines(verdict)) {
+    fmt::print("  {:<13} {}\n", title, line);
+    title = "";
+  }
+  fmt::print("{}", text.substr(head));
+  if (shown.joints) fmt::print("{}", report::joint_table(summary, scenario));
+}
+
+report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                       const report::Overlaps& overlaps, const SummaryOptions& shown) {
+  report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
+  if (!shown.demand || Judged::limited(summary.judged.joints) == 0) return verdict;
+  Catalog catalog = standard_catalog();
+  const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario)};
+  Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
+  if (!report::raise_limits(twin)) {
+    verdict.demand_doubt = "the actuator declares no limits above 0 that could be raised";
+    return verdict;
+  }
+  report::add_demand(verdict, scenario, summary, report::demand(twin, recording, summary));
+  return verdict;
+}
+
+int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {
+  if (!shown.fail_infeasible) return 0;
+  return verdict.word == "failed" ? 1 : verdict.word == "infeasible" ? 3 : 0;
+}
+
+void add_shown(CLI::App& command, SummaryOptions& shown) {
+  command.add_flag("--joints", shown.joints, "print a row per joint, the most loaded first");
+  command.add_flag("--fail-infeasible", shown.fail_infeasible,
+                   "exit code 3 where the verdict is infeasible, 1 where the run failed");
+  command.add_flag("--demand", shown.demand,
+                   "simulate once more without the limits of the motors where joints reach them, and tell how much is missing");
+  command.add_flag("--verbose", shown.verbose, "print the energy ledger and the limit of the step, too");
+}
+
+void add_joint(CLI::App& command, std::vector<std::string>& joints) {
+  command
+      .add_option("--joint", joints,
+                  "joint to draw in figure.svg, by name or pattern ('m3/*'); once per joint (default: the most loaded one)")
+      ->allow_extra_args(false);
+}
+
+void draw_joints(Scenario& scenario, const std::vector<std::string>& joints) {
+  if (joints.empty()) return;
+  const std::vector<std::string> known = joint_names(*scenario.robot);
+  std::vector<Problem> problems;
+  for (const std::string& name : joints) {
+    if (const std::string wrong = no_joint(name, known); !wrong.empty())
+      problems.push_back({SourceLocation{"--joint " + name}, wrong});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  scenario.figure.joints = joints_meant(joints, known);
+}
+
+void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                 const report::Overlaps& overlaps) {
+  if (const std::string fall = report::fall_warning(scenario, recording); !fall.empty())
+    fmt::print(stderr, "{}: warning: {}\n", scenario.file, fall);
+  const std::string where = to_string(scenario.place("physics.step"));
+  const std::string warning = report::stability_warning(summary, scenario, recording);
+  if (!warning.empty()) fmt::print(stderr, "{}: warning: {}\n", where, warning);
+  for (const report::Warning& doubt : report::run_warnings(scenario, recording, overlaps))
+    fmt::print(stderr, "{}: warning: {}\n", to_string(doubt.place), doubt.text);
+  if (recording.outcome != "done") return;
+  for (const std::string& doubt : report::trust_warnings(scenario, recording))
+    fmt::print(stderr, "{}: warning: {}\n", where, doubt);
+}
+
+}  // namespace gaitlab::app

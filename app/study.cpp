@@ -1,0 +1,226 @@
+// What is done with the folder of a study: show, best, export, merge, rerun.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/commands.h"
+#include "app/stored_scenario.h"
+#include "app/study_figures.h"
+#include "app/study_text.h"
+#include "core/scenario/wording.h"
+#include "studies/number.h"
+#include "studies/study_folder.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using studies::Journal;
+
+struct StudyArguments {
+  std::string folder;
+  std::int64_t most = 10;          ///< best
+  std::string format, file;        ///< export
+  std::int64_t run = 0;            ///< rerun
+  std::optional<std::string> out;  ///< rerun
+};
+
+/// The journal of a folder, to be read.
+Journal opened(const std::string& folder) {
+  const fs::path file = fs::path(folder) / studies::kJournalFile;
+  std::error_code none;
+  if (!fs::exists(file, none)) {
+    const bool shards = studies::shards_in(folder).count > 0;
+    throw InputError(SourceLocation{folder},
+                     std::string("holds no study: there is no ") + studies::kJournalFile +
+                         (shards ? "; its shards become one with gaitlab study merge " + shell_word(folder) : ""));
+  }
+  return Journal(file);
+}
+
+int show_study(const StudyArguments& a) {
+  Journal journal = opened(a.folder);
+  const studies::Results results = studies::results(journal);
+  constexpr std::size_t kShown = 5;
+  fmt::print("{}", study_summary(journal, results, a.folder, kShown));
+  if (const studies::Effort effort = journal.effort(); effort.runs > 0 && effort.wall > 0)
+    fmt::print("{:.3g} runs per s and thread\n", static_cast<double>(effort.runs) / effort.wall);
+  const std::string who = studies::Lock::holder(fs::path(a.folder) / "lock");
+  if (!who.empty()) {
+    fmt::print("{} is writing it\n", who);
+  } else if (results.runs < journal.head().runs) {
+    fmt::print("go on with: {}\n", printable(journal.head().command));
+  }
+  return 0;
+}
+
+int report_study(const StudyArguments& a) {
+  Journal journal = opened(a.folder);
+  const std::vector<std::string> files = write_study_files(journal, studies::results(journal), a.folder);
+  fmt::print("files in {}: {}\n", a.folder, fmt::join(files, ", "));
+  return 0;
+}
+
+int best_of_study(const StudyArguments& a) {
+  Journal journal = opened(a.folder);
+  const studies::Results results = studies::results(journal);
+  const std::vector<studies::JournalObjective>& objectives = journal.head().objectives;
+  std::vector<std::size_t> order = objectives.size() > 1 ? studies::front(results.points, objectives)
+                                                         : studies::ranked(results.points, objectives.front().maximize);
+  std::erase_if(order, [&](std::size_t k) { return !results.points[k].feasible(); });
+  if (order.empty()) {
+    fmt::print(stderr, "{}: no point is feasible\n", a.folder);
+    return 3;
+  }
+  fmt::print("{}", points_table(journal, results, order, static_cast<std::size_t>(a.most)));
+  return 0;
+}
+
+int export_study(const StudyArguments& a) {
+  Journal journal = opened(a.folder);
+  check_new(a.file);
+  write_table(journal, a.file, Existing::refused);
+  return 0;
+}
+
+/// Numbers as Slurm's --array takes them: 3,17.
+std::string array_text(const std::vector<std::uint64_t>& indices) { return fmt::format("{}", fmt::join(indices, ",")); }
+
+int merge_study(const StudyArguments& a) {
+  const fs::path folder = a.folder;
+  const studies::Shards shards = studies::shards_in(folder);
+  if (shards.count == 0)
+    throw InputError(SourceLocation{a.folder},
+                     "holds no shards; expected files shards/I-of-N.db, as gaitlab sweep --shard I/N writes them");
+  const studies::Lock lock(folder / "lock");
+  std::vector<std::uint64_t> missing;
+  std::optional<Journal> all;
+  std::size_t at = 0;
+  for (std::uint64_t index = 0; index < shards.count; ++index) {
+    const studies::Shard shard{index, shards.count};
+    if (at == shards.indices.size() || shards.indices[at] != index) {
+      missing.push_back(index);
+      continue;
+    }
+    ++at;
+    Journal part(journal_file(folder, shard));
+    if (!all) all.emplace(folder / studies::kJournalFile, part.head(), Journal::Build::same);
+    all->take(part);
+    const std::uint64_t runs = part.head().runs;
+    all->expect(runs);  // a budget may have grown since
+    const std::uint64_t wanted = runs / shards.count + (index < runs % shards.count ? 1 : 0);
+    if (part.rows() < wanted) missing.push_back(index);
+  }
+  const std::uint64_t rows = all->rows();
+  fmt::print("{}: {} of {} runs\n", (folder / studies::kJournalFile).string(), rows, all->head().runs);
+  write_study_files(*all, studies::results(*all), folder);
+  if (missing.empty()) return 0;
+  fmt::print(stderr, "{}: error: {} of {} shards are missing or not whole; run them again: --array={}\n", a.folder,
+             missing.size(), shards.count, array_text(missing));
+  return 1;
+}
+
+/// What of the row is not what the run gave, a line each.
+std::vector<std::string> differences(const std::vector<std::string>& names, const std::vector<std::string>& row,
+                                     const studies::RunColumns& columns, const std::vector<double>& figures,
+                                     const std::string& outcome) {
+  std::vector<std::string> found;
+  const auto cell = [&](const std::string& name) {
+    return row[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())];
+  };
+  const bool done = cell("outcome") == "done";
+  if (done != (outcome == "done") || (!done && cell("message") != outcome))
+    found.push_back(fmt::format("outcome: then {}, now {}", clipped(done ? "done" : cell("message")), clipped(outcome)));
+  if (!done || outcome != "done") return found;
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    const std::string then = cell(columns.figures[k]);
+    const std::string now = std::isfinite(figures[k]) ? number_text(figures[k] + 0.0) : "";
+    const bool same = then.empty() ? now.empty() : !now.empty() && studies::number_of(then) == figures[k];
+    if (!same)
+      found.push_back(
+          fmt::format("{}: then {}, now {}", columns.figures[k], then.empty() ? "none" : then, now.empty() ? "none" : now));
+  }
+  return found;
+}
+
+int rerun_study(const StudyArguments& a) {
+  Journal journal = opened(a.folder);
+  const studies::JournalHead& head = journal.head();
+  const std::vector<std::string> row = journal.row(static_cast<std::uint64_t>(a.run));
+  if (row.empty())
+    throw InputError(SourceLocation{"RUN"},
+                     fmt::format("{} is not in the journal; it has {} of {} runs", a.run, journal.rows(), head.runs));
+  const std::vector<std::string> names = journal.columns().all();
+  Catalog catalog = standard_catalog();
+  // The settings of the run, over the scenario as the journal holds it: the folder is enough.
+  std::vector<std::string> sets;
+  for (std::size_t k = 0; k < head.parameters.size(); ++k)
+    sets.push_back(head.parameters[k].key + "=" +
+                   row[static_cast<std::size_t>(std::ranges::find(names, journal.columns().parameters[k]) - names.begin())]);
+  sets.push_back("seed=" + row[3]);
+  const Scenario scenario = read_stored({"", (fs::path(a.folder) / studies::kJournalFile).string(), head.scenario}, catalog,
+                                        OtherPlugins::refused, sets);
+  RunArguments run_arguments;
+  run_arguments.out = a.out.value_or((fs::path(a.folder) / fmt::format("run-{}", a.run)).string());
+  const int code = run(scenario, run_arguments);
+  const StoredRun again = read_run(*run_arguments.out, catalog);
+  if (const auto cell =
+          [&](const char* name) { return row[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())]; };
+      cell("outcome") == "stopped") {
+    fmt::print("the study ended this run early: {}; here it ran on\n", printable(cell("message")));
+    return code == 2 ? 2 : 0;
+  }
+  const studies::Judged judged = figure_measure(head.figures, scenario)(scenario, again.stored.recording);
+  const std::vector<std::string> found =
+      differences(names, row, journal.columns(), judged.figures, again.stored.recording.outcome);
+  if (found.empty()) {
+    fmt::print("the figures are those of the journal\n");
+    return code == 2 ? 2 : 0;
+  }
+  for (const std::string& difference : found) fmt::print(stderr, "{}: error: {}\n", a.folder, difference);
+  return 4;
+}
+
+}  // namespace
+
+void add_study(Commands& commands) {
+  CLI::App* study = commands.app.add_subcommand("study", "Look at a study, merge its shards, repeat one of its runs.");
+  study->require_subcommand(1);
+  const auto folder = [](CLI::App& command, StudyArguments& a) {
+    command.add_option("DIR", a.folder, "folder of the study")->required()->check(not_empty);
+  };
+  add_command<StudyArguments>(commands, "show", "How far it is, its best and worst points, what failed; also while it runs.",
+                              show_study, folder, study);
+  add_command<StudyArguments>(commands, "report", "Write its table and figures anew, of what the journal holds.", report_study,
+                              folder, study);
+  add_command<StudyArguments>(
+      commands, "best", "Its best feasible points.", best_of_study,
+      [&](CLI::App& command, StudyArguments& a) {
+        folder(command, a);
+        command.add_option("-n,--number", a.most, "how many (default 10)")->check(CLI::Range(1, 1000000));
+      },
+      study);
+  add_command<StudyArguments>(
+      commands, "export", "All runs as one table.", export_study,
+      [&](CLI::App& command, StudyArguments& a) {
+        folder(command, a);
+        command.add_option("--to", a.format, "format of the file")->required()->check(CLI::IsMember({"csv"}));
+        command.add_option("FILE", a.file, "file to write; must not exist")->required();
+      },
+      study);
+  add_command<StudyArguments>(commands, "merge", "Make one journal of those of all shards.", merge_study, folder, study);
+  add_command<StudyArguments>(
+      commands, "rerun", "Run one of its runs again, with its trace, and compare.", rerun_study,
+      [&](CLI::App& command, StudyArguments& a) {
+        folder(command, a);
+        command.add_option("RUN", a.run, "number of the run")
+            ->required()
+            ->check(CLI::Range(std::int64_t{0}, std::int64_t{1000000000}));
+        command.add_option("--out", a.out, "run folder (default DIR/run-RUN); new or empty");
+      },
+      study);
+}
+
+}  // namespace gaitlab::app

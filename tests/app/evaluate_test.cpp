@@ -1,0 +1,128 @@
+// `gaitlab evaluate`: what is answered, and which lines are refused.
+#include <nlohmann/json.hpp>
+
+#include "studies/journal.h"
+#include "tests/app/study_fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+class Evaluate : public StudyFixture {
+ protected:
+  Evaluate() {
+    folder_.write("study.yaml",
+                  "gaitlab_study: 1\nscenario: two.yaml\nset: [physics.integrator=implicit]\nparameters:\n"
+                  "  cpg.phase_lag: {low: 0.5, high: 1.5}\n  cpg.type: {values: [phase_oscillator, hopf]}\n"
+                  "  physics.step: {values: [0.001, 0.0007]}\n");
+  }
+  Result ask(const std::string& lines, const std::string& options = "") {
+    folder_.write("questions", lines);
+    return call("evaluate study.yaml --out e --quiet " + options + " <questions");
+  }
+  static std::string question(const std::string& id, const std::string& lag, const std::string& step = "0.001") {
+    return R"({"id": )" + id + R"(, "parameters": {"cpg.phase_lag": )" + lag + R"(, "cpg.type": "hopf", "physics.step": )" +
+           step + "}}\n";
+  }
+  static std::vector<nlohmann::json> answers(const Result& result) {
+    std::vector<nlohmann::json> all;
+    std::istringstream lines(result.out);
+    for (std::string line; std::getline(lines, line);) all.push_back(nlohmann::json::parse(line));
+    return all;
+  }
+};
+
+TEST_F(Evaluate, AnswersWithTheFiguresOfTheJournal) {
+  const Result result = ask(question("7", "0.30000000000000004e0") + question("\"a\\u00e9\"", "0.7") + "\r\n" +
+                            question("8", "1.2", "0.0007") + question("9", "0.7"));
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const auto all = answers(result);
+  ASSERT_EQ(all.size(), 4U);
+  EXPECT_EQ(
+      result.out.substr(0, result.out.find('\n')),
+      R"({"id":7,"run":null,"outcome":"refused","message":"cpg.phase_lag is 0.30000000000000004; allowed are 0.5 to 1.5",)"
+      R"("figures":{},"objective":[null],"violation":null,"feasible":false})");
+  EXPECT_EQ(all[1].at("id"), "a\u00e9");
+  EXPECT_EQ(all[1].at("outcome"), "done");
+  EXPECT_EQ(all[1].at("run"), 0);
+  EXPECT_EQ(all[2].at("outcome"), "refused");
+  EXPECT_EQ(all[2].at("run"), 1);
+  EXPECT_TRUE(contains(all[2].at("message"), "not a whole multiple of the step")) << all[2];
+  EXPECT_EQ(all[3].at("run"), 0);
+  studies::Journal journal(folder_ / "e/study.db");
+  EXPECT_EQ(journal.rows(), 2U);
+  EXPECT_EQ(journal.head().runs, 2U);
+  const auto figures = journal.figures(0);
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    const nlohmann::json& value = all[1].at("figures").at(journal.head().figures[k].name);
+    ASSERT_EQ(value.is_null(), figures[k].empty()) << journal.head().figures[k].name;
+    if (value.is_null()) continue;
+    EXPECT_EQ(value.get<double>(), std::stod(figures[k])) << journal.head().figures[k].name;
+  }
+  EXPECT_EQ(all[1].at("objective").at(0), all[1].at("figures").at("speed"));
+  // The same run as anybody's.
+  ASSERT_EQ(call("run two.yaml --no-report --set physics.integrator=implicit --set cpg.phase_lag=0.7 --set cpg.type=hopf "
+                 "--set physics.step=0.001 --out r")
+                .code,
+            0);
+  EXPECT_EQ(all[1].at("figures").at("speed"), nlohmann::json::parse(read(folder_ / "r/summary.json")).at("speed"));
+}
+
+TEST_F(Evaluate, OfSeveralReplicatesEachFigureIsAList) {
+  folder_.write("study.yaml",
+                "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0.5, high: 1.5}}\n"
+                "replicates: {count: 3, vary: {ground.friction: {uniform: [0.4, 1]}}, combine: median}\n"
+                "objective: [{maximize: speed}, {minimize: distance}]\nguards: none\n");
+  const auto all = answers(ask(R"({"id": 1, "parameters": {"cpg.phase_lag": 1}})"));  // the last line has no end
+  ASSERT_EQ(all.size(), 1U);
+  auto speeds = all[0].at("figures").at("speed").get<std::vector<double>>();
+  ASSERT_EQ(speeds.size(), 3U);
+  std::ranges::sort(speeds);
+  EXPECT_EQ(all[0].at("objective").size(), 2U);
+  EXPECT_EQ(all[0].at("objective").at(0), speeds[1]);
+  EXPECT_EQ(all[0].at("feasible"), true);
+}
+
+TEST_F(Evaluate, RefusesLinesThatAreNoQuestionsAndLosesNothing) {
+  const std::string expected = R"(; expected {"id": 7, "parameters": {"KEY": VALUE}})";
+  const auto refuses = [&](const std::string& line, const std::string& message) {
+    const Result result = ask(question("1", "0.7") + "\n" + question("2", "0.8") + line + "\n");
+    EXPECT_EQ(result.code, 2) << line.substr(0, 100);
+    EXPECT_EQ(result.err, message + "\n") << line.substr(0, 100);
+    EXPECT_EQ(answers(result).size(), 1U) << line.substr(0, 100);  // the batch before is answered
+  };
+  refuses("hello", "stdin:4:1: error: is not JSON" + expected);
+  refuses(R"({"id": 1, "parameters": {"cpg.phase_lag": NaN}})", "stdin:4:43: error: is not JSON" + expected);
+  refuses(R"({"id": 1, "parameters": {"cpg.phase_lag": 1e999}})",
+          "stdin:4:1: error: holds a number that is too large" + expected);
+  refuses("[1]", "stdin:4:1: error: is not a JSON object" + expected);
+  refuses("{}", "stdin:4:1: error: has no id" + expected + "\nstdin:4:1: error: has no parameters" + expected);
+  refuses(R"({"id": 1.5, "parameters": [], "x": 1})",
+          "stdin:4:1: error: unknown key 'x'" + expected + "\nstdin:4:1: error: its id is not a whole number or a text" +
+              expected + "\nstdin:4:1: error: its parameters are not an object" + expected);
+  refuses(R"({"id": 1, "parameters": {"cpg.phase_lga": 1, "cpg.type": 3, "physics.step": null}})",
+          "stdin:4:1: error: has no value for the parameter 'cpg.phase_lag'\n"
+          "stdin:4:1: error: cpg.type is 3; expected a word, in double quotes\n"
+          "stdin:4:1: error: physics.step is null; expected a number\n"
+          "stdin:4:1: error: unknown parameter 'cpg.phase_lga'; did you mean 'cpg.phase_lag'?");
+  refuses(R"({"id": 1, "parameters": {"cpg.phase_lag": [[1]]}})", "stdin:4:1: error: holds values within values" + expected);
+  refuses(std::string(2 << 20, '['), "stdin:4:1: error: is longer than 1048576 bytes; expected a question");
+  EXPECT_EQ(studies::Journal(folder_ / "e/study.db").rows(), 1U);
+  EXPECT_EQ(answers(ask(question("1", "0.7"))).size(), 1U);
+}
+
+TEST_F(Evaluate, AFolderBelongsToOneStudy) {
+  ASSERT_EQ(ask(question("1", "0.7")).code, 0);
+  ASSERT_EQ(ask("").code, 0);
+  ASSERT_EQ(ask("\n\n\n").code, 0);
+  EXPECT_EQ(studies::Journal(folder_ / "e/study.db").head().runs, 1U);
+  const Result sweep = call("sweep two.yaml --grid cpg.phase_lag=1:2:3 --out e --quiet");
+  EXPECT_EQ(sweep.code, 2);
+  EXPECT_TRUE(contains(sweep.err,
+                       "e/study.db: error: is of another study; take another folder (--out), or go on as it was begun: "
+                       "gaitlab evaluate study.yaml --out e"))
+      << sweep.err;
+}
+
+}  // namespace
+}  // namespace gaitlab::test

@@ -1,0 +1,113 @@
+// `gaitlab optimize`: what is verified and what is not, exit codes, words as parameters, another command for a search.
+#include "studies/journal.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+class Optimize : public ::testing::Test {
+ protected:
+  Optimize() {
+    std::filesystem::create_directory_symlink(kScenarios + "modules", folder_ / "modules");
+    folder_.write("two.yaml",
+                  "gaitlab: 1\nname: two\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"
+                  "physics: {engine: articulated, step: 0.001}\ncpg: {type: phase_oscillator, frequency: 1}\n"
+                  "trace: {period: 0.015}\nduration: 0.3\n");
+  }
+  void study(const std::string& lines) {
+    folder_.write("s.yaml", "gaitlab_study: 1\nscenario: two.yaml\nguards: none\n" + lines);
+  }
+  Result call(const std::string& arguments) { return gaitlab(arguments, folder_.path()); }
+  studies::Journal journal(const std::string& out) { return studies::Journal(folder_ / (out + "/study.db")); }
+
+  Folder folder_;
+};
+
+constexpr const char* kGentle =
+    "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nobjective: {minimize: torque.peak}\nverify: {best: 1, change: 0.5, "
+    "engine: bullet}\n";
+
+TEST_F(Optimize, ABestThatStandsHasItsFolder) {
+  study(kGentle + std::string("budget: {runs: 24}\n"));
+  ASSERT_EQ(call("optimize s.yaml --out o --quiet").code, 0);
+  studies::Journal journal = this->journal("o");
+  const std::vector<studies::Verification> tried = journal.verifications();
+  ASSERT_EQ(tried.size(), 3U);
+  EXPECT_EQ(tried[0].what, "as run");
+  EXPECT_EQ(tried[1].what, "half step");
+  EXPECT_EQ(tried[2].what, "bullet");
+  for (const studies::Verification& v : tried) EXPECT_EQ(v.reason, "");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "o/best/report.html"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "o/convergence.svg"));
+  const std::vector<studies::Generation> generations = journal.generations();
+  ASSERT_FALSE(generations.empty());
+  EXPECT_EQ(generations[0].points, 16U);
+  // The same command again runs nothing, and ends as before.
+  EXPECT_EQ(call("optimize s.yaml --out o --quiet").code, 0);
+  EXPECT_EQ(this->journal("o").effort().runs, 24U);
+  EXPECT_EQ(call("optimize s.yaml --out o --quiet --runs 20").code, 0);  // a smaller budget
+}
+
+TEST_F(Optimize, WhatChangesWithTheStepIsNotVerified) {
+  study(kGentle + std::string("budget: {runs: 16}\n"));
+  std::string text = read(folder_ / "s.yaml");
+  text.replace(text.find("change: 0.5"), 11, "change: 1e-6");
+  folder_.write("s.yaml", text);
+  const Result result = call("optimize s.yaml --out o");
+  EXPECT_EQ(result.code, 3);
+  EXPECT_NE(result.err.find("o: none of the best points was verified"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("half step: torque.peak is "), std::string::npos) << result.out;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "o/best"));
+}
+
+TEST_F(Optimize, NothingFeasibleIsToldSo) {
+  study("parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nconstraints: [speed >= 1000]\nbudget: {runs: 20}\n");
+  const Result result = call("optimize s.yaml --out o --quiet");
+  EXPECT_EQ(result.code, 3);
+  EXPECT_EQ(result.err, "o: no point is feasible; `gaitlab study show o` says which limits most runs break\n");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "o/table.csv"));
+}
+
+TEST_F(Optimize, WordsHaveASearchEach) {
+  study(
+      "parameters: {cpg.type: {values: [phase_oscillator, hopf]}, cpg.amplitude: {low: 0.05, high: 0.2}}\n"
+      "objective: {minimize: torque.peak}\nverify: {change: 9}\nmethod: {type: sade, population: 8}\nbudget: {runs: 36}\n");
+  ASSERT_EQ(call("optimize s.yaml --out o --quiet").code, 0);
+  const std::string table = read(folder_ / "o/table.csv");
+  EXPECT_NE(table.find(",phase_oscillator,"), std::string::npos);
+  EXPECT_NE(table.find(",hopf,"), std::string::npos);
+  const std::vector<studies::Generation> generations = journal("o").generations();
+  ASSERT_GE(generations.size(), 2U);
+  EXPECT_EQ(generations.front().search, 0U);
+  EXPECT_EQ(generations.back().search, 1U);
+}
+
+TEST_F(Optimize, RunsThatAreRefusedAreResults) {
+  // A step beyond what is stable on ground so stiff.
+  study(
+      "set: [contact.stiffness=1e10, physics.integrator=rk4, physics.step=0.005]\n"
+      "parameters: {cpg.amplitude: {low: 0.05, high: 1}}\nbudget: {runs: 20}\n");
+  const Result result = call("optimize s.yaml --out o --quiet");
+  EXPECT_EQ(result.code, 3);
+  EXPECT_EQ(result.err, "o: no point is feasible; `gaitlab study show o` says which limits most runs break\n");
+}
+
+TEST_F(Optimize, CommandsAreToldApart) {
+  study(kGentle + std::string("method: {type: cma}\nbudget: {runs: 24}\n"));
+  const Result sweep = call("sweep s.yaml");
+  EXPECT_EQ(sweep.code, 2);
+  EXPECT_EQ(sweep.err, "s.yaml: error: its method cma searches; use gaitlab optimize s.yaml\n");
+  const Result scenario = call("optimize two.yaml");
+  EXPECT_EQ(scenario.code, 2);
+  EXPECT_EQ(scenario.err,
+            "two.yaml: error: is not the file of a study; expected one with gaitlab_study: 1 (gaitlab explain study)\n");
+  const Result few = call("optimize s.yaml --runs 9");
+  EXPECT_EQ(few.code, 2);
+  EXPECT_EQ(few.err, "--runs: error: a budget of 9 runs is less than the 16 of the searches' first generation\n");
+  ASSERT_EQ(call("optimize s.yaml --method random --out r --quiet").code, 0);  // beside a search
+  EXPECT_TRUE(journal("r").generations().empty());
+  EXPECT_EQ(call("optimize s.yaml --out r --quiet").code, 2);  // another study
+}
+
+}  // namespace
+}  // namespace gaitlab::test

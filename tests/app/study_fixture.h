@@ -1,0 +1,45 @@
+// A folder with a small scenario, and the program called in it.
+#pragma once
+#include <cstdlib>
+#include <map>
+
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+
+class StudyFixture : public ::testing::Test {
+ protected:
+  StudyFixture() {
+    std::filesystem::create_directory_symlink(kScenarios + "modules", folder_ / "modules");
+    folder_.write("two.yaml",
+                  "gaitlab: 1\nname: two\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"
+                  "physics: {engine: articulated}\ncpg: {type: phase_oscillator, frequency: 1}\ntrace: {period: 0.015}\n"
+                  "duration: 0.3\n");
+  }
+  Result call(const std::string& arguments) { return gaitlab(arguments, folder_.path()); }
+  void refused(const std::string& arguments, const std::string& message, int code = 2) {
+    const Result result = call(arguments);
+    EXPECT_EQ(result.code, code) << arguments;
+    EXPECT_EQ(result.err, message + "\n") << arguments;
+  }
+
+  Folder folder_;
+};
+
+/// Variables of the environment, for as long as this lives.
+class Environment {
+ public:
+  explicit Environment(std::map<std::string, std::string> set) : set_(std::move(set)) {
+    for (const auto& [name, value] : set_) ::setenv(name.c_str(), value.c_str(), 1);
+  }
+  ~Environment() {
+    for (const auto& [name, value] : set_) ::unsetenv(name.c_str());
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  std::map<std::string, std::string> set_;
+};
+
+}  // namespace gaitlab::test

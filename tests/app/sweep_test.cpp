@@ -1,0 +1,315 @@
+// `gaitlab sweep` and `gaitlab study`: rows are runs, folders are refused where they must be, failures are results.
+#include <nlohmann/json.hpp>
+
+#include "core/files/atomic_file.h"
+#include "studies/journal.h"
+#include "tests/app/study_fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+class Sweep : public StudyFixture {
+ protected:
+  /// Rows of table.csv, cell by cell; the first are the names. (No cell of these tests holds a comma but messages.)
+  std::vector<std::map<std::string, std::string>> table(const std::string& out) {
+    std::istringstream text(read(folder_ / (out + "/table.csv")));
+    const auto cells = [](const std::string& line) {
+      std::vector<std::string> all(1);
+      bool quoted = false;
+      for (const char c : line) {
+        if (c == '"')
+          quoted = !quoted;
+        else if (c == ',' && !quoted)
+          all.emplace_back();
+        else
+          all.back() += c;
+      }
+      return all;
+    };
+    std::string line;
+    std::getline(text, line);
+    const std::vector<std::string> names = cells(line);
+    std::vector<std::map<std::string, std::string>> rows;
+    while (std::getline(text, line)) {
+      const std::vector<std::string> values = cells(line);
+      std::map<std::string, std::string> row;
+      for (std::size_t k = 0; k < names.size() && k < values.size(); ++k) row[names[k]] = values[k];
+      rows.push_back(row);
+    }
+    return rows;
+  }
+};
+
+/// A motor that bears next to nothing for good: no other guard sees that.
+TEST_F(Sweep, WhatTheVerdictFailsIsNotFeasible) {
+  ASSERT_EQ(
+      call("sweep two.yaml --set duration=6 --set cpg.amplitude=0.3 --grid actuator.i_continuous=1e-6,1e3 --out s --quiet")
+          .code,
+      0);
+  const auto rows = table("s");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].at("verdict"), "infeasible");
+  EXPECT_GT(std::stod(rows[0].at("verdict_excess")), 1);
+  EXPECT_EQ(rows[0].at("violation"), rows[0].at("verdict_excess")) << "no other guard is broken";
+  EXPECT_EQ(rows[1].at("verdict"), "feasible");
+  EXPECT_EQ(rows[1].at("verdict_excess"), "0");
+  EXPECT_EQ(rows[1].at("feasible"), "1");
+}
+
+TEST_F(Sweep, ItsFilesAreMadeAnew) {
+  ASSERT_EQ(call("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:3 --out s --quiet").code, 0);
+  const std::string figure = read(folder_ / "s/speed.svg");
+  const std::string rows = read(folder_ / "s/table.csv");
+  std::filesystem::remove(folder_ / "s/speed.svg");
+  folder_.write("s/table.csv", "cut");
+  const Result again = call("study report s");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(again.out, "files in s: table.csv, speed.svg\n");
+  EXPECT_EQ(read(folder_ / "s/speed.svg"), figure);
+  EXPECT_EQ(read(folder_ / "s/table.csv"), rows);
+}
+
+TEST_F(Sweep, ItsRowsAreRuns) {
+  ASSERT_EQ(call("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:3 --out s -j 2 --quiet").code, 0);
+  const auto rows = table("s");
+  ASSERT_EQ(rows.size(), 3U);
+  for (const auto& row : rows) {
+    const std::string lag = row.at("cpg.phase_lag");
+    ASSERT_EQ(call("run two.yaml --no-report --set cpg.phase_lag=" + lag + " --out r" + lag).code, 0);
+    const auto summary = nlohmann::json::parse(read(folder_ / ("r" + lag + "/summary.json")));
+    const auto verdict = nlohmann::json::parse(read(folder_ / ("r" + lag + "/verdict.json")));
+    EXPECT_EQ(std::stod(row.at("speed")), summary.at("speed").get<double>());
+    EXPECT_EQ(std::stod(row.at("energy.electrical")), summary.at("energy").at("electrical").get<double>());
+    EXPECT_EQ(std::stod(row.at("limit_cycle.error")), summary.at("limit_cycle").at("error").get<double>());
+    EXPECT_EQ(row.at("verdict"), verdict.at("verdict").get<std::string>());
+    double peak = 0;
+    for (const auto& [joint, of] : summary.at("per_joint").items())
+      peak = std::max(peak, of.at("torque").at("peak").get<double>());
+    EXPECT_EQ(std::stod(row.at("torque.peak")), peak);
+    const Result again = call("study rerun s " + row.at("run"));
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_TRUE(contains(again.out, "the figures are those of the journal")) << again.out;
+  }
+  EXPECT_TRUE(contains(read(folder_ / "s/speed.svg"), "cpg.phase_lag"));
+  EXPECT_EQ(read(folder_ / "s/speed.csv").substr(0, 45), "cpg.phase_lag,speed,least,largest,state,best\n");
+}
+
+TEST_F(Sweep, TheSameCommandGoesOnInItsFolder) {
+  const std::string command = "sweep two.yaml --grid cpg.phase_lag=0.5:1.5:2 --quiet";
+  ASSERT_EQ(call(command).code, 0);
+  const std::string first = read(folder_ / "runs/sweep-two/table.csv");
+  ASSERT_EQ(call(command).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "runs/sweep-two-2"));
+  EXPECT_EQ(read(folder_ / "runs/sweep-two/table.csv"), first);
+  ASSERT_EQ(call("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:3 --quiet").code, 0);  // another study: another folder
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "runs/sweep-two-2/study.db"));
+  refused("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:3 --out runs/sweep-two",
+          "runs/sweep-two/study.db: error: is of another study; take another folder (--out), or go on as it was begun: gaitlab "
+          "sweep "
+          "two.yaml --grid cpg.phase_lag=0.5:1.5:2 --out runs/sweep-two\n"
+          "  study, line 3: \"parameter cpg.phase_lag: 0.5 to 1.5, 3 values\", was \"parameter cpg.phase_lag: 0.5 to 1.5, 2 "
+          "values\"");
+  EXPECT_EQ(read(folder_ / "runs/sweep-two/table.csv"), first);
+}
+
+TEST_F(Sweep, WhatFailsIsAResult) {
+  // A control period that is no multiple of the step, and a motor that leaves the numbers.
+  ASSERT_EQ(call("sweep two.yaml --set physics.integrator=implicit --grid physics.step=0.001,0.0007 --out s --quiet").code, 0);
+  auto rows = table("s");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].at("outcome"), "done");
+  EXPECT_EQ(rows[1].at("outcome"), "refused");
+  EXPECT_TRUE(contains(rows[1].at("message"), "not a whole multiple of the step")) << rows[1].at("message");
+  EXPECT_EQ(rows[1].at("speed"), "");
+  EXPECT_EQ(rows[1].at("feasible"), "0");
+  const Result diverged =
+      call("sweep two.yaml --grid controller.Kp=1e8 --set actuator.type=torque --set 'controller.unit=N m' --out d");
+  EXPECT_EQ(diverged.code, 1) << diverged.out;
+  EXPECT_TRUE(contains(diverged.err, "none of the 1 runs came to its end")) << diverged.err;
+  EXPECT_EQ(table("d")[0].at("outcome"), "diverged");
+  EXPECT_TRUE(contains(diverged.out, "1 diverged, first: run 0: diverged at step")) << diverged.out;
+}
+
+/// A plugin that throws is a result at once; one that ends the process, when it has done so twice.
+TEST_F(Sweep, SurvivesPlugins) {
+  folder_.write("plugin.yaml", "gaitlab: 1\nplugins: [" + std::string(GAITLAB_BINARY_DIR) +
+                                   "/plugins/throws.so]\nrobot: {modules: mtran, base: fixed}\nground: {type: none}\n"
+                                   "contact: {on: none}\nphysics: {engine: articulated}\nduration: 0.3\n"
+                                   "cpg: {type: throws, where: nowhere}\n");
+  const std::string command = "sweep plugin.yaml --grid cpg.where=nowhere,output,abort --out s --quiet -j 1";
+  EXPECT_GT(call(command).code, 2);  // by its signal
+  EXPECT_GT(call(command).code, 2);
+  const Result third = call(command);
+  EXPECT_EQ(third.code, 0) << third.err;
+  const auto rows = table("s");
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].at("outcome"), "done");
+  EXPECT_EQ(rows[1].at("outcome"), "plugin");
+  EXPECT_TRUE(contains(rows[1].at("message"), "no luck")) << rows[1].at("message");
+  EXPECT_EQ(rows[2].at("outcome"), "crashed");
+  EXPECT_EQ(rows[2].at("message"), "the process ended by signal 6");
+}
+
+TEST_F(Sweep, RefusesWhatCannotBeRun) {
+  refused("sweep two.yaml",
+          "gaitlab sweep: error: nothing changes from run to run; expected --grid KEY=A:B:N, --random KEY=A:B or --seeds N");
+  refused("sweep two.yaml --grid cpg.phase_lga=1:2:3",
+          "--grid cpg.phase_lga=1:2:3: error: unknown key 'phase_lga'; did you mean 'phase_lag'?");
+  refused("sweep two.yaml --grid cpg.phase_lag=1:2",
+          "--grid cpg.phase_lag=1:2: error: expected KEY=LOW:HIGH:N, KEY=log:LOW:HIGH:N or KEY=v,v,v");
+  refused("sweep two.yaml --grid cpg.phase_lag=2:1:3",
+          "--grid cpg.phase_lag=2:1:3: error: cpg.phase_lag: low is 2, not below high, 1");
+  refused("sweep two.yaml --random cpg.phase_lag=1:2", "--runs: error: is missing; --random needs a number of runs");
+  refused("sweep two.yaml --grid cpg.phase_lag=1:2:3 --figure spede",
+          "--figure: error: no figure is named 'spede'; did you mean 'speed'?");
+  refused("sweep two.yaml --grid cpg.phase_lag=1:2:3 --shard 3/3 --out s",
+          "--shard: error: is '3/3'; expected I/N with I from 0 to N - 1, or auto");
+  refused("study show nowhere", "nowhere: error: holds no study: there is no study.db");
+  folder_.write("study.yaml", "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {values: [1]}}\n");
+  refused("sweep study.yaml --grid cpg.phase_lag=1:2:3",
+          "--grid: error: has no place beside a study file; write parameters there");
+}
+
+TEST_F(Sweep, FoldersOfStrangersAreData) {
+  ASSERT_EQ(call("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:2 --out s --quiet").code, 0);
+  std::filesystem::create_directories(folder_ / "foreign");
+  folder_.write("foreign/study.db", "this is not a database, but a text of more than sixteen bytes");
+  refused("study show foreign", "foreign/study.db: error: is not a database of SQLite");
+  refused("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:2 --out foreign --quiet",
+          "foreign/study.db: error: is not a database of SQLite");
+  {
+    studies::Database other(folder_ / "foreign2.db", studies::Database::Mode::write);
+    other.execute("CREATE TABLE t(x)");
+  }
+  std::filesystem::create_directories(folder_ / "other");
+  std::filesystem::rename(folder_ / "foreign2.db", folder_ / "other/study.db");
+  refused("study best other", "other/study.db: error: is a database of SQLite, and not the journal of a study");
+  // A view in the place of a table, which would run what its author wrote.
+  std::filesystem::copy(folder_ / "s", folder_ / "view");
+  {
+    studies::Database changed(folder_ / "view/study.db", studies::Database::Mode::write);
+    changed.execute("ALTER TABLE effort RENAME TO e; CREATE VIEW effort AS SELECT * FROM e");
+  }
+  refused("study show view", "view/study.db: error: is not a journal that this program wrote: its table effort is another");
+  // Cut in the middle.
+  std::filesystem::copy(folder_ / "s", folder_ / "cut");
+  std::filesystem::resize_file(folder_ / "cut/study.db", std::filesystem::file_size(folder_ / "cut/study.db") / 2);
+  const Result cut = call("study show cut");
+  EXPECT_EQ(cut.code, 2);
+  EXPECT_TRUE(contains(cut.err, "cut/study.db: error: is damaged: ")) << cut.err;
+  // A folder that is something else.
+  std::filesystem::create_directories(folder_ / "full");
+  folder_.write("full/thesis.tex", "x");
+  refused("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:2 --out full", "--out full: error: exists and is not empty");
+}
+
+/// A joint of amplitude A at 1 Hz moves with up to 2 pi A rad/s: 0.6 and 1.9 for the first two, 3.8 and 5 for the others.
+TEST_F(Sweep, RulesEndRunsAtTheSameTimeWhateverTheLanes) {
+  const std::string study =
+      "gaitlab_study: 1\nscenario: two.yaml\nset: [duration=3.5]\nguards: none\n"
+      "parameters: {cpg.amplitude: {values: [0.1, 0.3, 0.6, 0.8]}}\n";
+  folder_.write("all.yaml", study);
+  folder_.write("stops.yaml", study + "stop: [distance > 100, \"speed.peak > 2.9 after 2\"]\n");
+  ASSERT_EQ(call("sweep all.yaml --out all --quiet").code, 0);
+  ASSERT_EQ(call("sweep stops.yaml --out one --lanes 1 --quiet").code, 0);
+  const Result eight = call("sweep stops.yaml --out eight --lanes 8 -j 1");
+  ASSERT_EQ(eight.code, 0) << eight.err;
+  EXPECT_EQ(read(folder_ / "one/table.csv"), read(folder_ / "eight/table.csv"));
+  EXPECT_TRUE(contains(eight.out, "2 stopped, first: run 2: stopped by speed.peak > 2.9 after 2 at t = 2 s")) << eight.out;
+  const auto whole = table("all");
+  const auto rows = table("one");
+  ASSERT_EQ(rows.size(), 4U);
+  for (const std::size_t k : {0U, 1U}) EXPECT_EQ(rows[k], whole[k]) << k;  // a rule that does not hold changes no bit
+  for (const std::size_t k : {2U, 3U}) {
+    EXPECT_EQ(rows[k].at("outcome"), "stopped");
+    EXPECT_EQ(rows[k].at("simulated"), "2");
+    EXPECT_EQ(rows[k].at("speed"), "");
+    EXPECT_EQ(rows[k].at("feasible"), "0");
+  }
+  const Result again = call("study rerun one 2");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(contains(again.out, "the study ended this run early")) << again.out;
+}
+
+TEST_F(Sweep, TakesAnswersOfOtherStudies) {
+  const auto sweep = [&](const std::string& arguments) {
+    const Result result = call("sweep two.yaml " + arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.out;
+  };
+  sweep("--grid cpg.phase_lag=0.4:2:9 --out nine --quiet");
+  sweep("--grid cpg.phase_lag=0.4:2:17 --out plain --quiet");
+  const std::string out = sweep("--grid cpg.phase_lag=0.4:2:17 --out answered --answers nine/study.db");
+  EXPECT_TRUE(contains(out, "9 of 17 runs were answered by other studies")) << out;
+  EXPECT_EQ(read(folder_ / "answered/table.csv"), read(folder_ / "plain/table.csv"));
+  // Another objective: the scores are computed again.
+  folder_.write("cost.yaml",
+                "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0.4, high: 2, count: 9}}\n"
+                "objective: {minimize: torque.rms}\nconstraints: [speed >= 0.001]\n");
+  const Result other = call("sweep cost.yaml --out cost --answers nine");
+  EXPECT_TRUE(contains(other.out, "9 of 9 runs were answered by other studies")) << other.out << other.err;
+  for (const auto& row : table("cost")) EXPECT_EQ(row.at("objective.1"), row.at("torque.rms"));
+  // Of another step nothing is taken; replicates have other seeds.
+  EXPECT_TRUE(contains(sweep("--grid cpg.phase_lag=0.4:2:9 --set duration=0.31 --out longer --answers nine"), "0 of 9 runs"));
+  EXPECT_TRUE(contains(sweep("--grid cpg.phase_lag=0.4:2:9 --seeds 1 --out seeds --answers nine"), "0 of 9 runs"));
+  refused("sweep two.yaml --grid cpg.phase_lag=0.4:2:9 --out x --answers nowhere.db",
+          "nowhere.db: error: does not exist; expected the study.db of a study");
+}
+
+/// Two points with the same values: one is run, both have its row.
+TEST_F(Sweep, RunsEqualPointsOnce) {
+  ASSERT_EQ(call("sweep two.yaml --random cpg.amplitude=0.2,0.3 --runs 12 --out s --quiet").code, 0);
+  const auto rows = table("s");
+  ASSERT_EQ(rows.size(), 12U);
+  std::map<std::string, std::string> speeds;
+  for (const auto& row : rows) {
+    const auto [at, first] = speeds.emplace(row.at("point"), row.at("speed"));
+    EXPECT_EQ(at->second, row.at("speed"));
+  }
+  EXPECT_EQ(speeds.size(), 2U);
+  ASSERT_EQ(call("sweep two.yaml --random cpg.amplitude=0.2,0.3 --runs 12 --out t --quiet -j 1 --lanes 1").code, 0);
+  EXPECT_EQ(read(folder_ / "s/table.csv"), read(folder_ / "t/table.csv"));
+}
+
+TEST_F(Sweep, OfMoreThanTwoParametersIsDrawn) {
+  const Result result = call(
+      "sweep two.yaml --grid cpg.amplitude=0.2,0.3 --grid cpg.phase_lag=1:2:3 --grid cpg.type=phase_oscillator,hopf "
+      "--seeds 2 --out s");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "speed.svg, speed-scatter.svg, replicates.svg")) << result.out;
+  const std::string csv = read(folder_ / "s/speed.csv");
+  EXPECT_EQ(csv.substr(0, csv.find('\n')), "cpg.amplitude,cpg.phase_lag,cpg.type,speed,state,best");
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 13);
+  EXPECT_TRUE(contains(csv, "0.2,1,hopf,"));
+  EXPECT_TRUE(contains(read(folder_ / "s/speed.svg"), ">cpg.phase_lag<"));
+}
+
+TEST_F(Sweep, OfSensitivityEndsWithATable) {
+  const std::string study =
+      "gaitlab_study: 1\nscenario: two.yaml\n"
+      "parameters: {cpg.amplitude: {low: 0.1, high: 0.4}, actuator.R: {low: 4, high: 5}}\n";
+  folder_.write("morris.yaml", study + "method: {type: morris, trajectories: 4}\n");
+  folder_.write("sobol.yaml", study + "method: {type: sobol_indices, samples: 4}\n");
+  const Result morris = call("sweep morris.yaml --out m");
+  ASSERT_EQ(morris.code, 0) << morris.err;
+  EXPECT_EQ(table("m").size(), 12U);
+  EXPECT_TRUE(contains(morris.out, "what changes speed, m/s per range of the parameter: 4 of 4 trajectories")) << morris.out;
+  EXPECT_TRUE(contains(call("study show m").out, "mu_star")) << morris.out;
+  const Result sobol = call("sweep sobol.yaml --out s");
+  ASSERT_EQ(sobol.code, 0) << sobol.err;
+  EXPECT_EQ(table("s").size(), 16U);
+  EXPECT_TRUE(
+      contains(read(folder_ / "s/sensitivity.csv"), "output,parameter,measure,value,low,high\nspeed,cpg.amplitude,total,"));
+  EXPECT_TRUE(contains(read(folder_ / "s/sensitivity-speed.svg"), "share of the variance"));
+}
+
+TEST_F(Sweep, TellsWhatItWouldDo) {
+  const Result dry = call("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:5 --seeds 2 --dry-run");
+  EXPECT_EQ(dry.code, 0) << dry.err;
+  EXPECT_TRUE(contains(dry.out, "10 runs: 5 points, 2 runs each\nfirst  cpg.phase_lag=0.5 seed=")) << dry.out;
+  EXPECT_TRUE(contains(dry.out, "3 s simulated in all\n")) << dry.out;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "runs"));
+}
+
+}  // namespace
+}  // namespace gaitlab::test

@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# Another program asks for points: killed at any moment and started again, it is answered from the journal, and the rows are those of one
+# that nobody disturbed.
+# usage: evaluate.sh PROGRAM
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
+program=$(readlink -f -- "$1")
+command -v sqlite3 >/dev/null || { skip "evaluate" "sqlite3 is missing (Debian: sqlite3)"; exit 77; }
+source "$root/tests/gates/two_modules.sh"
+two_modules "$work" # neither a method nor a budget
+rows() { sqlite3 "$1/study.db" 'select * from run order by run'; }
+evaluate() { "$program" evaluate "$work/study.yaml" --quiet "$@"; }
+# questions FROM TO: one per line, every eighth closes a batch, every fifth is that of four before.
+questions() {
+  for ((k = $1; k < $2; ++k)); do
+    local n=$((k % 5 == 4 ? k - 4 : k)) words=(phase_oscillator hopf)
+    printf '{"id": %d, "parameters": {"cpg.type": "%s", "cpg.frequency": %d.%02d, "cpg.amplitude": 0.%d}}\n' "$k" "${words[n % 2]}" \
+      $((1 + n / 100)) $((n % 100)) $((2 + n % 7))
+    ((k % 8 != 7)) || echo
+  done
+}
+
+questions 0 60 | evaluate --out "$work/whole" -j 2 >"$work/answers"
+[[ $(wc -l <"$work/answers") == 60 && $(rows "$work/whole" | wc -l) == 96 ]] || bad "60 questions for 48 points of two runs: $(wc -l <"$work/answers") answers, $(rows "$work/whole" | wc -l) rows"
+[[ $(sed 's/{"id":\([0-9]*\),.*/\1/' "$work/answers" | tr '\n' ' ') == "$(seq -s ' ' 0 59) " ]] || bad "answers are not in the order of the questions"
+questions 0 60 | evaluate --out "$work/whole" -j 1 >"$work/again"
+cmp "$work/answers" "$work/again" || bad "asked again, the answers are others"
+[[ $(sqlite3 "$work/whole/study.db" 'select sum(runs) from effort') == 96 ]] || bad "what was asked again ran again"
+ok "asked again, answered from the journal"
+
+# In the other order of completion: the same answers, and rows.
+questions 0 60 | evaluate --out "$work/completed" -j 3 --lanes 1 --as-completed >"$work/completed.answers"
+cmp <(sort "$work/answers") <(sort "$work/completed.answers") || bad "--as-completed: other answers"
+cmp <(rows "$work/whole") <(rows "$work/completed") || bad "--as-completed: other rows"
+ok "answers as they are completed"
+
+# kill -9 of the program, then of the one that asks.
+for moment in 0.1 0.25 0.4; do
+  mkfifo "$work/in"
+  "$program" evaluate "$work/study.yaml" --quiet --out "$work/killed" -j 1 <"$work/in" >/dev/null &
+  process=$!
+  { questions 0 60 || true; } >"$work/in" 2>/dev/null &
+  sleep $moment
+  kill -9 "$process" 2>/dev/null || true
+  wait 2>/dev/null || true
+  rm "$work/in"
+done
+{ questions 0 60 | evaluate --out "$work/killed" -j 1 2>/dev/null | head -n 9 >/dev/null; } || true
+questions 0 60 | evaluate --out "$work/killed" -j 2 >"$work/again"
+cmp "$work/answers" "$work/again" || bad "killed: other answers"
+cmp <(rows "$work/whole") <(rows "$work/killed") || bad "killed: other rows"
+ok "killed, and asked again"
+
+# Other questions in the same folder: what is there stays, and what is new gets new numbers.
+{ questions 50 70; } | evaluate --out "$work/killed" -j 1 >"$work/more"
+cmp <(rows "$work/whole") <(rows "$work/killed" | head -n 96) || bad "other questions changed rows"
+[[ $(rows "$work/killed" | wc -l) == 112 ]] || bad "other questions: $(rows "$work/killed" | wc -l) rows"
+cmp <(tail -n 10 "$work/answers") <(head -n 10 "$work/more") || bad "other questions: other answers"
+ok "other questions, in the same folder"
+
+# Nobody reads: exit code 1.
+questions 0 60 | { evaluate --out "$work/unread" -j 1 2>"$work/log" || echo $? >"$work/code"; } | true
+[[ $(<"$work/code") == 1 ]] || bad "nobody reads: exit code $(<"$work/code")"
+said "nobody reads the answers"
+ok "nobody reads: exit code 1"
+verdict

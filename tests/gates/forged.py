@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""Traces of a stranger: signed, and made to read other files, to load code, to crash. Each is refused, or compared; nothing else.
+
+usage: forged.py PROGRAM TRACE FLIPS   (in a folder of its own)
+"""
+import os
+import random
+import shutil
+import struct
+import subprocess
+import sys
+
+import h5py
+
+program, good, flips = sys.argv[1], sys.argv[2], int(sys.argv[3])
+bad = 0
+
+
+def signed(name):
+    rest = open(name, "rb").read()[512:]
+    state = 14695981039346656037
+    for word in (len(rest), *struct.unpack(f"<{(len(rest) + 7) // 8}Q", rest + b"\0" * (-len(rest) % 8))):
+        state = (state ^ word) * 1099511628211 % 2**64
+        state ^= state >> 32
+    head = f"gaitlab-trace-2\nHDF5 follows at byte 512. Bytes in all: {512 + len(rest)}; hash from byte 512 on: {state:016x}\n"
+    open(name, "wb").write(head.encode().ljust(512, b"\0") + rest)
+
+
+def compare(name):
+    done = subprocess.run([program, "compare", name, good], capture_output=True, text=True, timeout=60)
+    return done.returncode, done.stderr
+
+
+def forged(name, change, said):
+    """A trace whose dataset is made anew by `change`, and what the program says of it."""
+    global bad
+    shutil.copyfile(good, name)
+    with h5py.File(name, "r+") as file:
+        old = file["trace"]
+        values, attributes = old[:], dict(old.attrs)
+        del file["trace"]
+        change(file, values)
+        if file.get("trace", getlink=True).__class__ is h5py.HardLink:
+            for key, value in attributes.items():
+                file["trace"].attrs[key] = value
+    signed(name)
+    code, err = compare(name)
+    if code != 2 or said not in err:
+        bad += 1
+        print(f"bad      {name}: exit {code}: {err}")
+
+
+def soft(file, values):
+    file["trace"] = h5py.SoftLink("/recording/ticks")
+
+
+def external_link(file, values):
+    file["trace"] = h5py.ExternalLink(good, "/trace")
+
+
+def external_storage(file, values):
+    values.tofile("values.bin")
+    file.create_dataset("trace", values.shape, "<f8", external=[("values.bin", 0, values.nbytes)])
+
+
+def virtual(file, values):
+    layout = h5py.VirtualLayout(values.shape, "<f8")
+    layout[:] = h5py.VirtualSource(good, "trace", values.shape)
+    file.create_virtual_dataset("trace", layout)
+
+
+def of_itself(file, values):
+    layout = h5py.VirtualLayout(values.shape, "<f8")
+    layout[:] = h5py.VirtualSource(".", "trace", values.shape)
+    file.create_virtual_dataset("trace", layout)
+
+
+def other_filter(file, values):
+    properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+    properties.set_chunk(values.shape)
+    properties.set_filter(32000, h5py.h5z.FLAG_OPTIONAL)
+    h5py.h5d.create(file.id, b"trace", h5py.h5t.IEEE_F64LE, h5py.h5s.create_simple(values.shape), properties)
+
+
+forged("soft.h5", soft, "is a link to another place")
+forged("external-link.h5", external_link, "is a link to another place")
+forged("external.h5", external_storage, "is not stored in this file")
+forged("virtual.h5", virtual, "is not stored in this file")
+forged("itself.h5", of_itself, "is not stored in this file")
+# A library that leaves a file when it is loaded.
+with open("evil.c", "w") as code:
+    code.write('#include <stdio.h>\n__attribute__((constructor)) static void f(void) { fclose(fopen("loaded", "w")); }\n')
+os.makedirs("plugins", exist_ok=True)
+subprocess.run(["cc", "-shared", "-fPIC", "-o", "plugins/libevil.so", "evil.c"], check=True)
+os.environ["HDF5_PLUGIN_PATH"] = os.path.abspath("plugins")
+forged("filter.h5", other_filter, "is packed by filter 32000")
+if os.path.exists("loaded"):
+    bad += 1
+    print("bad      HDF5 loaded a library for a filter")
+
+random.seed(1)
+whole = open(good, "rb").read()
+ends = {}
+for _ in range(flips):
+    one = bytearray(whole)
+    # Half of them in the first 4 kB of HDF5's own, where its structures are.
+    end = random.choice([min(4608, len(one)), len(one)])
+    for _ in range(random.randint(1, 8)):
+        one[random.randrange(512, end)] ^= 1 << random.randrange(8)
+    open("flipped.h5", "wb").write(bytes(one))
+    signed("flipped.h5")
+    code, err = compare("flipped.h5")
+    ends[code] = ends.get(code, 0) + 1
+    if code not in (0, 2, 4):
+        bad += 1
+        shutil.copyfile("flipped.h5", f"crash-{bad}.h5")
+        print(f"bad      flipped: exit {code}: {err}")
+print(f"forged traces: 6 refused; {flips} with flipped bits: exit codes {dict(sorted(ends.items()))}")
+sys.exit(bad != 0)

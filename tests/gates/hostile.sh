@@ -1,0 +1,116 @@
+#!/usr/bin/env bash
+# Folders of studies that are damaged, a stranger's, read-only or full: refused with a message (exit code 1 or 2), never a crash, and
+# what is in a journal stays.
+# usage: hostile.sh PROGRAM
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
+program=$(readlink -f -- "$1")
+command -v sqlite3 >/dev/null || { skip "hostile" "sqlite3 is missing (Debian: sqlite3)"; exit 77; }
+source "$root/tests/gates/two_modules.sh"
+two_modules "$work" "method: {type: random}" "budget: {runs: 24}"
+rows() { sqlite3 "$1/study.db" 'select * from run order by run'; }
+sweep() { "$program" sweep "$work/study.yaml" --quiet -j 1 "$@"; }
+expect 0 sweep --out "$work/whole"
+sqlite3 "$work/whole/study.db" 'pragma wal_checkpoint(truncate)' >/dev/null
+rows "$work/whole" >"$work/rows"
+size=$(stat -c %s "$work/whole/study.db")
+
+# copy: a fresh copy of the study, as $work/now.
+copy() { rm -rf "$work/now" && cp -r "$work/whole" "$work/now"; }
+# ends CASE CODES COMMAND...: one of these exit codes, in 10 s.
+ends() {
+  local code=0
+  timeout 10 "${@:3}" >"$work/log" 2>&1 || code=$?
+  [[ " $2 " == *" $code "* ]] || { show_log; bad "$1: exit code $code, expected one of $2: ${*:3}"; }
+}
+
+# Cut anywhere, and with bytes that are others.
+for k in $(seq 0 24); do
+  copy
+  truncate -s $((size * k / 25 + k)) "$work/now/study.db"
+  ends "cut at $k / 25" "0 2" "$program" study show "$work/now"
+  ends "cut at $k / 25" "0 1 2" "$program" sweep "$work/study.yaml" --quiet -j 1 --out "$work/now"
+done
+RANDOM=1
+for k in $(seq 25); do
+  copy
+  for _ in $(seq 20); do
+    printf '%b' "\\x$(printf %02x $((RANDOM % 256)))" | dd of="$work/now/study.db" bs=1 seek=$(((RANDOM * 32768 + RANDOM) % size)) conv=notrunc status=none
+  done
+  ends "changed bytes, $k" "0 1 2" "$program" study show "$work/now"
+  ends "changed bytes, $k" "0 1 2 3" "$program" study best "$work/now"
+done
+ok "cut and changed journals end with a message"
+
+# change SQL MESSAGE: of a journal that was changed so, show, best and sweep say so.
+change() {
+  copy
+  sqlite3 "$work/now/study.db" "$1" || bad "sqlite3: $1"
+  expect 2 "$program" study show "$work/now"
+  said "$2"
+  expect 2 sweep --out "$work/now"
+  said "$2"
+}
+change "alter table effort rename to e; create view effort as select * from e" "is not a journal that this program wrote: its table effort is another"
+change "update figure set name = 'a\"); drop table run; --' where name = 'speed'" "is not a journal that this program wrote: its table run is another"
+change "update parameter set key = 'x\" REAL); drop table run; --'" "is not a journal that this program wrote: its table run is another"
+change "delete from study" "is not a journal that this program wrote: it names no study"
+change "update study set runs = -1" "its numbers of runs are out of range"
+change "update study set runs = 9223372036854775807" "its numbers of runs are out of range"
+change "update study set replicates = 0" "its numbers of runs are out of range"
+change "delete from objective" "its number of objectives is out of range"
+change "pragma user_version = 99" "is a journal of format 99; this program reads format 1"
+change "pragma application_id = 7" "is a database of SQLite, and not the journal of a study"
+ok "a stranger's tables are refused"
+
+# What a stranger added does not run, and what is odd in the rows is shown as it is.
+copy
+sqlite3 "$work/now/study.db" "create trigger t after insert on run begin delete from run; end; create trigger u after delete on attempt begin delete from run; end;
+  delete from run where run = 5"
+expect 0 sweep --out "$work/now"
+cmp <(rows "$work/now") "$work/rows" || bad "a trigger in a journal ran"
+copy
+sqlite3 "$work/now/study.db" "update run set run = 9223372036854775807 where run = 23; update run set run = -5 where run = 22;
+  update run set outcome = char(27) || '[31m', message = char(10) || 'x' where run = 3; update study set combine = 'quantile', quantile = 1e308, runs = 4000000000"
+for verb in show best; do ends "odd rows" "0 3" "$program" study $verb "$work/now"; done
+! grep -q $'\e' "$work/log" || bad "control characters of a stranger reach the terminal"
+ends "odd rows" "0" "$program" study export "$work/now" --to csv "$work/now/odd.csv"
+ends "odd rows" "0 2" "$program" evaluate "$work/study.yaml" --quiet --out "$work/now" </dev/null
+ok "a stranger's triggers and rows are data"
+
+# Who may not write can look, and is told.
+if ((EUID == 0)) && command -v setpriv >/dev/null && chmod 711 "$work" && setpriv --reuid=65534 --clear-groups test -x "$program" -a -r "$root/scenarios/modules/mtran.yaml"; then
+  copy
+  chmod -R a+rX "$work/now" "$work/two.yaml" "$work/study.yaml"
+  nobody() { (cd / && setpriv --reuid=65534 --clear-groups "$@"); }
+  expect 0 nobody "$program" study show "$work/now"
+  expect 2 nobody "$program" sweep "$work/study.yaml" --quiet --out "$work/now"
+  said "now/lock: error: cannot be opened: Permission denied"
+  expect 2 nobody "$program" evaluate "$work/study.yaml" --quiet --out "$work/new"
+  said "Permission denied"
+  ok "a read-only folder can be looked at, and is refused"
+else
+  skip "a read-only folder" "needs root, setpriv, and files that others may read"
+fi
+
+# A file system that fills.
+mkdir "$work/disk"
+if unshare -m true 2>/dev/null && unshare -m mount -t tmpfs none "$work/disk" 2>/dev/null; then
+  sed -i 's/runs: 24/runs: 160/' "$work/study.yaml"
+  expect 0 sweep --out "$work/more"
+  rows "$work/more" >"$work/more.rows"
+  # shellcheck disable=SC2016 # words of the inner shell
+  unshare -m bash -c 'disk=$1 program=$2 study=$3
+    mount -t tmpfs -o size=256k none "$disk"
+    "$program" sweep "$study" --quiet -j 1 --out "$disk/s" 2>"$disk.log"; echo $? >"$disk.code"
+    sqlite3 "$disk/s/study.db" "select count(*) from run; pragma integrity_check" >"$disk.state" 2>&1
+    mount -o remount,size=16m "$disk"
+    "$program" sweep "$study" --quiet -j 1 --out "$disk/s" && cp -r "$disk/s" "$disk.kept"' - "$work/disk" "$program" "$work/study.yaml"
+  [[ $(<"$work/disk.code") == 1 ]] || bad "a full file system: exit code $(<"$work/disk.code")"
+  grep -q 'cannot be written: .*; what is in it stays' "$work/disk.log" || bad "a full file system: $(<"$work/disk.log")"
+  cmp <(rows "$work/disk.kept") "$work/more.rows" || bad "after a full file system: other rows"
+  ok "a full file system is told ($(head -n 1 "$work/disk.state") rows kept), and the same command goes on"
+else
+  skip "a full file system" "needs root and mount"
+fi
+verdict

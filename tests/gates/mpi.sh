@@ -1,0 +1,121 @@
+#!/usr/bin/env bash
+# Processes of mpirun do a study together: the same rows, whichever of them is killed; copies that do not know of one another are refused.
+# usage: mpi.sh PROGRAM (gaitlab-mpi stands beside it)
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
+program=$(readlink -f -- "$1")
+mpi=$(dirname -- "$program")/gaitlab-mpi
+for needed in mpirun sqlite3; do
+  command -v "$needed" >/dev/null || { skip "mpi" "$needed is missing (Debian: openmpi-bin sqlite3)"; exit 77; }
+done
+[[ -x $mpi ]] || { skip "mpi" "gaitlab-mpi was not built (Debian: libopenmpi-dev)"; exit 77; }
+mpirun --version 2>&1 | grep -q 'Open MPI' || { skip "mpi" "mpirun is not Open MPI's"; exit 77; }
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export TMPDIR=/tmp # sockets: their paths must be short
+
+source "$root/tests/gates/two_modules.sh"
+two_modules "$work" "method: {type: random}" "budget: {runs: 160}"
+rows() { sqlite3 "$1/study.db" 'select * from run order by run'; }
+# ranks N PROGRAM ARGUMENT...
+ranks() { mpirun --oversubscribe -n "$1" "${@:2}"; }
+sweep=("$mpi" sweep "$work/study.yaml" --quiet -j 1)
+# same CASE FOLDER
+same() {
+  if diff <(rows "$work/whole") <(rows "$2") >"$work/difference"; then ok "$1"; else bad "$1: $(head -n 4 "$work/difference")"; fi
+  [[ $(sqlite3 "$2/study.db" 'pragma integrity_check') == ok ]] || bad "$1: the journal is damaged"
+}
+
+expect 0 "$program" sweep "$work/study.yaml" --quiet --out "$work/whole" -j 2
+for n in 1 3; do
+  expect 0 ranks $n "${sweep[@]}" --out "$work/mpi-$n"
+  same "$n ranks" "$work/mpi-$n"
+done
+
+# A search: the points of a generation depend on what came out of those before.
+sed '/cpg.type/d; s/^method:.*/method: {type: cma, population: 8}/; s/^budget:.*/budget: {runs: 64}/' "$work/study.yaml" >"$work/search.yaml"
+echo 'guards: none' >>"$work/search.yaml"
+"$program" optimize "$work/search.yaml" --quiet --out "$work/search" -j 2 >"$work/log" 2>&1 && code=0 || code=$?
+found=0
+ranks 3 "$mpi" optimize "$work/search.yaml" --quiet --out "$work/search-3" >"$work/log" 2>&1 || found=$?
+((code == found)) || { show_log; bad "optimize: exit code $code, with three ranks $found"; }
+verified() { sqlite3 "$1/study.db" 'select * from verification'; }
+cmp <(rows "$work/search"; verified "$work/search") <(rows "$work/search-3"; verified "$work/search-3") || bad "optimize with three ranks: other rows"
+ok "a search by three ranks"
+
+# killed FOLDER SIGNAL WHO OPTION...: starts three ranks, sends a signal to mpirun, or to one of them (by its number, from 1), and waits.
+count() { sqlite3 "$1/study.db" 'select count(*) from run' 2>/dev/null || echo 0; }
+killed() {
+  local before
+  before=$([[ -s $1/study.db ]] && count "$1" || echo 0)
+  mpirun --oversubscribe -n 3 "${sweep[@]}" --out "$1" "${@:4}" >"$work/log" 2>&1 &
+  local job=$! children=()
+  for _ in $(seq 100); do
+    [[ -s $1/study.db ]] && (($(count "$1") > before)) && break
+    sleep 0.05
+  done
+  mapfile -t children < <(tr -s ' ' '\n' <"/proc/$job/task/$job/children")
+  local who=$job
+  (($3 == 0)) || who=${children[$3 - 1]:-}
+  if [[ -n $who ]]; then kill "-$2" "$who" 2>/dev/null || true; else bad "rank $3 did not begin"; fi
+  code=0
+  wait "$job" || code=$?
+}
+for rank in 3 1; do
+  killed "$work/killed" 9 "$rank"
+  ((code != 0)) || bad "a rank was killed, and mpirun ended with 0"
+  [[ $(sqlite3 "$work/killed/study.db" 'select count(*) from run') -gt 0 ]] || bad "a rank was killed: the rows are lost"
+done
+expect 0 ranks 3 "${sweep[@]}" --out "$work/killed"
+same "ranks killed, then the same command" "$work/killed"
+
+killed "$work/stopped" TERM 0 --runs 400
+((code != 0)) || bad "SIGTERM: exit code 0"
+said "go on with gaitlab sweep"
+[[ $(sqlite3 "$work/stopped/study.db" 'select count(*) from attempt') == 0 ]] || bad "SIGTERM: runs that were stopped count as such that ended the process"
+expect 0 "$program" sweep "$work/study.yaml" --quiet --out "$work/stopped" --runs 400 -j 2
+cmp <(rows "$work/whole") <(rows "$work/stopped" | head -n 160) || bad "SIGTERM to mpirun, then one process: other rows"
+ok "SIGTERM to mpirun, then one process"
+
+# A plugin that ends its process: after two starts without an end its run is a row.
+ln -s "$root/scenarios/modules" "$work/modules"
+cat >"$work/plugin.yaml" <<TEXT
+gaitlab: 1
+plugins: [$(dirname -- "$program")/../plugins/throws.so]
+robot: {modules: mtran, base: fixed}
+ground: {type: none}
+contact: {on: none}
+physics: {engine: articulated}
+duration: 0.3
+cpg: {type: throws, where: nowhere}
+TEXT
+for start in 1 2 3; do
+  code=0
+  ranks 2 "$mpi" sweep "$work/plugin.yaml" --quiet --grid cpg.where=nowhere,output,abort --out "$work/plugin" >"$work/log" 2>&1 || code=$?
+  ((start == 3 ? code == 0 : code != 0)) || { show_log; bad "a plugin that ends the process, start $start: exit code $code"; }
+done
+[[ $(sqlite3 "$work/plugin/study.db" 'select outcome from run' | tr '\n' ' ') == "done plugin crashed " ]] || bad "a plugin that ends the process: other rows"
+ok "a plugin that ends the process"
+
+code=0
+ranks 2 "$program" sweep "$work/study.yaml" --quiet --out "$work/copies" >"$work/log" 2>&1 || code=$?
+((code == 2)) || bad "copies of gaitlab under mpirun: exit code $code"
+said "gaitlab sweep: error: was started 2 times side by side (OMPI_COMM_WORLD_SIZE); expected once, as gaitlab-mpi under mpirun"
+[[ ! -e $work/copies ]] || bad "copies of gaitlab under mpirun made a folder"
+ok "copies of gaitlab are refused"
+
+mkdir "$work/1"
+sed 's/high: 1.2/high: 1.3/; s/scenario: /scenario: ..\//' "$work/study.yaml" >"$work/1/study.yaml"
+mkdir "$work/0"
+sed 's/scenario: /scenario: ..\//' "$work/study.yaml" >"$work/0/study.yaml"
+code=0
+ranks 2 bash -c "exec '$mpi' sweep '$work'/\$OMPI_COMM_WORLD_RANK/study.yaml --quiet --out '$work/other'" >"$work/log" 2>&1 || code=$?
+((code == 2)) || bad "ranks with different files: exit code $code"
+said "gaitlab-mpi: error: rank 1 on [^ ]* has another study than rank 0 on"
+rm "$work/1/study.yaml"
+code=0
+ranks 2 bash -c "exec '$mpi' sweep '$work'/\$OMPI_COMM_WORLD_RANK/study.yaml --quiet --out '$work/other'" >"$work/log" 2>&1 || code=$?
+((code == 2)) || bad "a rank without the file: exit code $code"
+said "rank 1: error: .*/1/study.yaml: error: cannot be read"
+[[ ! -e $work/other ]] || bad "ranks with different files made a folder"
+ok "ranks with different files are told apart"
+verdict

@@ -1,0 +1,145 @@
+#!/usr/bin/env bash
+# A study gives the same rows whatever threads, lanes, shards, signals and kill -9 do to it, and loses nothing.
+# usage: studies.sh PROGRAM [KILLS] (KILLS moments of kill -9, 6; KILL_SEED, 1: another choice)
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
+program=$(readlink -f -- "$1")
+kills=${2:-6}
+RANDOM=${KILL_SEED:-1}
+command -v sqlite3 >/dev/null || { skip "studies" "sqlite3 is missing (Debian: sqlite3)"; exit 77; }
+
+source "$root/tests/gates/two_modules.sh"
+two_modules "$work" "method: {type: random}" "budget: {runs: 96}"
+
+rows() { sqlite3 "$1/study.db" 'select * from run order by run'; }
+sweep() { "$program" sweep "$work/study.yaml" --quiet "$@"; }
+# same CASE FOLDER
+same() {
+  if diff <(rows "$work/whole") <(rows "$2") >"$work/difference"; then ok "$1"; else bad "$1: $(head -n 4 "$work/difference")"; fi
+  [[ $(sqlite3 "$2/study.db" 'pragma integrity_check') == ok ]] || bad "$1: the journal is damaged"
+}
+
+start=$(date +%s%N)
+expect 0 sweep --out "$work/whole" -j 2
+took=$((($(date +%s%N) - start) / 1000000))
+[[ $(rows "$work/whole" | wc -l) == 96 ]] || bad "96 runs, $(rows "$work/whole" | wc -l) rows"
+
+for options in "-j 1" "-j 7" "--lanes 1" "--lanes 4 -j 2"; do
+  # shellcheck disable=SC2086 # words
+  expect 0 sweep --out "$work/now" $options
+  same "$options" "$work/now"
+  cmp -- "$work/whole/table.csv" "$work/now/table.csv" || bad "$options: table.csv"
+  rm -rf -- "$work/now"
+done
+
+for index in 2 0 1; do expect 0 sweep --out "$work/shards" --shard "$index/3"; [[ $index != 0 ]] || expect 1 "$program" study merge "$work/shards"; done
+expect 0 "$program" study merge "$work/shards"
+expect 0 "$program" study merge "$work/shards"
+same "three shards, merged twice" "$work/shards"
+
+# kill -9 at random moments, until a start comes to its end.
+starts=0
+while ((starts < kills)); do
+  "$program" sweep "$work/study.yaml" --quiet --out "$work/killed" -j 2 >/dev/null 2>&1 & # not the function: its shell would be killed
+  process=$!
+  sleep "0.$(printf '%03d' $((RANDOM % (took < 900 ? took + 1 : 900))))"
+  kill -9 "$process" 2>/dev/null || true
+  wait "$process" 2>/dev/null || true
+  starts=$((starts + 1))
+done
+expect 0 sweep --out "$work/killed" -j 2
+same "killed $kills times" "$work/killed"
+
+# SIGTERM: told how to go on; exit code 1, unless it had ended.
+"$program" sweep "$work/study.yaml" --quiet --out "$work/stopped" -j 1 >"$work/log" 2>&1 &
+process=$!
+sleep 0.3
+kill -TERM "$process" 2>/dev/null || true
+code=0
+wait "$process" || code=$?
+if ((code == 1)); then said "go on with gaitlab sweep"; elif ((code != 0)); then bad "SIGTERM: exit code $code"; fi
+[[ $(sqlite3 "$work/stopped/study.db" 'select count(*) from attempt') == 0 ]] || bad "SIGTERM: a run that was stopped counts as one that ended the process"
+expect 0 sweep --out "$work/stopped" -j 1
+same "SIGTERM, then the same command" "$work/stopped"
+
+# A second process on the folder.
+exec 9>>"$work/whole/lock"
+flock 9
+expect 2 sweep --out "$work/whole"
+said "is writing this study"
+exec 9>&-
+ok "a second process is refused"
+
+# A larger budget goes on; another study is refused.
+sed -i 's/runs: 96/runs: 112/' "$work/study.yaml"
+expect 0 sweep --out "$work/killed" -j 2
+expect 0 sweep --out "$work/more" -j 2
+diff <(rows "$work/killed") <(rows "$work/more") || bad "96 runs and then 112 are not 112 at once"
+sed -i 's/high: 1.2/high: 1.3/' "$work/study.yaml"
+expect 2 sweep --out "$work/more"
+said "is of another study"
+[[ $(rows "$work/more" | wc -l) == 112 ]] || bad "a study that was refused lost rows"
+sed -i 's/high: 1.3/high: 1.2/' "$work/study.yaml"
+ok "a larger budget goes on, another study is refused"
+
+# Searches: the same runs, generations and verification whatever threads, lanes and kill -9 do; a larger budget goes on.
+all_rows() { sqlite3 "$1/study.db" 'select * from run order by run; select * from search; select * from verification'; }
+# searched CASE STUDY FOLDER EXPECTED OPTIONS...: and its rows are those of FOLDER.
+searched() {
+  local name=$1 study=$2 folder=$3 code=$4
+  shift 4
+  expect "$code" "$program" optimize "$study" --quiet --out "$work/now" "$@"
+  if diff <(all_rows "$folder") <(all_rows "$work/now") >"$work/difference"; then ok "$name"; else bad "$name: $(head -n 4 "$work/difference")"; fi
+}
+for kind in cma nsga2; do
+  sed -n '1,/^parameters/p' "$work/study.yaml" | sed "s/two-random/two-$kind/" >"$work/$kind.yaml"
+  cat >>"$work/$kind.yaml" <<TEXT
+  cpg.frequency: {low: 0.5, high: 3, scale: log}
+  cpg.amplitude: {low: 0.1, high: 1.2}
+guards: none
+verify: {best: 2, change: 0.2}
+budget: {runs: 80}
+TEXT
+done
+# Speed without guards takes all that the motors have and more: the best are found, and not verified.
+printf 'objective: {maximize: speed}\nmethod: {type: cma, population: 8, instances: 2}\n' >>"$work/cma.yaml"
+printf 'objective: [{minimize: torque.peak}, {maximize: distance}]\nmethod: {type: nsga2, population: 16}\n' >>"$work/nsga2.yaml"
+for kind in cma nsga2; do
+  code=0
+  [[ $kind == nsga2 ]] || code=3
+  expect "$code" "$program" optimize "$work/$kind.yaml" --quiet --out "$work/$kind" -j 2
+  [[ $(rows "$work/$kind" | wc -l) == 80 ]] || bad "$kind: 80 runs, $(rows "$work/$kind" | wc -l) rows"
+  searched "$kind: -j 1 --lanes 1" "$work/$kind.yaml" "$work/$kind" "$code" -j 1 --lanes 1
+  rm -rf -- "$work/now"
+  for ((k = 0; k < kills; ++k)); do
+    "$program" optimize "$work/$kind.yaml" --quiet --out "$work/now" -j 2 >/dev/null 2>&1 &
+    process=$!
+    sleep "0.$(printf '%03d' $((RANDOM % 400)))"
+    kill -9 "$process" 2>/dev/null || true
+    wait "$process" 2>/dev/null || true
+  done
+  searched "$kind: killed $kills times" "$work/$kind.yaml" "$work/$kind" "$code" -j 7
+  rm -rf -- "$work/now"
+  "$program" optimize "$work/$kind.yaml" --quiet --out "$work/now" --runs 50 >/dev/null 2>&1 || true # its best may stand, or not
+  searched "$kind: 50 runs and then 80" "$work/$kind.yaml" "$work/$kind" "$code"
+  rm -rf -- "$work/now"
+done
+[[ -s $work/nsga2/best/report.html && -s $work/nsga2/front.svg && -s $work/cma/convergence.svg ]] || bad "optimize: files are missing"
+[[ ! -e $work/cma/best ]] || bad "optimize: a winner that was not verified has a folder"
+[[ $(sqlite3 "$work/cma/study.db" 'select count(*) from verification where not verified and reason like "%the verdict is infeasible: %"') -ge 1 ]] ||
+  bad "optimize: no reason why the winner was not verified"
+expect 2 "$program" sweep "$work/cma.yaml"
+said "use gaitlab optimize"
+
+# A disk that fills: what is in the journal stays, and the same command goes on.
+(
+  ulimit -f 150 # blocks of 1 kB
+  code=0
+  sweep --out "$work/full" -j 1 >"$work/full.log" 2>&1 || code=$?
+  echo "$code" >"$work/full.code"
+)
+if [[ $(<"$work/full.code") == 1 ]] && grep -q "cannot be written" "$work/full.log"; then ok "a full disk is told"; else bad "a full disk: exit code $(<"$work/full.code"), $(<"$work/full.log")"; fi
+[[ $(sqlite3 "$work/full/study.db" 'pragma integrity_check') == ok ]] || bad "a full disk: the journal is damaged"
+expect 0 sweep --out "$work/full" -j 2
+diff <(rows "$work/full") <(rows "$work/more") || bad "after a full disk: other rows"
+verdict
