@@ -12,8 +12,8 @@
 #include <filesystem>
 #include <limits>
 
+#include "core/files/atomic_file.h"
 #include "core/laws/dc_motor.h"
-#include "core/recording/atomic_file.h"
 #include "core/simulation/plant.h"
 #include "interchange/mjcf.h"
 
@@ -336,7 +336,7 @@ std::string mujoco_version() {
   Dl_info library{};
   if (dladdr(reinterpret_cast<const void*>(&mj_versionString), &library) == 0) return mj_versionString();
   const std::string file = std::filesystem::weakly_canonical(library.dli_fname).filename();
-  return fmt::format("{} ({}, {})", mj_versionString(), file, compiler_of(read_file(library.dli_fname)));
+  return fmt::format("{} ({}, {})", mj_versionString(), file, compiler_of(read_file(library.dli_fname, kMostPage)));
 }
 
 }  // namespace gaitlab

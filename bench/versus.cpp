@@ -8,7 +8,7 @@
 #include "app/app.h"
 #include "bench/mujoco_plant.h"
 #include "bench/results.h"
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "physics_bullet/engine.h"
 #include "report/build_id.h"
 
@@ -45,7 +45,7 @@ int versus_of(int argc, char** argv) {
       settings.scenarios.push_back(fmt::format("{}/scenarios/{}.yaml", GAITLAB_SOURCE_DIR, name));
     }
   }
-  if (!page.empty()) versus::renewed(read_file(page), "");  // throws before the runs, which take long
+  if (!page.empty()) versus::renewed(read_file(page, kMostPage), "");  // throws before the runs, which take long
   settings.say = [](const std::string& what) { fmt::print(stderr, "versus: {}\n", what); };
 
   Catalog catalog = app::standard_catalog();
@@ -60,7 +60,7 @@ int versus_of(int argc, char** argv) {
   if (!page.empty()) {
     const std::string head =
         fmt::format("gaitlab {}. {}. {}, one thread; {}.", report::build_id(), versions, versus::processor(), rounds);
-    write_file(page, versus::renewed(read_file(page), head + "\n\n" + versus::digest(results)));
+    write_file(page, versus::renewed(read_file(page, kMostPage), head + "\n\n" + versus::digest(results)));
     write_file(std::filesystem::path(page).replace_extension(".svg"), versus::plot(results));
   }
   fmt::print("gaitlab {}\n{}\n{}\n\n{}", report::build_id(), versions, rounds, versus::table(results, markdown));

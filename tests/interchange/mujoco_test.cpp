@@ -144,16 +144,21 @@ TEST(Mujoco, HasOurMassMatrixAndBiasAtRandomStatesOfRandomAssemblies) {
                  bias_error, 1e-9, reason);
 }
 
+/// Ours at a state, without rotors.
+Eigen::MatrixXd mass_at(const Scenario& s, const RobotState& state) {
+  Kinematics k(*s.robot);
+  k.update(*s.robot, state);
+  MassMatrix mass(*s.robot, s.base);
+  mass.update(k);
+  return mass.matrix();
+}
+
 TEST(Mujoco, HasOurMassMatrixWithRotors) {
   const Scenario s = shipped("caterpillar.yaml", {"actuator.rotor_inertia=1e-8"});
   InMujoco mujoco(s);
   const RobotState start = start_state(s);
   mujoco.set(start, 0, 0, 0);
-  Kinematics k(*s.robot);
-  k.update(*s.robot, start);
-  MassMatrix mass(*s.robot, s.base);
-  mass.update(k);
-  Eigen::MatrixXd ours = mass.matrix();
+  Eigen::MatrixXd ours = mass_at(s, start);
   ours.diagonal().tail(static_cast<Eigen::Index>(s.robot->joints.size())).array() += 594 * 594 * 1e-8;  // n^2 J
   const Eigen::MatrixXd T = mujoco.from_ours(start);
   validate_below(
@@ -173,11 +178,7 @@ TEST(Mujoco, HasOurMassMatrixOfTheWholeLibrary) {
     ASSERT_EQ(mujoco.model().nv, s.robot->dof(s.base)) << s.name;
     const RobotState state = random.state(*s.robot, s.base);
     mujoco.set(state, 0, 0, 0);
-    Kinematics k(*s.robot);
-    k.update(*s.robot, state);
-    MassMatrix mass(*s.robot, s.base);
-    mass.update(k);
-    Eigen::MatrixXd ours = mass.matrix();
+    Eigen::MatrixXd ours = mass_at(s, state);
     const std::unique_ptr<Actuator> actuator = make_actuator(s.actuator, info(*s.robot));
     const In rotors = actuator == nullptr ? In() : actuator->reflected_inertia();
     const auto first = ours.rows() - static_cast<Eigen::Index>(state.q.size());

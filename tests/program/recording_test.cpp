@@ -1,7 +1,7 @@
 // A run read back from its folder, and what it holds beside its rows.
 #include <nlohmann/json.hpp>
 
-#include "core/recording/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "core/recording/h5.h"
 #include "core/recording/recording_file.h"
 #include "core/recording/run_files.h"
