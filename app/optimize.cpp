@@ -1,7 +1,9 @@
 // Searches the best point of a study, and tries it again with half the step and in another engine before it is believed.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "app/commands.h"
 #include "app/study_figures.h"
@@ -23,12 +25,10 @@ using studies::Plan;
 using studies::SearchEnd;
 using studies::Study;
 
-struct OptimizeArguments {
+struct OptimizeArguments : StudyRunArguments {
   std::string file, method;
   std::int64_t runs = 0, seed = -1;
-  std::optional<std::string> out;
-  int jobs = 0, lanes = 0;
-  bool quiet = false, accept_build = false;
+  bool quiet = false, dry_run = false;
 };
 
 Study searched_study(const OptimizeArguments& a) {
@@ -64,6 +64,7 @@ std::string search_goes_on(const OptimizeArguments& a, const fs::path& folder) {
   if (!a.method.empty()) line += " --method " + a.method;
   if (a.runs > 0) line += fmt::format(" --runs {}", a.runs);
   if (a.seed >= 0) line += fmt::format(" --seed {}", a.seed);
+  for (const std::string& answers : a.answers) line += " --answers " + shell_word(answers);
   return line + " --out " + shell_word(folder.string());
 }
 
@@ -77,6 +78,20 @@ SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& execu
   studies::Runner runner(plan, journal, std::move(settings));
   return runner.run(plan.points().runs(), stopped()) ? SearchEnd::budget : SearchEnd::stopped;
 }
+
+/// How many of the runs that try the best points again have ended.
+class VerifyProgress {
+ public:
+  explicit VerifyProgress(bool quiet) : shown_(!quiet && isatty(fileno(stderr)) != 0) {}
+  void operator()(std::size_t done, std::size_t of) const {
+    if (!shown_) return;
+    fmt::print(stderr, "\r{}", done < of ? fmt::format("{} of {} runs again", done, of) : fmt::format("{:40}\r", ""));
+    (void)std::fflush(stderr);
+  }
+
+ private:
+  bool shown_;
+};
 
 /// The run folder of the best point that stood, in place of one that was there.
 void write_best(const Plan& plan, std::uint64_t run_number, const fs::path& folder, bool quiet) {
@@ -92,33 +107,38 @@ int optimize_study(const OptimizeArguments& a) {
   refuse_copies("gaitlab optimize");
   Catalog catalog = standard_catalog();
   Plan plan(searched_study(a), figure_offer(), catalog);
+  print_notes(plan, a.quiet);
+  if (a.dry_run) {
+    print_plan(plan, a);
+    return 0;
+  }
   // Before the folder, which belongs to one process.
   const studies::Executor executor = study_executor(plan, {study_threads(a.jobs), static_cast<std::size_t>(a.lanes)},
                                                     figure_measure(plan.columns(), plan.scenario()));
   studies::JournalHead head = plan.head();
   head.build = report::build_id();
+  std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
   const fs::path folder = studies::study_folder(a.out, "optimize-" + plan.study().name, holds_study(head));
   head.command = search_goes_on(a, folder);
   const studies::Lock lock(folder / "lock");
-  Journal journal(folder / studies::kJournalFile, head, a.accept_build ? Journal::Build::any : Journal::Build::same);
+  keep_runs(plan, folder / studies::kJournalFile, a.quiet);
+  head.runs = plan.most_runs();
+  Journal journal(folder / studies::kJournalFile, head, taken_build(a));
 
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
-  const SearchEnd end = run_study(plan, journal, executor, a);
+  const SearchEnd end = run_study(plan, journal, remembering(executor, answers), a);
   const auto interrupted = [&] {
     fmt::print(stderr, "{}: interrupted: {} of {} runs are in the journal; go on with\n{}\n", folder.string(), journal.rows(),
                plan.most_runs(), head.command);
     return 1;
   };
   if (end == SearchEnd::stopped) return interrupted();
-  studies::Results results = studies::results(journal);
-  // Of a larger budget that the folder had before.
-  std::erase_if(results.points,
-                [&](const studies::PointResult& point) { return point.first_run + point.runs > plan.most_runs(); });
+  const studies::Results results = studies::results(journal);
   const std::vector<std::size_t> best = candidates(plan, results);
   if (!a.quiet && !best.empty())
     fmt::print(stderr, "{}: the search has ended; its best {} tried again\n", folder.string(),
                best.size() == 1 ? "point is" : fmt::format("{} points are", best.size()));
-  const auto tried = verify(plan, journal, results, best, executor, stopped());
+  const auto tried = verify(plan, journal, results, best, executor, VerifyProgress(a.quiet), stopped());
   if (!tried) return interrupted();
   journal.write(*tried);
   const std::vector<std::uint64_t> stood = studies::verified(*tried);
@@ -160,11 +180,8 @@ void add_optimize(Commands& commands) {
             ->check(CLI::Range(std::int64_t{0}, std::int64_t{999999999999999}));
         command.add_option("--method", a.method, "method, instead of that of the file: random search beside a search")
             ->check(CLI::IsMember(known_methods()));
-        command.add_option("--out", a.out, "folder of the study (default runs/optimize-NAME); one that holds it goes on");
-        command.add_option("-j,--jobs", a.jobs, "threads (default: one per processor)")->check(CLI::Range(1, 1024));
-        command.add_option("--lanes", a.lanes, "runs side by side in a thread (default: what engine and processor allow)")
-            ->check(CLI::Range(1, 64));
-        command.add_flag("--accept-build", a.accept_build, "go on with a study that another build of the program began");
+        command.add_flag("--dry-run", a.dry_run, "tell what would be run and how long it takes, and write nothing");
+        add_study_run(command, a, "runs/optimize-NAME");
         command.add_flag("--quiet", a.quiet, "print no progress and no summary");
       });
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/study_text.h"
 #include "core/files/atomic_file.h"
@@ -23,12 +24,37 @@ report::StudyAxis objective_axis(const JournalHead& head, std::size_t number) {
   return {clipped(expression), figure == head.figures.end() ? "" : clipped(figure->unit)};
 }
 
-report::ConvergenceFigure convergence_of(const JournalHead& head, const std::vector<studies::Generation>& generations) {
+/// The generation that the budget cut: what the journal has beyond the last whole one. Of a single search; of several it is not
+/// known whose points they are.
+void add_cut(report::ConvergenceFigure& figure, const studies::Results& results, std::uint64_t whole) {
+  if (figure.searches.size() != 1) return;
+  std::vector<double> feasible;
+  double points = 0;
+  for (const studies::PointResult& point : results.points) {
+    if (point.first_run < whole) continue;
+    ++points;
+    if (point.feasible()) feasible.push_back(point.score.objective());
+  }
+  if (points == 0) return;
+  report::ConvergencePoint cut = figure.searches.front().back();
+  ++cut.generation;
+  cut.points = points;
+  cut.feasible = static_cast<double>(feasible.size()) / points;
+  cut.best = cut.median = cut.spread = std::nan("");
+  if (!feasible.empty()) {
+    cut.best = figure.maximize ? std::ranges::max(feasible) : std::ranges::min(feasible);
+    cut.median = studies::combined(std::move(feasible), "median", 0.5);
+  }
+  figure.searches.front().push_back(cut);
+}
+
+report::ConvergenceFigure convergence_of(const JournalHead& head, const studies::Results& results,
+                                         const std::vector<studies::Generation>& generations) {
   report::ConvergenceFigure figure;
   figure.title = clipped(head.name) + ": the search";
   std::uint64_t runs = 0;
   for (const studies::Generation& g : generations) runs += g.runs;
-  figure.note = study_note(head, runs);
+  figure.note = study_note(head, results.runs);
   figure.value = objective_axis(head, 0);
   figure.maximize = head.objectives.front().maximize;
   std::uint64_t search = 0;
@@ -39,6 +65,7 @@ report::ConvergenceFigure convergence_of(const JournalHead& head, const std::vec
     figure.searches.back().push_back({static_cast<double>(g.generation), static_cast<double>(g.restart), points, g.best,
                                       g.median, points > 0 ? static_cast<double>(g.feasible) / points : 0, g.spread});
   }
+  add_cut(figure, results, runs);
   return figure;
 }
 
@@ -82,7 +109,7 @@ std::vector<std::string> write_search_files(Journal& journal, const studies::Res
     files.push_back(name + ".svg");
   };
   if (const std::vector<studies::Generation> generations = journal.generations(); !generations.empty()) {
-    const report::ConvergenceFigure figure = convergence_of(journal.head(), generations);
+    const report::ConvergenceFigure figure = convergence_of(journal.head(), results, generations);
     write("convergence", report::convergence_svg(figure), report::convergence_csv(figure));
   }
   if (journal.head().objectives.size() > 1) {

@@ -14,6 +14,7 @@
 #include "report/many_figure.h"
 #include "report/study_figure.h"
 #include "studies/number.h"
+#include "studies/verify.h"
 
 namespace gaitlab::app {
 
@@ -44,11 +45,15 @@ report::PointState state_of(const studies::PointResult& point) {
   return point.feasible() ? report::PointState::feasible : report::PointState::infeasible;
 }
 
-/// Number of the best point, where it is feasible; else that of points.
-std::size_t best_of(const JournalHead& head, const Results& results) {
-  if (results.points.empty()) return 0;
-  const std::size_t best = studies::ranked(results.points, head.objectives.front().maximize).front();
-  return results.points[best].feasible() ? best : results.points.size();
+/// Number of the best feasible point, of those that stood where any was tried again; that of points: there is none.
+std::size_t best_of(Journal& journal, const Results& results) {
+  const std::vector<studies::Verification> tried = journal.verifications();
+  const std::vector<std::uint64_t> stood = studies::verified(tried);
+  for (const std::size_t k : studies::ranked(results.points, journal.head().objectives.front().maximize)) {
+    if (!results.points[k].feasible()) break;
+    if (tried.empty() || std::ranges::find(stood, results.points[k].first_run) != stood.end()) return k;
+  }
+  return results.points.size();
 }
 
 report::StudyAxis axis_of(const JournalParameter& p) { return {clipped(p.key), "", p.log}; }
@@ -120,11 +125,12 @@ struct Drawn {
   const std::vector<std::size_t>& parameters;
   std::vector<std::size_t> rows;
   std::string note;
+  std::size_t best_point;  ///< number of points: there is none
 
   [[nodiscard]] std::string title(const studies::FigureName& name) const {
     return clipped(head.name) + ": " + clipped(name.name);
   }
-  [[nodiscard]] std::size_t best() const { return rows.size() == results.points.size() ? best_of(head, results) : rows.size(); }
+  [[nodiscard]] std::size_t best() const { return std::min(best_point, rows.size()); }
 };
 
 report::StudyFigure map_of(const Drawn& drawn, std::size_t number, const studies::FigureName& name) {
@@ -212,7 +218,8 @@ std::vector<std::string> write_study_files(Journal& journal, const Results& resu
     figures.push_back(
         static_cast<std::size_t>(std::ranges::find(head.figures, name, &studies::FigureName::name) - head.figures.begin()));
   const Values values = values_of(journal, parameters, figures);
-  const Drawn drawn{head, results, values, parameters, rows_of(results, values), study_note(head, results.runs)};
+  const Drawn drawn{
+      head, results, values, parameters, rows_of(results, values), study_note(head, results.runs), best_of(journal, results)};
   const bool map = is_map(head, parameters);
   for (std::size_t k = 0; k < figures.size() && !parameters.empty(); ++k) {
     const studies::FigureName& figure = head.figures[figures[k]];

@@ -12,6 +12,12 @@ namespace gaitlab::app {
 
 void add_study_run(CLI::App& command, StudyRunArguments& a, const char* folder) {
   command.add_option("--out", a.out, std::string("folder of the study (default ") + folder + "); one that holds it goes on");
+  command
+      .add_option("--answers", a.answers,
+                  "study.db of another study: what it has of these runs is not run again; may be repeated")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("-j,--jobs", a.jobs, "threads (default: one per processor)")->check(CLI::Range(1, 1024));
   command.add_option("--lanes", a.lanes, "runs side by side in a thread (default: what engine and processor allow)")
       ->check(CLI::Range(1, 64));
@@ -25,6 +31,26 @@ Team& team() {
 
 studies::Executor study_executor(const studies::Plan& plan, const BatchSettings& settings, studies::Measure measure) {
   return team() ? team()(plan, settings, std::move(measure)) : local_executor(plan, settings, std::move(measure));
+}
+
+studies::Journal::Build taken_build(const StudyRunArguments& a) {
+  return a.accept_build ? studies::Journal::Build::any : studies::Journal::Build::same;
+}
+
+std::vector<studies::Answers> other_answers(const studies::Plan& plan, const StudyRunArguments& a, const std::string& build) {
+  std::vector<studies::Answers> answers;
+  for (const std::string& other : a.answers) answers.emplace_back(plan, other, build, taken_build(a));
+  return answers;
+}
+
+void keep_runs(studies::Plan& plan, const std::filesystem::path& file, bool quiet) {
+  std::error_code none;
+  if (!std::filesystem::exists(file, none)) return;
+  const std::uint64_t there = studies::Journal(file).end();
+  const std::uint64_t wanted = plan.most_runs();
+  if (there <= wanted || !plan.raise_budget(there) || quiet) return;
+  fmt::print(stderr, "{}: note: has runs up to number {}, beyond the budget of {}; all of them count\n", file.string(),
+             there - 1, wanted);
 }
 
 void refuse_copies(const char* command) {

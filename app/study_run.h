@@ -4,16 +4,18 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/stop_on_signal.h"
-#include "studies/executor.h"
+#include "studies/answers.h"
 
 namespace gaitlab::app {
 
 /// What every command that does runs of a study takes.
 struct StudyRunArguments {
   std::optional<std::string> out;
+  std::vector<std::string> answers;
   int jobs = 0, lanes = 0;
   bool accept_build = false;
 };
@@ -28,6 +30,22 @@ Team& team();
 /// What does the runs of a study: every command asks here, before it touches the study's folder, which belongs to one process.
 /// InputError: other processes of the team read another study.
 studies::Executor study_executor(const studies::Plan& plan, const BatchSettings& settings, studies::Measure measure);
+
+/// The journals of --answers. `build`: of this program. InputError: one does not answer this study.
+std::vector<studies::Answers> other_answers(const studies::Plan& plan, const StudyRunArguments& arguments,
+                                            const std::string& build);
+
+/// Prints what of the plan would be run, and how long it takes: a few of its runs are timed.
+void print_plan(const studies::Plan& plan, const StudyRunArguments& arguments);
+
+/// Prints which ends of parameters the scenario refuses.
+void print_notes(const studies::Plan& plan, bool quiet);
+
+/// Which build's rows are taken.
+studies::Journal::Build taken_build(const StudyRunArguments& arguments);
+
+/// A budget never leaves out runs that the journal in `file` has: raises it to them, and says so unless `quiet`.
+void keep_runs(studies::Plan& plan, const std::filesystem::path& file, bool quiet);
 
 /// Several copies of the program that do not know of one another, as mpirun starts them, would write one journal: InputError,
 /// unless they are a team. `command`: `gaitlab sweep`.

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 
 #include "app/commands.h"
 #include "app/study_figures.h"
@@ -23,57 +21,14 @@ using studies::Journal;
 using studies::Plan;
 using studies::Study;
 
-void print_plan(const Plan& plan, const SweepArguments& a) {
-  const studies::Points& points = plan.points();
-  const auto shown = [&](std::uint64_t run) { return fmt::format("{}", fmt::join(plan.sets(run), " ")); };
-  const double simulated = plan.scenario().duration * static_cast<double>(points.runs());
-  fmt::print("{} runs: {} points, {} each\n", points.runs(), points.points(), counted(points.replicates(), "run"));
-  fmt::print("first  {}\nlast   {}\n", shown(0), shown(points.runs() - 1));
-  fmt::print("{:.6g} s simulated in all\n", simulated);
-  // One pack tells how long all take: by the clock, for the terminal alone.
-  std::uint64_t next = 0;
-  std::uint64_t ended = 0;
-  std::atomic<bool> stop = false;
-  const auto start = std::chrono::steady_clock::now();
-  const studies::Measure measure = figure_measure(plan.columns(), plan.scenario());
-  constexpr std::uint64_t kPack = 8;
-  const BatchStream stream{.next = [&]() -> std::optional<Rollout> {
-                             while (next < std::min(points.runs(), kPack)) {
-                               const std::uint64_t run = next++;
-                               try {
-                                 return Rollout{run, plan.scenario(run)};
-                               } catch (const InputError&) {  // it will be a row of the study
-                               }
-                             }
-                             return {};
-                           },
-                           .end =
-                               [&](std::vector<RolloutEnd>&& pack) {
-                                 for (const RolloutEnd& one : pack) {
-                                   if (one.refused.empty()) (void)measure(one.rollout.scenario, one.recording);
-                                   ++ended;
-                                 }
-                               }};
-  run_pulled(stream, {1, static_cast<std::size_t>(a.lanes)}, Loads::recorded, stop);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  const double each = ended == 0 ? 0 : took.count() / static_cast<double>(ended);
-  const double all = each * static_cast<double>(points.runs());
-  const double bytes = static_cast<double>(points.runs()) *
-                       (120 + 9.0 * static_cast<double>(plan.columns().size() + plan.study().parameters.size()));
-  fmt::print("takes about {:.3g} s on {} ({:.3g} s a run on one)\n", all / study_threads(a.jobs),
-             counted(static_cast<std::size_t>(study_threads(a.jobs)), "thread"), each);
-  fmt::print("journal about {:.3g} MB\n", bytes / 1e6);
-  constexpr double kShard = 1800;  // s
-  fmt::print("shards of 30 min on one thread: {}\n", static_cast<std::uint64_t>(std::max(1.0, std::ceil(all / kShard))));
-}
-
 int sweep_study(const SweepArguments& a) {
   refuse_copies("gaitlab sweep");
   Catalog catalog = standard_catalog();
   Study study = wanted_study(a);
   const studies::Shard shard = wanted_shard(a);
   if (study.name.empty()) study.name = read_scenario(study.scenario, study.sets, catalog).name;
-  const Plan plan(std::move(study), figure_offer(), catalog);
+  Plan plan(std::move(study), figure_offer(), catalog);
+  print_notes(plan, a.quiet);
   if (a.dry_run) {
     print_plan(plan, a);
     return 0;
@@ -83,9 +38,7 @@ int sweep_study(const SweepArguments& a) {
                                                     figure_measure(plan.columns(), plan.scenario()));
   studies::JournalHead head = plan.head();
   head.build = report::build_id();
-  const Journal::Build taken = a.accept_build ? Journal::Build::any : Journal::Build::same;
-  std::vector<studies::Answers> answers;
-  for (const std::string& other : a.answers) answers.emplace_back(plan, other, head.build, taken);
+  std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
   std::uint64_t answered = 0;
   const fs::path folder = studies::study_folder(a.out, "sweep-" + plan.study().name, holds_study(head));
   head.command = goes_on(a, folder);
@@ -94,7 +47,9 @@ int sweep_study(const SweepArguments& a) {
   if (!shard.whole()) fs::create_directory(folder / "shards", none);
   fs::path lock_file = file;
   const studies::Lock lock(shard.whole() ? folder / "lock" : lock_file.replace_extension("lock"));
-  Journal journal(file, head, taken);
+  keep_runs(plan, file, a.quiet);
+  head.runs = plan.most_runs();
+  Journal journal(file, head, taken_build(a));
 
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   studies::Standing standing;
@@ -159,8 +114,6 @@ void add_sweep(Commands& commands) {
             "figures to show and draw, by name with * and ?; the first orders the points of a scenario; may be repeated"));
         command.add_option("--shard", a.shard,
                            "do one part of the runs, I/N, or auto in a Slurm array; then `gaitlab study merge`");
-        repeatable(command.add_option(
-            "--answers", a.answers, "study.db of another study: what it has of these runs is not run again; may be repeated"));
         command.add_flag("--dry-run", a.dry_run, "tell what would be run and how long it takes, and write nothing");
         add_study_run(command, a, "runs/sweep-NAME");
       });

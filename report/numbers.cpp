@@ -77,7 +77,7 @@ Json fallen(R run) {
   return found ? Json(found->share() < run.scenario.limits.height) : Json();
 }
 
-Json held(R run, double Posture::*figure) { return or_null(posture(run.scenario, run.record, run.summary.judged).*figure); }
+Json held(R run, double Posture::*figure) { return or_null(run.summary.posture.*figure); }
 
 template <class Named>
 Json names(const Named& all) {

@@ -35,7 +35,7 @@ double at_time(const Series& time, const Series& value, double t) {
 }  // namespace
 
 Posture posture(const Scenario& scenario, const Recording& r, const Judged& judged) {
-  Posture found{kNoFigure, kNoFigure, kNoFigure, kNoFigure};
+  Posture found;
   const Series time = r.series("t");
   const Series z = r.series("com.z");
   const Series qx = r.series("base.qx");

@@ -1,8 +1,10 @@
 // How a robot holds itself in the judged window: at the trace ticks behind its start, up to its end.
 #pragma once
+#include <limits>
+
+#include "core/recording/judged.h"
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
-#include "report/summary.h"
 
 namespace gaitlab::report {
 
@@ -11,9 +13,10 @@ inline constexpr double kAirborne = 0.05;
 
 /// NaN: not known.
 struct Posture {
-  double airborne_share;          ///< of the ticks, those at which the ground bears less than kAirborne of the weight
-  double height_min, height_max;  ///< m, of the centre of mass
-  double tilt_max;                ///< rad, largest angle between the base's z axis and the vertical
+  /// Of the ticks, those at which the ground bears less than kAirborne of the weight.
+  double airborne_share = std::numeric_limits<double>::quiet_NaN();
+  double height_min = airborne_share, height_max = airborne_share;  ///< m, of the centre of mass
+  double tilt_max = airborne_share;  ///< rad, largest angle between the base's z axis and the vertical
 };
 
 /// airborne_share is not known without gravity, of a base that does not float, and of a robot that has no contact elements. All

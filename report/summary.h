@@ -6,6 +6,7 @@
 #include "core/recording/judged.h"
 #include "core/scenario/scenario.h"
 #include "core/simulation/simulation.h"
+#include "report/posture.h"
 
 namespace gaitlab::report {
 
@@ -22,6 +23,7 @@ struct Summary {
   double stability_max = 0, stability_share = 0;  ///< h lambda; share of control ticks above 1
   std::string stability_source;
   Judged judged;
+  Posture posture;  ///< over the judged window
   std::string trace_hash;
   /// The joint to look at first; 0 where there is none.
   [[nodiscard]] std::size_t most_loaded() const { return judged.order.empty() ? 0 : judged.order.front(); }

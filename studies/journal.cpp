@@ -42,6 +42,14 @@ Effort Journal::effort() {
 
 std::uint64_t Journal::rows() { return static_cast<std::uint64_t>(database_.integer("SELECT count(*) FROM run")); }
 
+std::uint64_t Journal::end() {
+  constexpr std::int64_t kMost = 4'000'000'000;
+  const std::int64_t last = database_.integer("SELECT coalesce(max(run), -1) FROM run");
+  if (last >= -1 && last < kMost) return static_cast<std::uint64_t>(last + 1);
+  throw InputError(SourceLocation{file_.string()},
+                   "is not a journal that this program wrote: a run has number " + std::to_string(last));
+}
+
 std::vector<bool> Journal::present(std::uint64_t runs) {
   std::vector<bool> present(runs);
   Statement all = database_.prepare("SELECT run FROM run");

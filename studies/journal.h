@@ -152,6 +152,8 @@ class Journal {
   /// study.
   std::uint64_t take(Journal& other);
   [[nodiscard]] std::uint64_t rows();
+  /// One more than the largest number of a run that has a row.
+  [[nodiscard]] std::uint64_t end();
   /// Of all packs together: runs and wall.
   [[nodiscard]] Effort effort();
 

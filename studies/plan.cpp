@@ -119,11 +119,18 @@ Plan::Plan(Study study, const FigureOffer& offer, Catalog& catalog) : study_(std
   gait_judge_ = std::make_unique<Judge>(gait, columns_, offer, nominal_scenario_.limits, joints, problems);
   if (problems.empty()) check_corners(problems);
   problems.raise();
+  note_refused_ends();
 }
 
 void Plan::find_other_engine(const Catalog& catalog, Problems& problems) {
   const std::string& name = study_.verify.engine;
-  if (name == "none" || name == nominal_scenario_.physics.engine->name) return;
+  if (name == "none") return;
+  if (name == nominal_scenario_.physics.engine->name) {
+    problems.add(study_.verify.place,
+                 fmt::format("verify.engine {} is the engine of the study itself; expected another, or none: known are {}",
+                             name, fmt::join(catalog.engines(), ", ")));
+    return;
+  }
   const Engine* engine = catalog.engine(name);
   if (engine == nullptr) {
     problems.add(study_.verify.place,
@@ -185,6 +192,21 @@ void Plan::check_corners(Problems& problems) const {
   add_as_written(*first, study_, problems);
 }
 
+void Plan::note_refused_ends() {
+  for (const Parameter& p : study_.parameters) {
+    if (!p.values.empty()) continue;
+    for (const bool high : {false, true}) {
+      const std::string value = number_text(high ? p.high : p.low);
+      try {
+        (void)with({p.key + "=" + value});
+      } catch (const InputError& error) {
+        notes_.push_back({p.place, fmt::format("{} is refused at its {} of {}, so that points near it will fail: {}", p.key,
+                                               high ? "high" : "low", value, error.problems().front().text)});
+      }
+    }
+  }
+}
+
 std::map<std::string, double> Plan::nominal(const std::vector<std::string>& values) const {
   std::map<std::string, double> nominal = nominal_;
   for (std::size_t k = 0; k < study_.parameters.size(); ++k) nominal[study_.parameters[k].key] = number_of(values[k]);
@@ -203,6 +225,13 @@ std::vector<std::string> Plan::sets(const std::vector<std::string>& values, std:
   for (std::size_t k = 0; k < drawn.size(); ++k) sets.push_back(study_.replicates.vary[k].key + "=" + drawn[k]);
   sets.push_back(fmt::format("seed={}", points_.seed(replicate)));
   return sets;
+}
+
+bool Plan::raise_budget(std::uint64_t runs) {
+  if (study_.runs == 0) return false;
+  const std::uint64_t each = points_.replicates();
+  study_.runs = std::max(study_.runs, static_cast<std::int64_t>((runs + each - 1) / each * each));
+  return true;
 }
 
 std::string Plan::point_name(const std::vector<std::string>& values) const {

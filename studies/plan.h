@@ -25,6 +25,9 @@ class Plan {
   [[nodiscard]] std::uint64_t most_runs() const { return points_.runs(); }
   [[nodiscard]] const Judge& judge() const { return *judge_; }
   [[nodiscard]] const StopRules& stops() const { return *stops_; }
+  /// Ends of parameters that the scenario refuses, where the other end, the rest being nominal, is not: points near them will
+  /// fail.
+  [[nodiscard]] const std::vector<Problem>& notes() const { return notes_; }
   /// The same with all guards as they are by default: what makes a winner without guards suspect.
   [[nodiscard]] const Judge& gait_judge() const { return *gait_judge_; }
   [[nodiscard]] const std::vector<FigureName>& columns() const { return columns_; }
@@ -33,6 +36,8 @@ class Plan {
 
   /// The next point of a study whose points are chosen by what came out, or by another program.
   void add(std::vector<std::string> values) { points_.add(std::move(values)); }
+  /// A budget of at least so many runs, in whole points. False: the study has no budget.
+  bool raise_budget(std::uint64_t runs);
   /// What a point with these values is called in the journal, the same in every study of the scenario.
   [[nodiscard]] std::string point_name(const std::vector<std::string>& values) const;
 
@@ -58,6 +63,7 @@ class Plan {
   [[nodiscard]] std::map<std::string, double> nominal(const std::vector<std::string>& values) const;
   [[nodiscard]] std::vector<std::string> sets(const std::vector<std::string>& values, std::uint64_t replicate) const;
   void check_corners(Problems& problems) const;
+  void note_refused_ends();
   void find_other_engine(const Catalog& catalog, Problems& problems);
   void find_nominal(Problems& problems);
   void choose_shown(Problems& problems);
@@ -74,6 +80,7 @@ class Plan {
   std::unique_ptr<StopRules> stops_;
   std::vector<std::size_t> shown_;
   std::vector<std::string> other_engine_;
+  std::vector<Problem> notes_;
 };
 
 }  // namespace gaitlab::studies

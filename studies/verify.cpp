@@ -136,6 +136,7 @@ std::vector<std::size_t> candidates(const Plan& plan, const Results& results) {
 
 std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journal, const Results& results,
                                                 const std::vector<std::size_t>& points, const Executor& executor,
+                                                const std::function<void(std::size_t done, std::size_t of)>& told,
                                                 std::atomic<bool>& stop) {
   const std::vector<Way> tried = ways(plan);
   const std::uint64_t replicates = plan.points().replicates();
@@ -154,6 +155,7 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
   std::vector<Row> rows(jobs.size());
   std::mutex mutex;
   std::size_t next = 0;
+  std::size_t done = 0;
   const Work work{.next = [&]() -> std::optional<Job> {
                     if (next == jobs.size()) return {};
                     return jobs[next++];
@@ -163,6 +165,8 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
                       [&](std::vector<Row>&& ended) {
                         const std::lock_guard lock(mutex);
                         for (Row& row : ended) rows[row.run] = std::move(row);
+                        done += ended.size();
+                        told(done, rows.size());
                       }};
   if (!jobs.empty() && !executor(work, stop)) return {};
   std::vector<Verification> all;

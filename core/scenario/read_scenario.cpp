@@ -44,6 +44,10 @@ class ScenarioReader {
                     fmt::format("this is a module type, not a scenario; what is in it: gaitlab explain module {}", path_));
       raise();
     }
+    if (root_.find("gaitlab_study") != nullptr) {
+      problems_.add(root_.place, "this is a study, not a scenario; run it with gaitlab sweep or gaitlab optimize");
+      raise();
+    }
     Reader head(root_, "the scenario", problems_, nullptr);
     if (!head.version("gaitlab")) raise();  // another version's keys mean something else
     if (const Node* plugins = root_.find("plugins")) {

@@ -45,7 +45,50 @@ TEST_F(Optimize, ABestThatStandsHasItsFolder) {
   // The same command again runs nothing, and ends as before.
   EXPECT_EQ(call("optimize s.yaml --out o --quiet").code, 0);
   EXPECT_EQ(this->journal("o").effort().runs, 24U);
-  EXPECT_EQ(call("optimize s.yaml --out o --quiet --runs 20").code, 0);  // a smaller budget
+  // The generation that the budget cut is drawn, too.
+  EXPECT_NE(read(folder_ / "o/convergence.csv").find("\n0,1,0,8,"), std::string::npos) << read(folder_ / "o/convergence.csv");
+  // A smaller budget leaves nothing out.
+  const Result fewer = call("optimize s.yaml --out o --runs 20");
+  EXPECT_EQ(fewer.code, 0);
+  EXPECT_EQ(fewer.err.rfind("o/study.db: note: has runs up to number 23, beyond the budget of 20; all of them count\n", 0), 0U)
+      << fewer.err;
+  EXPECT_NE(fewer.out.find("24 of 24 runs ended"), std::string::npos) << fewer.out;
+}
+
+TEST_F(Optimize, TellsWhatItWouldDo) {
+  study(kGentle + std::string("budget: {runs: 24}\n"));
+  const Result result = call("optimize s.yaml --dry-run -j 1");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.out.rfind("24 runs: 24 points, 1 run each\nmethod cma chooses them, and the best 1 are run again\n"
+                             "7.2 s simulated in all\ntakes about ",
+                             0),
+            0U)
+      << result.out;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "runs"));
+}
+
+TEST_F(Optimize, TakesAnswersOfOtherStudies) {
+  study(kGentle + std::string("budget: {runs: 24}\n"));
+  ASSERT_EQ(call("optimize s.yaml --out o --quiet").code, 0);
+  study(kGentle + std::string("budget: {runs: 32}\nconstraints: [speed <= 1000]\n"));
+  ASSERT_EQ(call("optimize s.yaml --out more --answers o --quiet").code, 0);
+  ASSERT_EQ(call("optimize s.yaml --out own --quiet").code, 0);
+  EXPECT_EQ(read(folder_ / "more/table.csv"), read(folder_ / "own/table.csv"));
+}
+
+TEST_F(Optimize, FiguresMarkTheBestThatStood) {
+  const std::string wide =
+      "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nobjective: {minimize: torque.peak}\n"
+      "budget: {runs: 16}\nverify: {best: 1, change: ";
+  study(wide + "9}\n");
+  ASSERT_EQ(call("optimize s.yaml --out stood --quiet").code, 0);
+  study(wide + "1e-6}\n");
+  ASSERT_EQ(call("optimize s.yaml --out fell --quiet").code, 3);
+  const auto marked = [&](const char* out) {
+    return read(folder_ / (out + std::string("/speed.csv"))).find(",1\n") != std::string::npos;
+  };
+  EXPECT_TRUE(marked("stood"));
+  EXPECT_FALSE(marked("fell"));
 }
 
 TEST_F(Optimize, WhatChangesWithTheStepIsNotVerified) {
@@ -101,6 +144,11 @@ TEST_F(Optimize, CommandsAreToldApart) {
   EXPECT_EQ(scenario.code, 2);
   EXPECT_EQ(scenario.err,
             "two.yaml: error: is not the file of a study; expected one with gaitlab_study: 1 (gaitlab explain study)\n");
+  for (const char* command : {"run", "check", "swap --cpg hopf"}) {
+    const Result run = call(command + std::string(" s.yaml"));
+    EXPECT_EQ(run.code, 2);
+    EXPECT_EQ(run.err, "s.yaml:1:1: error: this is a study, not a scenario; run it with gaitlab sweep or gaitlab optimize\n");
+  }
   const Result few = call("optimize s.yaml --runs 9");
   EXPECT_EQ(few.code, 2);
   EXPECT_EQ(few.err, "--runs: error: a budget of 9 runs is less than the 16 of the searches' first generation\n");

@@ -308,6 +308,12 @@ TEST_F(Sweep, TellsWhatItWouldDo) {
   EXPECT_EQ(dry.code, 0) << dry.err;
   EXPECT_TRUE(contains(dry.out, "10 runs: 5 points, 2 runs each\nfirst  cpg.phase_lag=0.5 seed=")) << dry.out;
   EXPECT_TRUE(contains(dry.out, "3 s simulated in all\n")) << dry.out;
+  const Result wide = call("sweep two.yaml --random cpg.amplitude=0.1:3.5 --runs 4 --dry-run");
+  EXPECT_EQ(wide.code, 0);
+  EXPECT_TRUE(contains(
+      wide.err,
+      "--random cpg.amplitude=0.1:3.5: note: cpg.amplitude is refused at its high of 3.5, so that points near it will fail: "))
+      << wide.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "runs"));
 }
 

@@ -150,6 +150,10 @@ TEST_F(StudyFile, ASearchIsChecked) {
   EXPECT_EQ(search("budget: {runs: 64, wall: 1 h}\n"), "s.yaml:4:20: error: unknown key 'wall'; known keys: runs");
   EXPECT_EQ(search("budget: {runs: 64}\nverify: {engine: bulet}\n"),
             "s.yaml:5:18: error: verify.engine 'bulet' is not known; did you mean 'bullet'?");
+  EXPECT_EQ(
+      search("budget: {runs: 64}\nverify: {engine: articulated}\n"),
+      "s.yaml:5:18: error: verify.engine articulated is the engine of the study itself; expected another, or none: known are "
+      "bullet, articulated");
   EXPECT_EQ(search("budget: {runs: 64}\nverify: {best: 0}\n").substr(0, 27), "s.yaml:5:16: error: best is");
   EXPECT_EQ(parameters("cpg.type: {values: [hopf, sine]}", "method: {type: cma}\nbudget: {runs: 64}\n"),
             "s.yaml:1:1: error: method cma has nothing to search: no parameter has low and high");
