@@ -43,7 +43,7 @@ Effort Journal::effort() {
 std::uint64_t Journal::rows() { return static_cast<std::uint64_t>(database_.integer("SELECT count(*) FROM run")); }
 
 std::uint64_t Journal::end() {
-  constexpr std::int64_t kMost = 4'000'000'000;
+  constexpr std::int64_t kMost = 1'000'000'000;
   const std::int64_t last = database_.integer("SELECT coalesce(max(run), -1) FROM run");
   if (last >= -1 && last < kMost) return static_cast<std::uint64_t>(last + 1);
   throw InputError(SourceLocation{file_.string()},

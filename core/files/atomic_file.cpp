@@ -170,7 +170,13 @@ int AtomicFile::give_name() {
   return ::rename(part_.c_str(), path_.c_str()) == 0 ? 0 : errno;
 }
 
-void AtomicFile::fail(int error) { fail(std::generic_category().message(error)); }
+void AtomicFile::fail(int error) {
+  if (error == EEXIST && existing_ == Existing::refused) {
+    discard();
+    throw InputError(SourceLocation{path_.string()}, "exists; nothing was written");
+  }
+  fail(std::generic_category().message(error));
+}
 
 void AtomicFile::fail(const std::string& reason) {
   discard();

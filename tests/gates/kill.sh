@@ -154,7 +154,38 @@ kill_approvals() {
     approve "$moments" "$time" "$old" "$new" "$half"
 }
 
+# What is left must be what an undisturbed command leaves, or less of it: kill_writer NAME ARGUMENT...; OUT stands for the target.
+kill_writer() {
+  local i name=$1 time left=0 out
+  shift
+  time=$(duration "$program" "${@/OUT/$work/expected-$name}")
+  for ((i = 0; i < moments; ++i)); do
+    out=$work/one/$name-$i
+    mkdir -p "$work/one"
+    draw_moment "$time"
+    kill_after "$moment" "$program" "${@/OUT/$out}"
+    if [[ -f $out ]]; then cmp -- "$out" "$work/expected-$name" || bad "$name, killed, left half a file"
+    elif [[ -d $out ]]; then whole "$out" "$work/expected-$name"
+    fi
+    # `new plugin` has one rename for all of its files.
+    [[ $name != new || ! -e $out ]] || diff -rq "$out" "$work/expected-$name" || bad "new plugin, killed, left a part"
+    [[ ! -e $out ]] || left=$((left + 1))
+    rm -rf -- "$work/one"
+  done
+  printf '%-8s killed %d times within %d ms: %d left a target, none of them a wrong one\n' "$name" "$moments" "$time" "$left"
+}
+
+kill_writers() {
+  kill_writer rerun rerun "$work/whole-h5" --quiet --out OUT
+  kill_writer swap swap "$root/scenarios/pendulum.yaml" --quiet --set duration=0.2 --cpg phase_oscillator,hopf --out OUT
+  kill_writer csv export "$work/whole-h5" --to csv OUT
+  kill_writer gltf export "$work/whole-h5" --to gltf OUT
+  kill_writer mjcf export "$root/scenarios/caterpillar.yaml" --to mjcf OUT
+  kill_writer new new plugin cpg mine --out OUT
+}
+
 kill_runs
+kill_writers
 if make_golden; then
   kill_tests
   kill_approvals

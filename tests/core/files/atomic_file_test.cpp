@@ -107,9 +107,9 @@ TEST_F(AtomicFiles, OfTwoWritersOfANewFileTheSecondOneIsTold) {
   first.write("first");
   second.write("second");
   second.commit();
-  EXPECT_EQ(refusal([&] { first.commit(); }), file_.string() + ": cannot be written: File exists");
+  EXPECT_EQ(refusal([&] { first.commit(); }), file_.string() + ": error: exists; nothing was written");
   EXPECT_EQ(text(), "second");
-  EXPECT_EQ(refusal([&] { AtomicFile(file_, Existing::refused); }), file_.string() + ": cannot be written: File exists");
+  EXPECT_EQ(refusal([&] { AtomicFile(file_, Existing::refused); }), file_.string() + ": error: exists; nothing was written");
   EXPECT_EQ(files(), 1U);
 }
 
