@@ -524,7 +524,7 @@ std::vector<SummaryNumber> list() {
       {.key = "trace_hash",
        .definition = "FNV-1a, 64 bit, over the names and the bytes of all columns.",
        .words = true,
-       .value = [](R r) { return r.summary.trace_hash; },
+       .value = [](R r) { return hash(r.record.trace); },
        .compare = {250}},
   };
 }

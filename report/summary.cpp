@@ -106,7 +106,6 @@ Summary summarise(const Scenario& scenario, const Recording& r, double wall_time
   if (r.worst.rate > 0) s.stability_source = source_of(r.worst, *scenario.robot, contacts);
   s.judged = judge(r, s.limit_cycle);
   s.posture = posture(scenario, r, s.judged);
-  s.trace_hash = hash(r.trace);
   return s;
 }
 

@@ -24,7 +24,6 @@ struct Summary {
   std::string stability_source;
   Judged judged;
   Posture posture;  ///< over the judged window
-  std::string trace_hash;
   /// The joint to look at first; 0 where there is none.
   [[nodiscard]] std::size_t most_loaded() const { return judged.order.empty() ? 0 : judged.order.front(); }
 };

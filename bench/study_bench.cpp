@@ -1,0 +1,110 @@
+// What a study costs beside its rollouts: the figures of a run, its row in the journal, a look at many rows.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "app/app.h"
+#include "app/study_figures.h"
+#include "core/scenario/read_scenario.h"
+#include "core/simulation/batch.h"
+#include "report/summary.h"
+#include "report/verdict.h"
+#include "studies/results.h"
+#include "tests/folder.h"
+
+namespace gaitlab {
+namespace {
+
+/// A scenario and its recording over 12 s, at a row every 15 ms.
+struct Recorded {
+  explicit Recorded(const char* name) {
+    scenarios.push_back(read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/scenarios/" + name,
+                                      {"physics.engine=articulated", "duration=12", "trace.period=0.015"}, catalog));
+    run_batch(scenarios, {}, [this](std::size_t, Recording&& r) { recording = std::move(r); });
+  }
+  Catalog catalog = app::standard_catalog();
+  std::vector<Scenario> scenarios;
+  Recording recording;
+};
+
+void summary(benchmark::State& state, const char* name) {
+  const Recorded run(name);
+  for ([[maybe_unused]] auto once : state)
+    benchmark::DoNotOptimize(report::summarise(run.scenarios[0], run.recording, 0).speed);
+}
+
+void overlaps(benchmark::State& state, const char* name) {
+  const Recorded run(name);
+  for ([[maybe_unused]] auto once : state) benchmark::DoNotOptimize(report::overlaps(run.scenarios[0], run.recording));
+}
+
+/// All of it: summary, overlaps, verdict and the columns of the journal.
+void measure(benchmark::State& state, const char* name) {
+  const Recorded run(name);
+  const studies::Measure of = app::figure_measure(app::figure_offer().common, run.scenarios[0]);
+  for ([[maybe_unused]] auto once : state) benchmark::DoNotOptimize(of(run.scenarios[0], run.recording).figures.data());
+}
+
+/// A study of 6 parameters and 30 figures.
+studies::JournalHead head() {
+  studies::JournalHead head;
+  head.name = "bench";
+  head.objectives = {{"f0", true}};
+  for (int k = 0; k < 6; ++k) head.parameters.push_back({fmt::format("p{}", k), false, false, 0, 1, false, {}});
+  for (int k = 0; k < 30; ++k) head.figures.push_back({fmt::format("f{}", k), "", ""});
+  head.shown = {"f0"};
+  return head;
+}
+
+void write_rows(studies::Journal& journal, std::uint64_t first, std::uint64_t count) {
+  constexpr std::uint64_t kPack = 8;
+  for (std::uint64_t run = first; run < first + count; run += kPack) {
+    std::vector<studies::Row> rows;
+    for (std::uint64_t r = run; r < run + kPack; ++r) {
+      const double x = 1.0 / static_cast<double>(r + 3);
+      studies::Row row{.run = r, .point = fmt::format("{:032x}", r * 0x9E3779B97F4A7C15ULL), .outcome = "done"};
+      row.simulated = 12;
+      for (int k = 0; k < 6; ++k) row.values.push_back(fmt::format("{}", x * (k + 1)));
+      for (int k = 0; k < 30; ++k) row.figures.push_back(x * (k + 7));
+      row.verdict = "feasible";
+      row.score = studies::Score{{x}, 0};
+      rows.push_back(std::move(row));
+    }
+    journal.write(rows, {run, kPack, "2000-01-01T00:00:00Z", 1, "bench", 1});
+  }
+}
+
+/// Rows in packs of eight, each pack on the disk before the next.
+void journal_write(benchmark::State& state) {
+  const test::Folder folder;
+  studies::Journal journal(folder.path() / studies::kJournalFile, head(), studies::Journal::Build::same);
+  std::uint64_t rows = 0;
+  constexpr std::uint64_t kRows = 8000;
+  for ([[maybe_unused]] auto once : state) {
+    write_rows(journal, rows, kRows);
+    rows += kRows;
+  }
+  double bytes = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder.path())) bytes += static_cast<double>(file.file_size());
+  state.counters["rows/s"] = benchmark::Counter(static_cast<double>(rows), benchmark::Counter::kIsRate);
+  state.counters["bytes/row"] = bytes / static_cast<double>(rows);
+}
+
+/// What `study show` reads.
+void journal_results(benchmark::State& state) {
+  const test::Folder folder;
+  studies::Journal journal(folder.path() / studies::kJournalFile, head(), studies::Journal::Build::same);
+  write_rows(journal, 0, static_cast<std::uint64_t>(state.range(0)));
+  for ([[maybe_unused]] auto once : state) benchmark::DoNotOptimize(studies::results(journal).points.data());
+}
+
+BENCHMARK_CAPTURE(summary, caterpillar, "caterpillar.yaml")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(overlaps, caterpillar, "caterpillar.yaml")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(measure, caterpillar, "caterpillar.yaml")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(measure, hexapod, "hexapod.yaml")->Unit(benchmark::kMicrosecond);
+BENCHMARK(journal_write)->Unit(benchmark::kMillisecond);
+BENCHMARK(journal_results)->Arg(100000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace gaitlab
