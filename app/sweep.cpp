@@ -25,9 +25,14 @@ using studies::Study;
 
 void print_plan(const Plan& plan, const SweepArguments& a) {
   const studies::Points& points = plan.points();
-  const auto shown = [&](std::uint64_t run) { return fmt::format("{}", fmt::join(plan.sets(run), " ")); };
-  const double simulated = plan.scenario().duration * static_cast<double>(points.runs());
-  fmt::print("{} runs: {} points, {} each\n", points.runs(), points.points(), counted(points.replicates(), "run"));
+  const auto shown = [&](std::uint64_t run) {
+    const std::string& name = plan.scenarios()[points.scenario(run)].name;
+    return fmt::format("{}{}", name.empty() ? "" : "scenario " + name + ": ", fmt::join(plan.sets(run), " "));
+  };
+  double simulated = 0;
+  for (const studies::StudyScenario& one : plan.scenarios())
+    simulated += one.nominal.duration * static_cast<double>(points.points() * points.replicates());
+  fmt::print("{} runs: {} points, {} each\n", points.runs(), points.points(), counted(points.runs_of_point(), "run"));
   fmt::print("first  {}\nlast   {}\n", shown(0), shown(points.runs() - 1));
   fmt::print("{:.6g} s simulated in all\n", simulated);
   // One pack tells how long all take: by the clock, for the terminal alone.
