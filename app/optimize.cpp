@@ -97,12 +97,12 @@ int optimize_study(const OptimizeArguments& a) {
                                                     figure_measure(plan.columns(), plan.scenario()));
   studies::JournalHead head = plan.head();
   head.build = report::build_id();
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before there is a folder
   const fs::path folder = studies::study_folder(a.out, "optimize-" + plan.study().name, holds_study(head));
   head.command = search_goes_on(a, folder);
   const studies::Lock lock(folder / "lock");
   Journal journal(folder / studies::kJournalFile, head, a.accept_build ? Journal::Build::any : Journal::Build::same);
 
-  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   const SearchEnd end = run_study(plan, journal, executor, a);
   const auto interrupted = [&] {
     fmt::print(stderr, "{}: interrupted: {} of {} runs are in the journal; go on with\n{}\n", folder.string(), journal.rows(),

@@ -92,6 +92,7 @@ int sweep_study(const SweepArguments& a) {
   std::vector<studies::Answers> answers;
   for (const std::string& other : a.answers) answers.emplace_back(plan, other, head.build, taken);
   std::uint64_t answered = 0;
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before there is a folder
   const fs::path folder = studies::study_folder(a.out, "sweep-" + plan.study().name, holds_study(head));
   head.command = goes_on(a, folder);
   const fs::path file = journal_file(folder, shard);
@@ -101,7 +102,6 @@ int sweep_study(const SweepArguments& a) {
   const studies::Lock lock(shard.whole() ? folder / "lock" : lock_file.replace_extension("lock"));
   Journal journal(file, head, taken);
 
-  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   studies::Standing standing;
   {
     StudyProgress progress(a.quiet, objective_unit(journal.head()));
