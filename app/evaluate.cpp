@@ -124,13 +124,13 @@ int evaluate_study(const EvaluateArguments& a) {
                                                     figure_measure(plan.columns(), plan.scenario()));
   studies::JournalHead head = plan.head();
   head.build = report::build_id();
-  head.runs = 0;  // as many as are asked for
+  head.runs = 0;                                                    // as many as are asked for
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before there is a folder
   const fs::path folder = studies::study_folder(a.out, "evaluate-" + plan.study().name, holds_study(head));
   head.command = fmt::format("gaitlab evaluate {} --out {}", shell_word(a.file), shell_word(folder.string()));
   const studies::Lock lock(folder / "lock");
   Journal journal(folder / studies::kJournalFile, head, a.accept_build ? Journal::Build::any : Journal::Build::same);
 
-  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   const WatchReader reader;
   studies::Asked asked(plan, journal);
   Replies replies(journal, a.as_completed);

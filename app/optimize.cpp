@@ -118,6 +118,7 @@ int optimize_study(const OptimizeArguments& a) {
   studies::JournalHead head = plan.head();
   head.build = report::build_id();
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before there is a folder
   const fs::path folder = studies::study_folder(a.out, "optimize-" + plan.study().name, holds_study(head));
   head.command = search_goes_on(a, folder);
   const studies::Lock lock(folder / "lock");
@@ -125,7 +126,6 @@ int optimize_study(const OptimizeArguments& a) {
   head.runs = plan.most_runs();
   Journal journal(folder / studies::kJournalFile, head, taken_build(a));
 
-  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   const SearchEnd end = run_study(plan, journal, remembering(executor, answers), a);
   const auto interrupted = [&] {
     fmt::print(stderr, "{}: interrupted: {} of {} runs are in the journal; go on with\n{}\n", folder.string(), journal.rows(),

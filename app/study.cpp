@@ -10,6 +10,7 @@
 #include "app/study_text.h"
 #include "core/scenario/wording.h"
 #include "studies/number.h"
+#include "studies/scenarios.h"
 #include "studies/study_folder.h"
 
 namespace gaitlab::app {
@@ -145,6 +146,18 @@ std::vector<std::string> differences(const std::vector<std::string>& names, cons
   return found;
 }
 
+/// The resolved scenario of a row: the study's only one, or that of its name.
+std::string scenario_of_row(const studies::JournalHead& head, const std::vector<std::string>& names,
+                            const std::vector<std::string>& row) {
+  if (head.scenarios.empty()) return head.scenario;
+  const std::string& name = row[static_cast<std::size_t>(std::ranges::find(names, "scenario") - names.begin())];
+  for (studies::ScenarioText& one : studies::scenario_texts(head.scenario)) {
+    if (one.name == name) return std::move(one.text);
+  }
+  throw InputError(SourceLocation{studies::kJournalFile},
+                   "is not a journal that this program wrote: it lacks the scenario " + in_quotes(name) + " of a run");
+}
+
 int rerun_study(const StudyArguments& a) {
   Journal journal = opened(a.folder);
   const studies::JournalHead& head = journal.head();
@@ -160,8 +173,9 @@ int rerun_study(const StudyArguments& a) {
     sets.push_back(head.parameters[k].key + "=" +
                    row[static_cast<std::size_t>(std::ranges::find(names, journal.columns().parameters[k]) - names.begin())]);
   sets.push_back("seed=" + row[3]);
-  const Scenario scenario = read_stored({"", (fs::path(a.folder) / studies::kJournalFile).string(), head.scenario}, catalog,
-                                        OtherPlugins::refused, sets);
+  const Scenario scenario =
+      read_stored({"", (fs::path(a.folder) / studies::kJournalFile).string(), scenario_of_row(head, names, row)}, catalog,
+                  OtherPlugins::refused, sets);
   RunArguments run_arguments;
   run_arguments.out = a.out.value_or((fs::path(a.folder) / fmt::format("run-{}", a.run)).string());
   const int code = run(scenario, run_arguments);

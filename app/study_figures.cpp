@@ -69,24 +69,45 @@ studies::FigureOffer figure_offer() {
   return offer;
 }
 
+namespace {
+
+/// Of a robot, by column; none: of the verdict, or of a joint that it does not have.
+using FigureColumns = std::vector<std::optional<report::Figure>>;
+
+FigureColumns figure_columns(const std::vector<studies::FigureName>& columns, const Robot& robot) {
+  FigureColumns figures;
+  for (const studies::FigureName& column : columns) figures.push_back(find_figure(column.name, robot));
+  return figures;
+}
+
+std::vector<std::string> names_of_joints(const Robot& robot) {
+  std::vector<std::string> names;
+  for (const auto& joint : robot.joints) names.push_back(joint.name);
+  return names;
+}
+
+}  // namespace
+
 studies::Measure figure_measure(const std::vector<studies::FigureName>& columns, const Scenario& scenario) {
-  std::vector<std::optional<report::Figure>> figures;  // none: of the verdict
+  const FigureColumns usual = figure_columns(columns, *scenario.robot);
   Problems problems;
-  for (const studies::FigureName& column : columns) {
-    std::optional<report::Figure> figure = find_figure(column.name, *scenario.robot);
-    if (!figure && column.name != kExcess) {
-      problems.add(SourceLocation{"study.db"}, "the figure " + in_quotes(column.name) + " is not known to this program");
-    } else {
-      figures.push_back(std::move(figure));
-    }
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (!usual[k] && columns[k].name != kExcess)
+      problems.add(SourceLocation{"study.db"}, "the figure " + in_quotes(columns[k].name) + " is not known to this program");
   }
   problems.raise();
-  return [figures](const Scenario& of, const Recording& recording) {
+  // Another robot, of another scenario of the study, may have the same joints under other numbers.
+  return [columns, usual, joints = names_of_joints(*scenario.robot)](const Scenario& of, const Recording& recording) {
+    const FigureColumns figures = names_of_joints(*of.robot) == joints ? usual : figure_columns(columns, *of.robot);
     const report::Summary summary = report::summarise(of, recording, 0);
     studies::Judged judged;
     const report::Verdict verdict = report::verdict(of, recording, summary, report::overlaps(of, recording));
-    for (const std::optional<report::Figure>& figure : figures)
-      judged.figures.push_back(figure ? figure->value({of, recording, summary}) : verdict_excess(verdict));
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const bool excess = columns[k].name == kExcess;
+      judged.figures.push_back(figures[k] ? figures[k]->value({of, recording, summary})
+                               : excess   ? verdict_excess(verdict)
+                                          : std::nan(""));
+    }
     judged.verdict = verdict.word;
     return judged;
   };

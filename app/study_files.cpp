@@ -178,19 +178,23 @@ void write_replicates(const Drawn& drawn, const studies::FigureName& name, const
   std::erase_if(order, [&](std::size_t k) { return k >= drawn.rows.size(); });
   order.resize(std::min(order.size(), kShown));
   report::BoxFigure figure;
-  figure.title = drawn.title(name) + " of the replicates";
+  const std::vector<std::string>& scenarios = drawn.head.scenarios;
+  const std::uint64_t each = drawn.head.replicates / std::max<std::size_t>(1, scenarios.size());  // in a scenario
+  figure.title = drawn.title(name) + (scenarios.empty() ? " of the replicates" : " in the scenarios");
   figure.note = drawn.note;
   figure.axis = report::StudyAxis{clipped(name.name), clipped(name.unit)}.title();
   figure.below = "first run of the point, the best at the left";
-  std::string csv = "point,replicate," + csv_cell(name.name) + ",feasible\n";
+  std::string csv =
+      std::string("point,") + (scenarios.empty() ? "" : "scenario,") + "replicate," + csv_cell(name.name) + ",feasible\n";
   for (const std::size_t k : order) {
     const studies::PointResult& point = drawn.results.points[k];
     report::BoxGroup group{fmt::format("run {}", point.first_run), {}, point.feasible()};
     for (std::size_t r = 0; r < point.runs; ++r) {
       const double value = drawn.values.figures[drawn.rows[k] + r].front();
       group.values.push_back(value);
-      csv += fmt::format("{},{},{},{}\n", point.first_run, r, std::isfinite(value) ? number_text(value) : "",
-                         point.feasible() ? 1 : 0);
+      const std::string scenario = scenarios.empty() ? "" : csv_cell(scenarios[r / each]) + ",";
+      csv += fmt::format("{},{}{},{},{}\n", point.first_run, scenario, scenarios.empty() ? r : r % each,
+                         std::isfinite(value) ? number_text(value) : "", point.feasible() ? 1 : 0);
     }
     figure.groups.push_back(std::move(group));
   }

@@ -14,9 +14,14 @@ namespace gaitlab::app {
 void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
   const studies::Points& points = plan.points();
   const bool searched = studies::is_search(plan.study().method);  // then its points are not known yet
-  const auto shown = [&](std::uint64_t run) { return fmt::format("{}", fmt::join(plan.sets(run), " ")); };
-  const double simulated = plan.scenario().duration * static_cast<double>(points.runs());
-  fmt::print("{} runs: {} points, {} each\n", points.runs(), points.points(), counted(points.replicates(), "run"));
+  const auto shown = [&](std::uint64_t run) {
+    const std::string& name = plan.scenarios()[points.scenario(run)].name;
+    return fmt::format("{}{}", name.empty() ? "" : "scenario " + name + ": ", fmt::join(plan.sets(run), " "));
+  };
+  double simulated = 0;
+  for (const studies::StudyScenario& one : plan.scenarios())
+    simulated += one.nominal.duration * static_cast<double>(points.points() * points.replicates());
+  fmt::print("{} runs: {} points, {} each\n", points.runs(), points.points(), counted(points.runs_of_point(), "run"));
   if (searched) {
     fmt::print("method {} chooses them, and the best {} are run again\n",
                studies::kMethods[static_cast<std::size_t>(plan.study().method)], plan.study().verify.best);

@@ -53,6 +53,44 @@ std::size_t place_in(const std::vector<std::string>& names, const std::string& n
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
+/// A point in one of the study's scenarios: its first objective there, or what became of a run that failed.
+std::string in_one_scenario(Journal& journal, const studies::PointResult& point, std::size_t scenario) {
+  const JournalHead& head = journal.head();
+  const std::vector<std::string> names = journal.columns().all();
+  const std::uint64_t runs = point.runs / head.scenarios.size();
+  std::vector<double> bad;  // more is worse
+  for (std::uint64_t r = 0; r < runs; ++r) {
+    const std::vector<std::string> row = journal.row(point.first_run + scenario * runs + r);
+    if (row.size() != names.size()) return "-";
+    const std::string& outcome = row[place_in(names, "outcome")];
+    if (outcome != "done") return clipped(outcome);
+    const std::string& value = row[place_in(names, studies::objective_column(0))];
+    if (value.empty()) return "-";
+    bad.push_back((head.objectives.front().maximize ? -1 : 1) * studies::number_of(value));
+  }
+  if (bad.empty()) return "-";
+  const double worse = studies::combined(bad, head.combine, head.quantile);
+  return fmt::format("{:.4g}", head.objectives.front().maximize ? -worse : worse);
+}
+
+/// The word of the verdict on a point: of the run in the table, the first; of several scenarios of the first run that fails.
+std::string verdict_on(Journal& journal, const studies::PointResult& point, std::size_t place) {
+  const std::string first = journal.row(point.first_run)[place];
+  for (std::uint64_t r = 0; !journal.head().scenarios.empty() && r < point.runs; ++r) {
+    const std::string word = journal.row(point.first_run + r)[place];
+    if (word == "infeasible" || word == "failed") return word;
+  }
+  return first;
+}
+
+/// ` in rubble`, of a run of a study with several scenarios.
+std::string in_which_scenario(const JournalHead& head, std::uint64_t run) {
+  if (head.scenarios.empty()) return "";
+  const std::uint64_t runs = std::max<std::uint64_t>(1, head.replicates / head.scenarios.size());
+  const std::size_t scenario = run % head.replicates / runs;
+  return scenario < head.scenarios.size() ? " in " + clipped(head.scenarios[scenario]) : "";
+}
+
 std::string share(std::uint64_t part, std::uint64_t of) {
   return of == 0 ? "" : fmt::format(" ({:.0f} %)", 100 * static_cast<double>(part) / static_cast<double>(of));
 }
@@ -127,6 +165,8 @@ std::string points_table(Journal& journal, const studies::Results& results, cons
     const auto unit = std::ranges::find(head.figures, o.expression, &studies::FigureName::name);
     columns.push_back({clipped(o.expression) + together, unit == head.figures.end() ? "" : clipped(unit->unit), {}});
   }
+  for (const std::string& scenario : head.scenarios)
+    columns.push_back({"in " + clipped(scenario), columns[objective].under, {}});
   columns.push_back({"violation", "", {}});
   columns.push_back({"verdict", "", {}});
   const std::size_t verdict = place_in(names, "verdict");
@@ -140,9 +180,11 @@ std::string points_table(Journal& journal, const studies::Results& results, cons
     const bool failed = point.failed > 0;
     for (std::size_t o = 0; o < head.objectives.size(); ++o)
       columns[objective + o].cells.push_back(failed ? clipped(row[outcome]) : fmt::format("{:.4g}", point.score.objectives[o]));
-    const std::size_t behind = objective + head.objectives.size();
+    std::size_t behind = objective + head.objectives.size();
+    for (std::size_t s = 0; s < head.scenarios.size(); ++s)
+      columns[behind++].cells.push_back(in_one_scenario(journal, point, s));
     columns[behind].cells.push_back(failed ? "-" : fmt::format("{:.3g}", point.score.violation));
-    columns[behind + 1].cells.push_back(clipped(row[verdict]));
+    columns[behind + 1].cells.push_back(clipped(verdict_on(journal, point, verdict)));
   }
   return laid_out(columns);
 }
@@ -177,7 +219,8 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
                         counted(limits[k].runs, "run"));
   if (!limits.empty()) text += "\n";
   for (const auto& [outcome, one] : results.failures.by_outcome)
-    text += fmt::format("{} {}, first: run {}: {}\n", one.count, clipped(outcome), one.first_run, printable(one.message));
+    text += fmt::format("{} {}, first: run {}{}: {}\n", one.count, clipped(outcome), one.first_run,
+                        in_which_scenario(head, one.first_run), printable(one.message));
   text += verification_text(journal);
   if (results.runs > 0)
     text += fmt::format("one of them again, with its trace: gaitlab study rerun {} RUN\n", shell_word(folder.string()));

@@ -1,4 +1,4 @@
-// A scenario under several CPGs: one table, one figure, and the numbers for other programs.
+// Scenarios under several CPGs: one table, a figure for each scenario, and the numbers for other programs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "app/commands.h"
+#include "app/stop_on_signal.h"
+#include "app/study_text.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/run_folder.h"
@@ -20,6 +22,7 @@ namespace gaitlab::app {
 namespace {
 
 struct SwapArguments : ScenarioArguments {
+  std::vector<std::string> files;  ///< of the scenarios; `file` is the one that is read
   std::string cpgs;                ///< types, with commas between
   std::optional<std::string> out;  ///< folder of figure and numbers
   int jobs = 1;                    ///< threads
@@ -107,15 +110,32 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
   return all;
 }
 
-void run_all(std::vector<Swapped>& all, int jobs) {
-  std::vector<Scenario> scenarios;
-  for (const Swapped& one : all) scenarios.push_back(*one.scenario);
-  run_batch(scenarios, {.threads = jobs}, [&](std::size_t i, Recording&& recording) {
-    all[i].record = std::move(recording);
-    all[i].summary = report::summarise(*all[i].scenario, all[i].record, 0);
-    all[i].verdict =
-        report::verdict(*all[i].scenario, all[i].record, all[i].summary, report::overlaps(*all[i].scenario, all[i].record));
-  });
+/// Runs all of them; false: stopped. InputError: the first that is refused.
+bool run_all(const std::vector<Swapped*>& all, int jobs) {
+  std::size_t next = 0;
+  std::vector<std::vector<Problem>> refused(all.size());
+  const BatchStream stream{.next = [&]() -> std::optional<Rollout> {
+                             if (next == all.size()) return {};
+                             const std::size_t number = next++;
+                             return Rollout{number, *all[number]->scenario};
+                           },
+                           .end =
+                               [&](std::vector<RolloutEnd>&& pack) {
+                                 for (RolloutEnd& end : pack) {
+                                   Swapped& one = *all[end.rollout.number];
+                                   refused[end.rollout.number] = std::move(end.refused);
+                                   if (!refused[end.rollout.number].empty()) continue;
+                                   one.record = std::move(end.recording);
+                                   one.summary = report::summarise(*one.scenario, one.record, 0);
+                                   one.verdict = report::verdict(*one.scenario, one.record, one.summary,
+                                                                 report::overlaps(*one.scenario, one.record));
+                                 }
+                               }};
+  const bool whole = run_pulled(stream, {.threads = jobs}, Loads::left_out, stopped(), all.size());
+  for (std::vector<Problem>& problems : refused) {
+    if (!problems.empty()) throw InputError(std::move(problems));
+  }
+  return whole;
 }
 
 std::vector<report::NamedRun> named_runs(const std::vector<Swapped>& all) {
@@ -191,41 +211,154 @@ void print_coinciding(const std::vector<Swapped>& all, const report::CurvesInput
   }
 }
 
-int swap_cpgs(const SwapArguments& arguments) {
-  Catalog catalog = standard_catalog();
+/// The command that does it all again.
+std::string again(const SwapArguments& arguments) {
+  std::string line = "gaitlab swap";
+  const auto add = [&](const std::string& word) { line += " " + shell_word(word); };
+  for (const std::string& file : arguments.files) add(file);
+  line += " --cpg " + shell_word(arguments.cpgs);
+  for (const std::string& set : arguments.sets) line += " --set " + shell_word(set);
+  if (arguments.seed) line += " --seed " + shell_word(*arguments.seed);
+  if (arguments.out) line += " --out " + shell_word(*arguments.out);
+  if (arguments.report) line += " --report";
+  if (arguments.jobs > 1) line += fmt::format(" -j {}", arguments.jobs);
+  return line;
+}
+
+/// Runs them as run_all does; false: it was stopped, which is told.
+bool run_or_tell(const std::vector<Swapped*>& all, const SwapArguments& arguments) {
+  if (run_all(all, arguments.jobs)) return true;
+  fmt::print(stderr, "{}: interrupted: nothing is written; run it again with\n{}\n", arguments.files.front(), again(arguments));
+  return false;
+}
+
+bool any_broke_off(const std::vector<Swapped>& all) {
+  return std::ranges::any_of(all, [](const Swapped& s) { return s.summary.outcome != "done"; });
+}
+
+/// What is written of one scenario.
+void write_swap(const std::vector<Swapped>& all, const report::CurvesInput& shown, const std::filesystem::path& folder,
+                bool pages) {
+  const std::vector<report::NamedRun> runs = named_runs(all);
+  write_file(folder / "overlay.svg", report::curves_svg(shown));
+  write_file(folder / "swap.csv", report::swap_csv(runs));
+  write_file(folder / "swap.json", report::swap_json(runs));
+  if (pages) write_pages(all, folder);
+}
+
+int swap_one(const SwapArguments& arguments, Catalog& catalog) {
   std::vector<Swapped> all = read_all(arguments, catalog);
   const Scenario& first = *all.front().scenario;
+  const StopOnSignal stop(StopOnSignal::Second::is_ignored);
   RunFolder folder(arguments.out, "swap-" + first.name);
-  run_all(all, arguments.jobs);
-  const std::vector<report::NamedRun> runs = named_runs(all);
+  std::vector<Swapped*> runs;
+  for (Swapped& one : all) runs.push_back(&one);
+  if (!run_or_tell(runs, arguments)) return 1;
   const report::CurvesInput shown = figure(all);
-  fmt::print("{}: {:g} s under each\n{}", first.name, first.duration, report::swap_table(runs));
+  fmt::print("{}: {:g} s under each\n{}", first.name, first.duration, report::swap_table(named_runs(all)));
   print_verdicts(all);
   print_coinciding(all, shown);
-  write_file(folder.path() / "overlay.svg", report::curves_svg(shown));
-  write_file(folder.path() / "swap.csv", report::swap_csv(runs));
-  write_file(folder.path() / "swap.json", report::swap_json(runs));
-  if (arguments.report) write_pages(all, folder.path());
+  write_swap(all, shown, folder.path(), arguments.report);
   folder.keep();
   fmt::print("figure: {}\n", (folder.path() / "overlay.svg").string());
   fmt::print("numbers: {}, swap.json\n", (folder.path() / "swap.csv").string());
   if (arguments.report) fmt::print("pages: {}, and one per CPG\n", (folder.path() / "swap.html").string());
-  const bool broke_off = std::any_of(all.begin(), all.end(), [](const Swapped& s) { return s.summary.outcome != "done"; });
-  return broke_off ? 1 : 0;
+  return any_broke_off(all) ? 1 : 0;
+}
+
+// ---- several scenarios
+
+/// Each scenario under each CPG; what is wrong with any of them is told of all at once.
+std::vector<std::vector<Swapped>> read_matrix(const SwapArguments& arguments, Catalog& catalog) {
+  std::vector<std::vector<Swapped>> all;
+  std::vector<Problem> problems;
+  std::vector<std::pair<std::string, std::string>> names;  // of scenarios, and their files
+  for (const std::string& file : arguments.files) {
+    SwapArguments one = arguments;
+    one.file = file;
+    try {
+      all.push_back(read_all(one, catalog));
+      const std::string& name = all.back().front().scenario->name;
+      const auto same = std::ranges::find(names, name, &std::pair<std::string, std::string>::first);
+      if (same != names.end())
+        problems.push_back({SourceLocation{file},
+                            fmt::format("its name, {}, is that of {}, too; expected a name: of its own", name, same->second)});
+      names.emplace_back(name, file);
+    } catch (const InputError& error) {
+      for (const Problem& problem : error.problems()) {
+        const auto alike = [&](const Problem& p) {
+          return p.text == problem.text && to_string(p.place) == to_string(problem.place);
+        };
+        if (std::ranges::none_of(problems, alike)) problems.push_back(problem);
+      }
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return all;
+}
+
+/// By CPG, then by scenario.
+std::vector<report::MatrixRun> matrix_runs(const std::vector<std::vector<Swapped>>& all) {
+  std::vector<report::MatrixRun> runs;
+  for (std::size_t c = 0; c < all.front().size(); ++c) {
+    for (const std::vector<Swapped>& of : all) {
+      const Swapped& one = of[c];
+      runs.push_back({{one.cpg, {*one.scenario, one.record, one.summary}}, one.scenario->name, one.verdict});
+    }
+  }
+  return runs;
+}
+
+int swap_matrix(const SwapArguments& arguments, Catalog& catalog) {
+  std::vector<std::vector<Swapped>> all = read_matrix(arguments, catalog);
+  const StopOnSignal stop(StopOnSignal::Second::is_ignored);
+  RunFolder folder(arguments.out, "swap-matrix");
+  std::vector<Swapped*> each;
+  for (std::vector<Swapped>& of : all) {
+    for (Swapped& one : of) each.push_back(&one);
+  }
+  if (!run_or_tell(each, arguments)) return 1;
+  const std::vector<report::MatrixRun> runs = matrix_runs(all);
+  fmt::print("{} in {}\n{}", golden::plural(all.front().size(), "CPG"), golden::plural(all.size(), "scenario"),
+             report::matrix_table(runs));
+  for (const std::vector<Swapped>& of : all) {
+    const std::filesystem::path own = folder.path() / of.front().scenario->name;
+    std::filesystem::create_directory(own);
+    write_swap(of, figure(of), own, arguments.report);
+  }
+  write_file(folder.path() / "swap.csv", report::matrix_csv(runs));
+  write_file(folder.path() / "swap.json", report::matrix_json(runs));
+  folder.keep();
+  fmt::print("numbers: {}, swap.json\n", (folder.path() / "swap.csv").string());
+  fmt::print("of each scenario: {}, swap.csv, swap.json{}\n", (folder.path() / "NAME/overlay.svg").string(),
+             arguments.report ? ", swap.html and a page per CPG" : "");
+  return std::ranges::any_of(all, any_broke_off) ? 1 : 0;
+}
+
+int swap_cpgs(const SwapArguments& given) {
+  Catalog catalog = standard_catalog();
+  SwapArguments arguments = given;
+  arguments.file = arguments.files.front();
+  return arguments.files.size() == 1 ? swap_one(arguments, catalog) : swap_matrix(arguments, catalog);
 }
 
 }  // namespace
 
 void add_swap(Commands& commands) {
   add_command<SwapArguments>(
-      commands, "swap", "Run a scenario under several CPGs: one table, one figure, CSV and JSON.", swap_cpgs,
+      commands, "swap", "Run scenarios under several CPGs: one table, one figure, CSV and JSON.", swap_cpgs,
       [](CLI::App& command, SwapArguments& arguments) {
         add_scenario(command, arguments);
+        command.remove_option(command.get_option("SCENARIO"));
+        command.add_option("SCENARIO", arguments.files, "scenario files (YAML); of several the table is CPG by scenario")
+            ->required();
         command
             .add_option("--cpg", arguments.cpgs,
                         "types of the CPGs, separated by commas; their common keys are kept, `model` gets its defaults")
             ->required();
-        command.add_option("--out", arguments.out, "folder of figure and numbers (default runs/swap-NAME); new or empty");
+        command.add_option(
+            "--out", arguments.out,
+            "folder of figure and numbers (default runs/swap-NAME, of several scenarios runs/swap-matrix); new or empty");
         command.add_flag("--report", arguments.report,
                          "also write a page per CPG, and swap.html, which shows them side by side");
         command.add_option("-j,--jobs", arguments.jobs, "threads (default 1)")->check(CLI::Range(1, 1024));

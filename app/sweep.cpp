@@ -40,6 +40,7 @@ int sweep_study(const SweepArguments& a) {
   head.build = report::build_id();
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
   std::uint64_t answered = 0;
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before there is a folder
   const fs::path folder = studies::study_folder(a.out, "sweep-" + plan.study().name, holds_study(head));
   head.command = goes_on(a, folder);
   const fs::path file = journal_file(folder, shard);
@@ -51,7 +52,6 @@ int sweep_study(const SweepArguments& a) {
   head.runs = plan.most_runs();
   Journal journal(file, head, taken_build(a));
 
-  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   studies::Standing standing;
   {
     StudyProgress progress(a.quiet, objective_unit(journal.head()));

@@ -14,11 +14,14 @@ namespace gaitlab::studies {
 
 namespace {
 
-std::string key_of(const std::string& point, const std::string& replicate, const std::string& seed) {
-  return point + " " + replicate + " " + seed;
+std::string key_of(const std::string& point, const std::string& replicate, const std::string& seed,
+                   const std::string& scenario) {
+  return point + " " + replicate + " " + seed + " " + scenario;
 }
 
-std::string key_of(const Row& row) { return key_of(row.point, std::to_string(row.replicate), std::to_string(row.seed)); }
+std::string key_of(const Row& row) {
+  return key_of(row.point, std::to_string(row.replicate), std::to_string(row.seed), row.scenario);
+}
 
 /// The lines of a definition that say which rules stop runs.
 std::string stop_lines(const std::string& definition) {
@@ -165,8 +168,10 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
   message_ = column(names, "message");
   simulated_ = column(names, "simulated");
   verdict_ = column(names, "verdict");
-  journal_->each_row({"run", "point", "replicate", "seed"}, [&](const std::vector<std::string>& row) {
-    runs_.emplace(key_of(row[1], row[2], row[3]), static_cast<std::uint64_t>(number_of(row[0])));
+  std::vector<std::string> columns{"run", "point", "replicate", "seed"};
+  if (journal_->columns().scenario) columns.emplace_back("scenario");
+  journal_->each_row(columns, [&](const std::vector<std::string>& row) {
+    runs_.emplace(key_of(row[1], row[2], row[3], row.size() > 4 ? row[4] : ""), static_cast<std::uint64_t>(number_of(row[0])));
   });
 }
 

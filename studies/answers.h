@@ -29,7 +29,7 @@ class Answers {
 
   const Plan& plan_;
   std::unique_ptr<Journal> journal_;
-  std::map<std::string, std::uint64_t> runs_;  ///< by point, replicate and seed
+  std::map<std::string, std::uint64_t> runs_;  ///< by point, replicate, seed and scenario
   std::vector<std::size_t> values_, figures_;  ///< columns there of this study's
   std::size_t outcome_ = 0, message_ = 0, simulated_ = 0, verdict_ = 0;
 };

@@ -9,13 +9,13 @@
 namespace gaitlab::studies {
 
 Asked::Asked(Plan& plan, Journal& journal) : plan_(plan), journal_(journal) {
-  const std::uint64_t replicates = plan.points().replicates();
+  const std::uint64_t runs = plan.points().runs_of_point();
   journal.each_row({"run", "point"}, [&](const std::vector<std::string>& row) {
     const auto run = static_cast<std::uint64_t>(std::stoull(row[0]));
-    Known& known = in_journal_[run / replicates];
+    Known& known = in_journal_[run / runs];
     known.name = row[1];
     known.run = run;
-    if (++known.rows == replicates) numbers_.try_emplace(row[1], run / replicates);
+    if (++known.rows == runs) numbers_.try_emplace(row[1], run / runs);
   });
 }
 

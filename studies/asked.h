@@ -17,7 +17,7 @@ class Asked {
   /// The number of the point with these values, as for --set. InputError: there are too many points.
   std::uint64_t point(std::vector<std::string> values);
   /// Runs with a smaller number belong to points that are known.
-  [[nodiscard]] std::uint64_t end() const { return next_ * plan_.points().replicates(); }
+  [[nodiscard]] std::uint64_t end() const { return next_ * plan_.points().runs_of_point(); }
 
  private:
   struct Known {

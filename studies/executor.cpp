@@ -31,7 +31,7 @@ class LocalWork {
     while (std::optional<Job> job = work_.next()) {
       const std::uint64_t run = job->row.run;
       try {
-        Rollout rollout{run, plan_.with(job->sets)};
+        Rollout rollout{run, plan_.with(job->sets, job->scenario)};
         const std::lock_guard lock(mutex_);
         rows_[run] = std::move(job->row);
         return rollout;

@@ -12,10 +12,12 @@
 
 namespace gaitlab::studies {
 
-/// A run to be done: its row as far as that is known before (Plan::row), and its settings, as for --set.
+/// A run to be done: its row as far as that is known before (Plan::row), its settings, as for --set, and the number of the
+/// scenario that they are of.
 struct Job {
   Row row;
   std::vector<std::string> sets;
+  std::size_t scenario = 0;
 };
 
 /// Where an executor takes jobs from, and gives their rows to.

@@ -76,6 +76,7 @@ void Journal::bind(Statement& insert, const Row& row) const {
   add(row.outcome);
   add(row.message);
   add(row.simulated);
+  if (columns_.scenario) add(row.scenario);
   for (std::size_t k = 0; k < row.values.size(); ++k) {
     if (head_.parameters[k].words) {
       add(row.values[k]);

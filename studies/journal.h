@@ -18,7 +18,8 @@ namespace gaitlab::studies {
 /// How a run ended. Where it did not end well, its figures are not known.
 struct Row {
   std::uint64_t run = 0;
-  std::string point;  ///< name of its values, the same in every study of the scenario
+  std::string point;     ///< name of its values, the same in every study of the scenario
+  std::string scenario;  ///< its name; empty: the study has one
   std::uint64_t replicate = 0;
   std::int64_t seed = 0;
   std::string outcome;              ///< done, diverged, refused, plugin
@@ -47,11 +48,14 @@ struct JournalObjective {
 
 /// What a journal says of its study.
 struct JournalHead {
-  std::string name, build, definition, scenario, command;
+  std::string name, build, definition, command;
+  std::string scenario;                ///< resolved; of several as in scenario_texts
+  std::vector<std::string> scenarios;  ///< names; none: there is one
   std::vector<JournalObjective> objectives;
   std::string combine = "worst";
   double quantile = 0.5;
-  std::uint64_t runs = 0, replicates = 1;  ///< runs: 0: as many as the journal says
+  std::uint64_t runs = 0;        ///< 0: as many as the journal says
+  std::uint64_t replicates = 1;  ///< runs of a point, in all scenarios
   std::int64_t seed = 1;
   std::vector<JournalParameter> parameters;
   std::vector<FigureName> figures;
@@ -95,7 +99,8 @@ std::string objective_column(std::size_t number);
 struct RunColumns {
   explicit RunColumns(const JournalHead& head);
   std::vector<std::string> parameters, figures, objectives;
-  std::string sql;  ///< that makes the table
+  bool scenario = false;  ///< whether there is a column of that name
+  std::string sql;        ///< that makes the table
   [[nodiscard]] std::vector<std::string> all() const;
 };
 

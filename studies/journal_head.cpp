@@ -9,12 +9,14 @@
 #include "core/scenario/changed_lines.h"
 #include "studies/journal.h"
 #include "studies/journal_tables.h"
+#include "studies/scenarios.h"
 
 namespace gaitlab::studies {
 
 namespace {
 
 constexpr std::array kBefore{"run", "point", "replicate", "seed", "outcome", "message", "simulated"};
+constexpr const char* kScenario = "scenario";
 constexpr std::array kBehind{"violation", "feasible"};
 constexpr std::uint64_t kMostRuns = 4'000'000'000;  // a journal with more is not one of this program
 
@@ -43,10 +45,11 @@ std::vector<std::string> joined_values(const std::string& text) {
 
 std::string objective_column(std::size_t number) { return fmt::format("objective.{}", number + 1); }
 
-RunColumns::RunColumns(const JournalHead& head) {
+RunColumns::RunColumns(const JournalHead& head) : scenario(!head.scenarios.empty()) {
   std::set<std::string> taken(kBefore.begin(), kBefore.end());
   taken.insert(kBehind.begin(), kBehind.end());
   taken.insert("verdict");
+  if (scenario) taken.insert(kScenario);
   for (std::size_t k = 0; k < head.objectives.size(); ++k) objectives.push_back(*taken.insert(objective_column(k)).first);
   const auto unique = [&](const std::string& name, const char* kind) {
     std::string column = name;
@@ -57,6 +60,7 @@ RunColumns::RunColumns(const JournalHead& head) {
   sql =
       "CREATE TABLE run(run INTEGER PRIMARY KEY, point TEXT NOT NULL, replicate INTEGER NOT NULL, seed INTEGER NOT NULL, "
       "outcome TEXT NOT NULL, message TEXT NOT NULL, simulated REAL NOT NULL";
+  if (scenario) sql += fmt::format(", {} TEXT NOT NULL", kScenario);
   for (const JournalParameter& p : head.parameters) {
     parameters.push_back(unique(p.key, "parameter"));
     sql += ", " + identifier(parameters.back()) + (p.words ? " TEXT NOT NULL" : " REAL NOT NULL");
@@ -72,6 +76,7 @@ RunColumns::RunColumns(const JournalHead& head) {
 
 std::vector<std::string> RunColumns::all() const {
   std::vector<std::string> names(kBefore.begin(), kBefore.end());
+  if (scenario) names.emplace_back(kScenario);
   names.insert(names.end(), parameters.begin(), parameters.end());
   names.insert(names.end(), figures.begin(), figures.end());
   names.emplace_back("verdict");
@@ -156,6 +161,7 @@ void Journal::read_head() {
   head.build = study.text(2);
   head.definition = study.text(3);
   head.scenario = study.text(4);
+  for (ScenarioText& one : scenario_texts(head.scenario)) head.scenarios.push_back(std::move(one.name));
   head.command = study.text(5);
   head.seed = study.integer(6);
   head.runs = static_cast<std::uint64_t>(study.integer(7));
@@ -163,7 +169,8 @@ void Journal::read_head() {
   head.combine = study.text(9);
   head.quantile = study.number(10);
   head.guarded = study.integer(11) != 0;
-  if (head.runs > kMostRuns || head.replicates == 0 || head.replicates > kMostRuns)
+  const bool even = head.scenarios.empty() || head.replicates % head.scenarios.size() == 0;
+  if (head.runs > kMostRuns || head.replicates == 0 || head.replicates > kMostRuns || !even)
     refuse(file_, "is not a journal that this program wrote: its numbers of runs are out of range");
   Statement parameter = database_.prepare("SELECT * FROM parameter ORDER BY number");
   while (parameter.step()) {

@@ -69,7 +69,7 @@ class Optimizer {
   }
 
   SearchEnd run(const std::function<void(const SearchPlace&)>& told, std::atomic<bool>& stop) {
-    const std::uint64_t replicates = plan_.points().replicates();
+    const std::uint64_t runs = plan_.points().runs_of_point();
     for (bool whole = true; whole;) {
       const std::uint64_t first = added_;
       whole = ask();
@@ -77,7 +77,7 @@ class Optimizer {
         return SearchEnd::converged;
       check(first);
       told(place(added_ - first));
-      if (!runner_.run(added_ * replicates, stop)) return SearchEnd::stopped;
+      if (!runner_.run(added_ * runs, stop)) return SearchEnd::stopped;
       if (whole) tell();
     }
     return SearchEnd::budget;
@@ -118,8 +118,8 @@ class Optimizer {
 
   /// Where the journal has the first new run, its point is the one that is asked for.
   void check(std::uint64_t first) {
-    const std::uint64_t run = first * plan_.points().replicates();
-    if (run >= added_ * plan_.points().replicates() || !before_[run]) return;
+    const std::uint64_t run = first * plan_.points().runs_of_point();
+    if (run >= added_ * plan_.points().runs_of_point() || !before_[run]) return;
     if (journal_.row(run)[1] != plan_.row(run).point)
       throw InputError(
           SourceLocation{"study.db"},
@@ -128,7 +128,7 @@ class Optimizer {
   }
 
   [[nodiscard]] SearchPlace place(std::uint64_t points) const {
-    SearchPlace place{courses_.size(), 0, 0, points * plan_.points().replicates()};
+    SearchPlace place{courses_.size(), 0, 0, points * plan_.points().runs_of_point()};
     for (const Course& course : courses_) {
       place.generation = std::max(place.generation, course.search.generation() + 1);
       place.restart = std::max(place.restart, course.search.restart());
@@ -137,8 +137,8 @@ class Optimizer {
   }
 
   [[nodiscard]] PointResult result(std::uint64_t point) const {
-    const std::uint64_t replicates = plan_.points().replicates();
-    return point_result(journal_.head(), std::span(answers_).subspan(point * replicates, replicates));
+    const std::uint64_t runs = plan_.points().runs_of_point();
+    return point_result(journal_.head(), std::span(answers_).subspan(point * runs, runs));
   }
 
   void tell() {
@@ -150,14 +150,14 @@ class Optimizer {
       Generation g{.search = s,
                    .generation = course.search.generation(),
                    .restart = course.search.restart(),
-                   .first_run = course.first * plan_.points().replicates(),
-                   .runs = course.added * plan_.points().replicates(),
+                   .first_run = course.first * plan_.points().runs_of_point(),
+                   .runs = course.added * plan_.points().runs_of_point(),
                    .points = course.points.size(),
                    .spread = course.search.spread()};
       std::vector<double> feasible;
       for (const std::uint64_t point : course.points) {
         const PointResult one = result(point);
-        values.push_back(fitness(one, journal_.head().objectives, plan_.scenario().duration));
+        values.push_back(fitness(one, journal_.head().objectives, plan_.longest()));
         if (one.feasible()) feasible.push_back(one.score.objective());
       }
       g.feasible = feasible.size();
@@ -192,7 +192,7 @@ SearchEnd run_searches(Plan& plan, Journal& journal, RunnerSettings settings,
 std::uint64_t least_runs(const Study& study) {
   const SearchSettings s = search_settings(study, 0);
   const std::size_t block = first_block(s.population > 0 ? s.population : usual_population(s.dimensions), s.dimensions);
-  return static_cast<std::uint64_t>(study.search.instances) * combinations(study) * block * study.replicates.number();
+  return static_cast<std::uint64_t>(study.search.instances) * combinations(study) * block * study.runs_of_point();
 }
 
 }  // namespace gaitlab::studies

@@ -9,8 +9,8 @@ namespace {
 using Json = nlohmann::json;
 
 Json json_of(const Row& row) {
-  Json json = Json::array({row.run, row.point, row.replicate, row.seed, row.outcome, row.message, row.simulated, row.values,
-                           row.figures, row.verdict, nullptr});
+  Json json = Json::array({row.run, row.point, row.scenario, row.replicate, row.seed, row.outcome, row.message, row.simulated,
+                           row.values, row.figures, row.verdict, nullptr});
   if (row.score) json.back() = Json::array({row.score->objectives, row.score->violation});
   return json;
 }
@@ -21,6 +21,7 @@ Row row_of(const Json& json) {
   const auto take = [&](auto& to) { json.at(at++).get_to(to); };
   take(row.run);
   take(row.point);
+  take(row.scenario);
   take(row.replicate);
   take(row.seed);
   take(row.outcome);
@@ -41,7 +42,7 @@ Row row_of(const Json& json) {
 
 Bytes packed(std::span<const Job> jobs) {
   Json all = Json::array();
-  for (const Job& job : jobs) all.push_back(Json::array({json_of(job.row), job.sets}));
+  for (const Job& job : jobs) all.push_back(Json::array({json_of(job.row), job.sets, job.scenario}));
   return Json::to_cbor(all);
 }
 
@@ -53,7 +54,8 @@ Bytes packed(std::span<const Row> rows) {
 
 std::vector<Job> jobs_of(const Bytes& bytes) {
   std::vector<Job> jobs;
-  for (const Json& one : Json::from_cbor(bytes)) jobs.push_back({row_of(one.at(0)), one.at(1).get<std::vector<std::string>>()});
+  for (const Json& one : Json::from_cbor(bytes))
+    jobs.push_back({row_of(one.at(0)), one.at(1).get<std::vector<std::string>>(), one.at(2).get<std::size_t>()});
   return jobs;
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/model/pattern.h"
-#include "core/scenario/resolved.h"
 #include "core/scenario/value.h"
 #include "core/scenario/wording.h"
 #include "studies/draws.h"
@@ -16,12 +15,6 @@ namespace gaitlab::studies {
 
 namespace {
 
-std::vector<std::string> joints_of(const Scenario& scenario) {
-  std::vector<std::string> names;
-  for (const auto& joint : scenario.robot->joints) names.push_back(joint.name);
-  return names;
-}
-
 const Node* find_key(const Node& root, const std::string& key) {
   const Node* node = &root;
   for (std::size_t at = 0; node != nullptr && at <= key.size();) {
@@ -30,23 +23,6 @@ const Node* find_key(const Node& root, const std::string& key) {
     at = end + 1;
   }
   return node;
-}
-
-/// What is wrong with a setting is told of the parameter or variation that makes it, at its place in the study.
-void add_as_written(const InputError& error, const Study& study, Problems& problems) {
-  for (const Problem& problem : error.problems()) {
-    SourceLocation place = problem.place;
-    const auto makes = [&](const auto& one) { return place.file.starts_with("--set " + one.key + "="); };
-    const auto parameter = std::ranges::find_if(study.parameters, makes);
-    const auto variation = std::ranges::find_if(study.replicates.vary, makes);
-    for (std::size_t k = 0; k < study.set_places.size(); ++k) {
-      if (place.file == "--set " + clipped(study.sets[k])) place = study.set_places[k];
-    }
-    if (variation != study.replicates.vary.end()) place = variation->place;
-    if (parameter != study.parameters.end()) place = parameter->place;
-    const auto alike = [&](const Problem& p) { return p.text == problem.text && to_string(p.place) == to_string(place); };
-    if (std::ranges::none_of(problems.list(), alike)) problems.add(place, problem.text).notes = problem.notes;
-  }
 }
 
 std::string number_range(const Parameter& p) {
@@ -83,82 +59,129 @@ std::string search_text(const Study& study) {
   return text + "\n";
 }
 
+/// Settings that take the engine of `verify` in place of a scenario's, with its own step; empty: it is that engine, or none.
+std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& scenario, const Catalog& catalog,
+                                         Problems& problems) {
+  const std::string& name = verify.engine;
+  if (name == "none" || name == scenario.physics.engine->name) return {};
+  const Engine* engine = catalog.engine(name);
+  if (engine == nullptr) {
+    problems.add(verify.place,
+                 "verify.engine " + in_quotes(name) + " is not known" + gaitlab::offer(name, catalog.engines(), "engines"));
+    return {};
+  }
+  const bool solver = scenario.contact.solver();
+  const double step = solver && engine->solver_step > 0 ? engine->solver_step : engine->step;
+  std::vector<std::string> sets{"physics.engine=" + name};
+  if (engine->adaptive() != nullptr) {
+    sets.push_back(fmt::format("physics.integrator={}", engine->integrators.front().name));
+    sets.emplace_back("physics.step=auto");
+  } else {
+    sets.push_back(fmt::format("physics.integrator={}", engine->fixed().name));
+    sets.push_back("physics.step=" + number_text(step));
+  }
+  return sets;
+}
+
+/// Figures of joints that a pattern of the study names are the same in every scenario.
+void check_same(const std::vector<FigureName>& first, const std::vector<FigureName>& other, const SourceLocation& place,
+                Problems& problems) {
+  const auto check = [&](const std::vector<FigureName>& have, const std::vector<FigureName>& lack, const char* text) {
+    for (const FigureName& figure : have) {
+      if (std::ranges::find(lack, figure.name, &FigureName::name) != lack.end()) continue;
+      problems.add(place, fmt::format(fmt::runtime(text), in_quotes(figure.name)));
+      return;
+    }
+  };
+  check(first, other, "there is no figure {}, which the first scenario has");
+  if (problems.empty()) check(other, first, "there is a figure {}, which the first scenario does not have");
+}
+
 constexpr std::array kCombines{"mean", "worst", "median", "quantile"};
 
 }  // namespace
 
-Plan::Plan(Study study, const FigureOffer& offer, Catalog& catalog) : study_(std::move(study)), points_(study_) {
+Plan::Plan(Study study, const FigureOffer& offer, Catalog& catalog)
+    : study_(std::move(study)), scenarios_(read_scenarios(study_, catalog)), points_(study_) {
   Problems problems;
-  try {
-    template_ = std::make_unique<ScenarioTemplate>(study_.scenario, study_.sets, catalog);
-  } catch (const InputError& error) {
-    add_as_written(error, study_, problems);
-    problems.raise();
-  }
-  nominal_scenario_ = template_->with({});
-  scenario_text_ = resolved(nominal_scenario_);
+  scenario_text_ = scenarios_text(scenarios_);
   scenario_digest_ = digest(scenario_text_);
-  find_nominal(problems);
-  const std::vector<std::string> joints = joints_of(nominal_scenario_);
-  columns_ = columns_of(study_, offer, joints);
+  std::vector<Problems> found(scenarios_.size());
+  for (std::size_t s = 0; s < scenarios_.size(); ++s) find_nominal(scenarios_[s], found[s]);
+  add_of_each(scenarios_, found, problems);
+  find_columns(offer, problems);
+  choose_shown(problems);
+  if (shown_.empty()) problems.raise();  // what orders the points is one of them
+  if (Text& first = study_.objectives.front().expression; first.text.empty()) first.text = columns_[shown_.front()].name;
+  make_judges(offer, catalog, problems);
+  problems.raise();
+  std::vector<Problems> refused(scenarios_.size());
+  for (std::size_t s = 0; s < scenarios_.size(); ++s) check_corners(s, refused[s]);
+  add_of_each(scenarios_, refused, problems);
+  problems.raise();
+  note_refused_ends();
+}
+
+/// Those of the first scenario, which the others must have.
+void Plan::find_columns(const FigureOffer& offer, Problems& problems) {
+  columns_ = columns_of(study_, offer, scenarios_.front().joints);
   constexpr std::size_t kMostColumns = 400;
   if (columns_.size() > kMostColumns)
     problems.add(study_.figures_place,
                  fmt::format("the journal would have {} columns of figures; allowed are up to {}: name fewer joints",
                              columns_.size(), kMostColumns));
-  choose_shown(problems);
-  if (shown_.empty()) problems.raise();  // what orders the points is one of them
-  if (Text& first = study_.objectives.front().expression; first.text.empty()) first.text = columns_[shown_.front()].name;
-  judge_ = std::make_unique<Judge>(study_, columns_, offer, nominal_scenario_.limits, joints, problems);
-  find_other_engine(catalog, problems);
-  stops_ = std::make_unique<StopRules>(study_, offer, joints, problems);
-  problems.raise();
+}
+
+/// What the study's expressions name exists in every scenario. The judges that stay are those of the first, which comes last.
+void Plan::make_judges(const FigureOffer& offer, const Catalog& catalog, Problems& problems) {
   Study gait = study_;
   gait.guarded = true;
   gait.guards.clear();
-  gait_judge_ = std::make_unique<Judge>(gait, columns_, offer, nominal_scenario_.limits, joints, problems);
-  if (problems.empty()) check_corners(problems);
-  problems.raise();
-  note_refused_ends();
+  std::vector<Problems> found(scenarios_.size());
+  std::vector<std::vector<FigureName>> columns(scenarios_.size());
+  for (std::size_t s = scenarios_.size(); s-- > 0;) {
+    StudyScenario& one = scenarios_[s];
+    columns[s] = s == 0 ? columns_ : columns_of(study_, offer, one.joints);
+    judge_ = std::make_unique<Judge>(study_, columns[s], offer, one.nominal.limits, one.joints, found[s]);
+    one.other_engine = other_engine_of(study_.verify, one.nominal, catalog, found[s]);
+    stops_ = std::make_unique<StopRules>(study_, offer, one.joints, found[s]);
+    Problems told;  // as of judge_
+    gait_judge_ = std::make_unique<Judge>(gait, columns[s], offer, one.nominal.limits, one.joints, told);
+  }
+  if (std::ranges::all_of(found, &Problems::empty)) {
+    for (std::size_t s = 1; s < scenarios_.size(); ++s) check_same(columns_, columns[s], study_.figures_place, found[s]);
+  }
+  const std::string& engine = study_.verify.engine;
+  const bool same =
+      std::ranges::all_of(scenarios_, [&](const StudyScenario& one) { return one.nominal.physics.engine->name == engine; });
+  if (same) {
+    found.front().add(study_.verify.place,
+                      fmt::format("verify.engine {} is the engine of the study itself; expected another, or none: known are {}",
+                                  engine, fmt::join(catalog.engines(), ", ")));
+  }
+  add_of_each(scenarios_, found, problems);
 }
 
-void Plan::find_other_engine(const Catalog& catalog, Problems& problems) {
-  const std::string& name = study_.verify.engine;
-  if (name == "none") return;
-  if (name == nominal_scenario_.physics.engine->name) {
-    problems.add(study_.verify.place,
-                 fmt::format("verify.engine {} is the engine of the study itself; expected another, or none: known are {}",
-                             name, fmt::join(catalog.engines(), ", ")));
-    return;
-  }
-  const Engine* engine = catalog.engine(name);
-  if (engine == nullptr) {
-    problems.add(study_.verify.place,
-                 "verify.engine " + in_quotes(name) + " is not known" + gaitlab::offer(name, catalog.engines(), "engines"));
-    return;
-  }
-  const bool solver = nominal_scenario_.contact.solver();
-  const double step = solver && engine->solver_step > 0 ? engine->solver_step : engine->step;
-  other_engine_ = {"physics.engine=" + name};
-  if (engine->adaptive() != nullptr) {
-    other_engine_.push_back(fmt::format("physics.integrator={}", engine->integrators.front().name));
-    other_engine_.emplace_back("physics.step=auto");
-  } else {
-    other_engine_.push_back(fmt::format("physics.integrator={}", engine->fixed().name));
-    other_engine_.push_back("physics.step=" + number_text(step));
-  }
+double Plan::longest() const {
+  double longest = 0;
+  for (const StudyScenario& one : scenarios_) longest = std::max(longest, one.nominal.duration);
+  return longest;
 }
 
-void Plan::find_nominal(Problems& problems) {
+bool Plan::has_other_engine() const {
+  return std::ranges::any_of(scenarios_, [](const StudyScenario& one) { return !one.other_engine.empty(); });
+}
+
+void Plan::find_nominal(StudyScenario& scenario, Problems& problems) const {
   std::optional<Node> tree;
   for (const Variation& v : study_.replicates.vary) {
     const auto same = [&](const Parameter& p) { return p.key == v.key; };
     if (!v.times || std::ranges::any_of(study_.parameters, same)) continue;
-    if (!tree) tree = parse_yaml(scenario_text_, study_.scenario);
+    if (!tree) tree = parse_yaml(scenario.resolved, scenario.nominal.file);
     const Node* node = find_key(*tree, v.key);
     const Reading<double> value = node == nullptr ? Reading<double>{0, "is not a key of the scenario"} : read_number(*node, "");
     if (!value.ok()) problems.add(v.place, v.key + " " + value.wrong + ", which a factor needs");
-    nominal_[v.key] = value.value;
+    scenario.nominal_values[v.key] = value.value;
   }
 }
 
@@ -179,11 +202,14 @@ void Plan::choose_shown(Problems& problems) {
 }
 
 /// The first and the last run are tried: what both refuse no run can have, a misspelt key above all.
-void Plan::check_corners(Problems& problems) const {
+void Plan::check_corners(std::size_t scenario, Problems& problems) const {
+  const std::uint64_t first_run = scenario * points_.replicates();
+  const std::uint64_t last_run = points_.runs() - 1 - (scenarios_.size() - 1 - scenario) * points_.replicates();
   std::optional<InputError> first;
   for (const bool last : {false, true}) {
     try {
-      (void)with(is_search(study_.method) ? sets(corner(study_, last), 0) : sets(last ? points_.runs() - 1 : 0));
+      (void)with(is_search(study_.method) ? sets(corner(study_, last), first_run) : sets(last ? last_run : first_run),
+                 scenario);
       return;
     } catch (const InputError& error) {
       if (!first) first = error;
@@ -197,31 +223,34 @@ void Plan::note_refused_ends() {
     if (!p.values.empty()) continue;
     for (const bool high : {false, true}) {
       const std::string value = number_text(high ? p.high : p.low);
-      try {
-        (void)with({p.key + "=" + value});
-      } catch (const InputError& error) {
-        notes_.push_back({p.place, fmt::format("{} is refused at its {} of {}, so that points near it will fail: {}", p.key,
-                                               high ? "high" : "low", value, error.problems().front().text)});
+      for (std::size_t s = 0; s < scenarios_.size(); ++s) {
+        try {
+          (void)with({p.key + "=" + value}, s);
+        } catch (const InputError& error) {
+          const std::string in = scenarios_[s].name.empty() ? "" : " in scenario " + scenarios_[s].name;
+          notes_.push_back({p.place, fmt::format("{} is refused{} at its {} of {}, so that points near it will fail: {}", p.key,
+                                                 in, high ? "high" : "low", value, error.problems().front().text)});
+        }
       }
     }
   }
 }
 
-std::map<std::string, double> Plan::nominal(const std::vector<std::string>& values) const {
-  std::map<std::string, double> nominal = nominal_;
+std::map<std::string, double> Plan::nominal(const std::vector<std::string>& values, std::size_t scenario) const {
+  std::map<std::string, double> nominal = scenarios_[scenario].nominal_values;
   for (std::size_t k = 0; k < study_.parameters.size(); ++k) nominal[study_.parameters[k].key] = number_of(values[k]);
   return nominal;
 }
 
-std::vector<std::string> Plan::sets(std::uint64_t run) const {
-  return sets(points_.values(points_.point(run)), points_.replicate(run));
-}
+std::vector<std::string> Plan::sets(std::uint64_t run) const { return sets(points_.values(points_.point(run)), run); }
 
-std::vector<std::string> Plan::sets(const std::vector<std::string>& values, std::uint64_t replicate) const {
+/// Of a run, were its point one with these values.
+std::vector<std::string> Plan::sets(const std::vector<std::string>& values, std::uint64_t run) const {
   std::vector<std::string> sets;
   for (std::size_t k = 0; k < values.size(); ++k) sets.push_back(study_.parameters[k].key + "=" + values[k]);
   if (study_.replicates.count == 0) return sets;
-  const std::vector<std::string> drawn = points_.drawn(replicate, nominal(values));
+  const std::uint64_t replicate = points_.replicate(run);
+  const std::vector<std::string> drawn = points_.drawn(replicate, nominal(values, points_.scenario(run)));
   for (std::size_t k = 0; k < drawn.size(); ++k) sets.push_back(study_.replicates.vary[k].key + "=" + drawn[k]);
   sets.push_back(fmt::format("seed={}", points_.seed(replicate)));
   return sets;
@@ -229,7 +258,7 @@ std::vector<std::string> Plan::sets(const std::vector<std::string>& values, std:
 
 bool Plan::raise_budget(std::uint64_t runs) {
   if (study_.runs == 0) return false;
-  const std::uint64_t each = points_.replicates();
+  const std::uint64_t each = points_.runs_of_point();
   study_.runs = std::max(study_.runs, static_cast<std::int64_t>((runs + each - 1) / each * each));
   return true;
 }
@@ -245,12 +274,14 @@ Row Plan::row(std::uint64_t run) const {
   row.run = run;
   row.values = points_.values(points_.point(run));
   row.point = point_name(row.values);
+  const std::size_t scenario = points_.scenario(run);
+  row.scenario = scenarios_[scenario].name;
   row.replicate = points_.replicate(run);
   if (study_.replicates.count > 0) {
-    const std::vector<std::string> drawn = points_.drawn(row.replicate, nominal(row.values));
+    const std::vector<std::string> drawn = points_.drawn(row.replicate, nominal(row.values, scenario));
     row.values.insert(row.values.end(), drawn.begin(), drawn.end());
   }
-  row.seed = study_.replicates.count == 0 ? nominal_scenario_.seed : points_.seed(row.replicate);
+  row.seed = study_.replicates.count == 0 ? scenarios_[scenario].nominal.seed : points_.seed(row.replicate);
   return row;
 }
 
@@ -303,12 +334,15 @@ JournalHead Plan::head() const {
   head.name = study_.name;
   head.definition = definition();
   head.scenario = scenario_text_;
+  for (const StudyScenario& one : scenarios_) {
+    if (!one.name.empty()) head.scenarios.push_back(one.name);
+  }
   for (std::size_t k = 0; k < study_.objectives.size(); ++k)
     head.objectives.push_back({judge_->objectives()[k], study_.objectives[k].maximize});
   head.combine = kCombines[static_cast<std::size_t>(study_.replicates.combine)];
   head.quantile = study_.replicates.quantile;
   head.runs = most_runs();
-  head.replicates = points_.replicates();
+  head.replicates = points_.runs_of_point();
   head.seed = study_.seed;
   for (const Parameter& p : study_.parameters)
     head.parameters.push_back({p.key, p.words, false, p.low, p.high, p.log, p.values});

@@ -1,25 +1,29 @@
-// A study bound to its scenario: what each run is, and what its row in the journal holds.
+// A study bound to its scenarios: what each run is, and what its row in the journal holds.
 #pragma once
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "core/scenario/read_scenario.h"
 #include "studies/journal.h"
 #include "studies/judge.h"
 #include "studies/points.h"
+#include "studies/scenarios.h"
 #include "studies/stop_rules.h"
 
 namespace gaitlab::studies {
 
 class Plan {
  public:
-  /// Reads the scenario and checks the study against it. InputError with every problem found, before anything runs.
+  /// Reads the scenarios and checks the study against each. InputError with every problem found, before anything runs.
   Plan(Study study, const FigureOffer& offer, Catalog& catalog);
 
   [[nodiscard]] const Study& study() const { return study_; }
-  [[nodiscard]] const Scenario& scenario() const { return nominal_scenario_; }
+  /// The first scenario, with the study's own settings.
+  [[nodiscard]] const Scenario& scenario() const { return scenarios_.front().nominal; }
+  [[nodiscard]] const std::vector<StudyScenario>& scenarios() const { return scenarios_; }
+  /// Duration of the longest scenario, s.
+  [[nodiscard]] double longest() const;
   [[nodiscard]] const Points& points() const { return points_; }
   /// Of a method that chooses points by what came out: its budget.
   [[nodiscard]] std::uint64_t most_runs() const { return points_.runs(); }
@@ -38,16 +42,22 @@ class Plan {
   void add(std::vector<std::string> values) { points_.add(std::move(values)); }
   /// A budget of at least so many runs, in whole points. False: the study has no budget.
   bool raise_budget(std::uint64_t runs);
-  /// What a point with these values is called in the journal, the same in every study of the scenario.
+  /// What a point with these values is called in the journal, the same in every study of the scenario, or scenarios.
   [[nodiscard]] std::string point_name(const std::vector<std::string>& values) const;
 
   /// Settings of a run behind the study's own, as for --set.
   [[nodiscard]] std::vector<std::string> sets(std::uint64_t run) const;
-  /// With these settings, or those of a run. InputError: the scenario is refused with these values. One thread at a time.
-  [[nodiscard]] Scenario with(const std::vector<std::string>& sets) const { return template_->with(sets); }
-  [[nodiscard]] Scenario scenario(std::uint64_t run) const { return with(sets(run)); }
-  /// Settings that take the engine of `verify`, with its own step; empty: that is the engine there is, or none.
-  [[nodiscard]] const std::vector<std::string>& other_engine() const { return other_engine_; }
+  /// A scenario by its number with these settings; that of a run. InputError: it is refused with these values. One thread at a
+  /// time.
+  [[nodiscard]] Scenario with(const std::vector<std::string>& sets, std::size_t scenario) const {
+    return scenarios_[scenario].file->with(sets);
+  }
+  [[nodiscard]] Scenario scenario(std::uint64_t run) const { return with(sets(run), points_.scenario(run)); }
+  /// Settings that take the engine of `verify`, with its own step; empty: that is the engine of the run's scenario, or none.
+  [[nodiscard]] const std::vector<std::string>& other_engine(std::uint64_t run) const {
+    return scenarios_[points_.scenario(run)].other_engine;
+  }
+  [[nodiscard]] bool has_other_engine() const;
 
   /// The row of a run as far as it is known before the run.
   [[nodiscard]] Row row(std::uint64_t run) const;
@@ -59,27 +69,25 @@ class Plan {
   [[nodiscard]] JournalHead head() const;
 
  private:
-  /// Of a point with these values, by key.
-  [[nodiscard]] std::map<std::string, double> nominal(const std::vector<std::string>& values) const;
-  [[nodiscard]] std::vector<std::string> sets(const std::vector<std::string>& values, std::uint64_t replicate) const;
-  void check_corners(Problems& problems) const;
+  /// Of a point with these values in a scenario, by key.
+  [[nodiscard]] std::map<std::string, double> nominal(const std::vector<std::string>& values, std::size_t scenario) const;
+  [[nodiscard]] std::vector<std::string> sets(const std::vector<std::string>& values, std::uint64_t run) const;
+  void check_corners(std::size_t scenario, Problems& problems) const;
   void note_refused_ends();
-  void find_other_engine(const Catalog& catalog, Problems& problems);
-  void find_nominal(Problems& problems);
+  void find_nominal(StudyScenario& scenario, Problems& problems) const;
+  void find_columns(const FigureOffer& offer, Problems& problems);
   void choose_shown(Problems& problems);
+  void make_judges(const FigureOffer& offer, const Catalog& catalog, Problems& problems);
 
   Study study_;
-  std::unique_ptr<ScenarioTemplate> template_;
-  Scenario nominal_scenario_;
-  std::string scenario_text_;  ///< resolved
+  std::vector<StudyScenario> scenarios_;
+  std::string scenario_text_;  ///< of all, resolved
   std::string scenario_digest_;
   Points points_;
-  std::map<std::string, double> nominal_;  ///< of keys that vary as a multiple
   std::vector<FigureName> columns_;
   std::unique_ptr<Judge> judge_, gait_judge_;
   std::unique_ptr<StopRules> stops_;
   std::vector<std::size_t> shown_;
-  std::vector<std::string> other_engine_;
   std::vector<Problem> notes_;
 };
 

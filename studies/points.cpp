@@ -72,7 +72,7 @@ std::uint64_t Points::points() const {
   const std::uint64_t n = study_.parameters.size();
   if (study_.method == Method::morris) return static_cast<std::uint64_t>(study_.trajectories) * (n + 1);
   if (study_.method == Method::sobol_indices) return static_cast<std::uint64_t>(study_.samples) * (n + 2);
-  if (study_.method != Method::grid) return static_cast<std::uint64_t>(study_.runs) / replicates();
+  if (study_.method != Method::grid) return static_cast<std::uint64_t>(study_.runs) / runs_of_point();
   std::uint64_t points = 1;
   for (const Parameter& p : study_.parameters)
     points *= p.values.empty() ? static_cast<std::uint64_t>(p.count) : p.values.size();

@@ -9,15 +9,17 @@
 
 namespace gaitlab::studies {
 
-/// Runs are numbered from 0: the replicates of a point follow one another.
+/// Runs are numbered from 0: those of a point follow one another, its replicates in the first scenario, then in the next.
 class Points {
  public:
   explicit Points(const Study& study) : study_(study) {}
 
   [[nodiscard]] std::uint64_t points() const;
   [[nodiscard]] std::uint64_t replicates() const { return study_.replicates.number(); }
-  [[nodiscard]] std::uint64_t runs() const { return points() * replicates(); }
-  [[nodiscard]] std::uint64_t point(std::uint64_t run) const { return run / replicates(); }
+  [[nodiscard]] std::uint64_t runs_of_point() const { return study_.runs_of_point(); }
+  [[nodiscard]] std::uint64_t runs() const { return points() * runs_of_point(); }
+  [[nodiscard]] std::uint64_t point(std::uint64_t run) const { return run / runs_of_point(); }
+  [[nodiscard]] std::size_t scenario(std::uint64_t run) const { return run % runs_of_point() / replicates(); }
   [[nodiscard]] std::uint64_t replicate(std::uint64_t run) const { return run % replicates(); }
 
   /// The next point of a method that chooses points by what came out.

@@ -67,7 +67,7 @@ void Runner::run_suspects(std::uint64_t end, const std::atomic<bool>& stop) {
 std::optional<Job> Runner::next(std::uint64_t end) {
   for (; next_ < end; next_ += settings_.shard.count) {
     if (present_[next_]) continue;
-    Job job{plan_.row(next_), plan_.sets(next_)};
+    Job job{plan_.row(next_), plan_.sets(next_), plan_.points().scenario(next_)};
     next_ += settings_.shard.count;
     return job;
   }

@@ -1,5 +1,6 @@
 // A study as the user wrote it: which points of a scenario are run, how often, and by what they are judged.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -89,9 +90,15 @@ struct Verify {
   SourceLocation place = {};
 };
 
+/// One of several scenarios in which every point runs.
+struct NamedScenario {
+  std::string name, file;
+};
+
 struct Study {
-  std::string name, file;  ///< file: of the study; empty: of the command line
-  std::string scenario;    ///< its file
+  std::string name, file;                ///< file: of the study; empty: of the command line
+  std::string scenario;                  ///< its file, where there is one
+  std::vector<NamedScenario> scenarios;  ///< instead of it
   std::vector<std::string> sets;
   std::vector<SourceLocation> set_places;  ///< of a file
   std::int64_t seed = 1;
@@ -111,6 +118,8 @@ struct Study {
   std::int64_t trajectories = 20, samples = 1024;  ///< of morris; of sobol_indices
   /// Whether its points are those of a sensitivity study.
   [[nodiscard]] bool of_sensitivity() const { return method == Method::morris || method == Method::sobol_indices; }
+  /// Runs of a point: its replicates in every scenario.
+  [[nodiscard]] std::uint64_t runs_of_point() const { return std::max<std::size_t>(1, scenarios.size()) * replicates.number(); }
   bool asked = false;  ///< points come from another program (`gaitlab evaluate`) instead of the method
 };
 

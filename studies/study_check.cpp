@@ -59,15 +59,15 @@ void check_study(const Study& study, const SourceLocation& place, Problems& prob
   if (study.method != Method::grid && !study.of_sensitivity() && study.runs == 0)
     problems.add(place, "missing budget: {runs: N}, which method " +
                             std::string(kMethods[static_cast<std::size_t>(study.method)]) + " needs");
-  if (study.runs > 0 && study.runs < static_cast<std::int64_t>(study.replicates.number()))
-    problems.add(place, fmt::format("a budget of {} runs is less than the {} replicates of one point", study.runs,
-                                    study.replicates.number()));
+  if (study.runs > 0 && study.runs < static_cast<std::int64_t>(study.runs_of_point()))
+    problems.add(place, fmt::format("a budget of {} runs is less than the {} {} of one point", study.runs,
+                                    study.runs_of_point(), study.scenarios.empty() ? "replicates" : "runs"));
   constexpr double kMostRuns = 1e9;
-  double runs = static_cast<double>(study.replicates.number());
+  double runs = static_cast<double>(study.runs_of_point());
   for (const Parameter& p : study.parameters)
     runs *= static_cast<double>(p.values.empty() ? p.count : static_cast<std::int64_t>(p.values.size()));
   const auto blocks = static_cast<double>(study.method == Method::morris ? study.trajectories : study.samples);
-  const double runs_of_blocks = blocks * static_cast<double>((study.parameters.size() + 2) * study.replicates.number());
+  const double runs_of_blocks = blocks * static_cast<double>((study.parameters.size() + 2) * study.runs_of_point());
   if (study.of_sensitivity() && runs_of_blocks > kMostRuns)
     problems.add(place, fmt::format("the study has {:.3g} runs; allowed are up to {:g}", runs_of_blocks, kMostRuns));
   if (study.method == Method::grid && runs > kMostRuns)

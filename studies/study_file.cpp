@@ -24,7 +24,7 @@ struct Plain {
   std::string& scenario;
   void fields(Fields& f) const {
     f.text("name", study.name, "Name of the study; without it that of the file.");
-    f.text("scenario", scenario, "Scenario file, relative to this file.");
+    f.text("scenario", scenario, "Scenario file, relative to this file; or `scenarios`.");
     f.texts("set", study.sets, "Settings of all runs, as for --set: physics.step=0.001.");
     f.integer("seed", study.seed, {"", 0, 9e15, "Seed of what is drawn: points and replicates."});
     f.texts("figures", study.figures,
@@ -72,6 +72,27 @@ struct BudgetKeys {
     f.integer("runs", runs, {"", 1, 1e9, "Runs of methods that draw or search points, replicates counted."});
   }
 };
+
+/// {flat: a.yaml, rubble: b.yaml}; `folder`: of the study.
+void read_named_scenarios(const Node& node, const std::filesystem::path& folder, Study& study, Problems& problems) {
+  constexpr std::size_t kMost = 1000;
+  if (node.kind != Node::Kind::map || node.keys.empty() || node.keys.size() > kMost) {
+    const std::string what = node.kind != Node::Kind::map ? found(node) : node.keys.empty() ? "empty" : "too long";
+    problems.add(node.place, fmt::format("scenarios is {}; expected 1 to {} names with their files: {{flat: flat.yaml, rubble: "
+                                         "rubble.yaml}}",
+                                         what, kMost));
+    return;
+  }
+  for (std::size_t k = 0; k < node.keys.size(); ++k) {
+    const auto& [name, place] = node.keys[k];
+    const Node& file = node.items[k];
+    if (!is_name(name, "_.-"))
+      problems.add(place, "scenario name " + in_quotes(name) + " is not allowed; expected letters, digits, _ . and -");
+    if (file.kind != Node::Kind::scalar)
+      problems.add(file.place, "scenario " + clipped(name) + " is " + found(file) + "; expected the name of a file");
+    study.scenarios.push_back({name, (folder / file.text).lexically_normal().string()});
+  }
+}
 
 void read_objective(const Node& node, Objective& objective, Problems& problems) {
   const std::size_t before = problems.size();
@@ -162,6 +183,9 @@ Explainer study_keys() {
   std::string scenario;
   explainer.row("gaitlab_study", "", "1", "1", "Format version; by this key a file is known as a study.");
   Plain{study, scenario}.fields(explainer);
+  explainer.row("scenarios", "", "", "{NAME: FILE, ...}",
+                "Instead of `scenario`: several, in each of which every point runs, each a row; `combine` of `replicates` says "
+                "what they count for together.");
   explainer.row("parameters", "", "required", "", "Keys of the scenario, as for --set, that change from point to point.");
   explainer.row("  KEY.low", "", "", "", "Least value, in the unit of the scenario's key.");
   explainer.row("  KEY.high", "", "", "above low", "Largest value.");
@@ -175,7 +199,7 @@ Explainer study_keys() {
   explainer.row("  vary.KEY", "", "", "normal: [MEAN, DEVIATION] (with low, high), uniform: [LOW, HIGH], values: [...]",
                 "How a key of the scenario is drawn; {times: LAW}: as a multiple of the value that the point has.");
   explainer.row("  combine", "", "worst", "mean, worst, median or quantile(Q)",
-                "What the replicates of a point count for together.");
+                "What the replicates of a point, in all its scenarios, count for together.");
   explainer.row("objective", "", "{maximize: FIGURE}", "{maximize: EXPRESSION} or {minimize: EXPRESSION}",
                 "What points are ordered by; without it by the first of `figures`. A list of two or three: the points that no "
                 "other is better than in all.");
@@ -223,7 +247,12 @@ Study read_study(const std::string& file, Purpose purpose) {
     for (const Node& set : sets->items) study.set_places.push_back(set.place);
   }
   if (const Node* figures = root.find("figures")) study.figures_place = figures->place;
-  study.scenario = (std::filesystem::path(file).parent_path() / scenario).lexically_normal().string();
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  study.scenario = (folder / scenario).lexically_normal().string();
+  if (const Node* node = reader.take("scenarios")) {
+    read_named_scenarios(*node, folder, study, problems);
+    if (reader.has("scenario")) problems.add(node->place, "the study has scenario and scenarios; expected one or the other");
+  }
   MethodKeys method{study};
   const bool chosen = reader.has("method");
   reader.group("method", method, "");
@@ -241,7 +270,8 @@ Study read_study(const std::string& file, Purpose purpose) {
   if (const Node* node = reader.take("constraints")) read_constraints(*node, study, problems);
   if (const Node* node = reader.take("guards")) read_guards(*node, study, problems);
   if (const Node* node = reader.take("stop")) read_stops(*node, study, problems);
-  reader.require({"scenario", "parameters"});
+  if (!reader.has("scenarios")) reader.require({"scenario"});
+  reader.require({"parameters"});
   reader.finish();
   const bool grid = std::ranges::all_of(study.parameters, &Parameter::in_grid);
   const Method search = study.objectives.size() > 1 ? Method::nsga2 : Method::cma;

@@ -31,8 +31,8 @@ std::vector<Way> ways(const Plan& plan) {
   std::vector<Way> ways;
   const Verify& verify = plan.study().verify;
   if (verify.halve_step) ways.push_back({"half step", halved});
-  if (!plan.other_engine().empty())
-    ways.push_back({clipped(verify.engine), [](const Plan& of, std::uint64_t) { return of.other_engine(); }});
+  if (plan.has_other_engine())
+    ways.push_back({clipped(verify.engine), [](const Plan& of, std::uint64_t run) { return of.other_engine(run); }});
   return ways;
 }
 
@@ -60,13 +60,16 @@ std::string verdict_text(const Plan& plan, const Scenario& scenario, const std::
   return "the verdict is infeasible" + (broken.empty() ? "" : fmt::format(": {}", fmt::join(broken, ", ")));
 }
 
-/// Why a point does not stand, or "".
-std::string reason(const Plan& plan, const std::vector<Row>& rows, const std::vector<std::vector<std::string>>& sets,
-                   const PointResult& was, const PointResult& is) {
+/// `in rubble: ` of a row, where the study has several scenarios.
+std::string in_scenario(const Row& row) { return row.scenario.empty() ? "" : "in " + row.scenario + ": "; }
+
+/// Why a point does not stand, or "". `jobs`: of the rows.
+std::string reason(const Plan& plan, const std::vector<Row>& rows, std::span<const Job> jobs, const PointResult& was,
+                   const PointResult& is) {
   std::string why;
   const auto add = [&](const std::string& text) { why += (why.empty() ? "" : "; ") + text; };
   for (const Row& row : rows) {
-    if (row.outcome != "done") return row.outcome + ": " + row.message;
+    if (row.outcome != "done") return in_scenario(row) + row.outcome + ": " + row.message;
   }
   for (std::size_t k = 0; k < plan.study().objectives.size(); ++k) {
     const double then = was.score.objectives[k];
@@ -79,9 +82,9 @@ std::string reason(const Plan& plan, const std::vector<Row>& rows, const std::ve
     const Row& row = rows[k];
     const bool breaks = is.score.violation > 0 && row.score && row.score->violation > 0;
     if (!breaks && row.verdict != "infeasible") continue;
-    const Scenario scenario = plan.with(sets[k]);
-    if (breaks) add(fmt::format("{}", fmt::join(plan.judge().broken(scenario, row.figures), ", ")));
-    if (row.verdict == "infeasible") add(verdict_text(plan, scenario, row.figures));
+    const Scenario scenario = plan.with(jobs[k].sets, jobs[k].scenario);
+    if (breaks) add(in_scenario(row) + fmt::format("{}", fmt::join(plan.judge().broken(scenario, row.figures), ", ")));
+    if (row.verdict == "infeasible") add(in_scenario(row) + verdict_text(plan, scenario, row.figures));
     break;  // of several replicates the first
   }
   return why;
@@ -105,7 +108,7 @@ Verification as_run(const Plan& plan, Journal& journal, const PointResult& point
       figures.push_back(cell.empty() ? std::nan("") : number_of(cell));
     }
     own.verdict = word;
-    own.reason = verdict_text(plan, plan.scenario(run), figures);
+    own.reason = in_scenario(plan.row(run)) + verdict_text(plan, plan.scenario(run), figures);
   }
   for (std::size_t k = 0; k < plan.study().objectives.size(); ++k) own.objectives.push_back(point.score.objectives[k]);
   return own;
@@ -139,13 +142,13 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
                                                 const std::function<void(std::size_t done, std::size_t of)>& told,
                                                 std::atomic<bool>& stop) {
   const std::vector<Way> tried = ways(plan);
-  const std::uint64_t replicates = plan.points().replicates();
+  const std::uint64_t runs_of_point = plan.points().runs_of_point();
   std::vector<Job> jobs;
   for (const std::size_t point : points) {
     for (const Way& way : tried) {
-      for (std::uint64_t r = 0; r < replicates; ++r) {
+      for (std::uint64_t r = 0; r < runs_of_point; ++r) {
         const std::uint64_t run = results.points[point].first_run + r;
-        Job job{plan.row(run), plan.sets(run)};
+        Job job{plan.row(run), plan.sets(run), plan.points().scenario(run)};
         job.row.run = jobs.size();
         std::ranges::copy(way.sets(plan, run), std::back_inserter(job.sets));
         jobs.push_back(std::move(job));
@@ -176,23 +179,24 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
     all.push_back(as_run(plan, journal, point));
     for (const Way& way : tried) {
       std::vector<Row> own(rows.begin() + static_cast<std::ptrdiff_t>(at),
-                           rows.begin() + static_cast<std::ptrdiff_t>(at + replicates));
+                           rows.begin() + static_cast<std::ptrdiff_t>(at + runs_of_point));
       std::vector<Brief> briefs;
-      std::vector<std::vector<std::string>> sets;
-      for (std::size_t r = 0; r < replicates; ++r) {
+      for (std::size_t r = 0; r < runs_of_point; ++r)
         briefs.push_back({point.first_run + r, own[r].outcome, own[r].message, own[r].simulated, own[r].score});
-        sets.push_back(jobs[at + r].sets);
-      }
       const PointResult is = point_result(journal.head(), briefs);
-      Verification v{
-          point.first_run, way.what, {}, is.score.violation, own.front().verdict, reason(plan, own, sets, point, is)};
+      Verification v{point.first_run,
+                     way.what,
+                     {},
+                     is.score.violation,
+                     own.front().verdict,
+                     reason(plan, own, std::span(jobs).subspan(at, runs_of_point), point, is)};
       for (const Row& row : own) {
         if (row.verdict == "infeasible") v.verdict = row.verdict;
       }
       for (std::size_t k = 0; k < plan.study().objectives.size(); ++k)
         v.objectives.push_back(is.failed > 0 ? std::nan("") : is.score.objectives[k]);
       all.push_back(std::move(v));
-      at += replicates;
+      at += runs_of_point;
     }
   }
   return all;

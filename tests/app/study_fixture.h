@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdlib>
 #include <map>
+#include <sstream>
 
 #include "tests/program/fixture.h"
 
@@ -21,6 +22,34 @@ class StudyFixture : public ::testing::Test {
     const Result result = call(arguments);
     EXPECT_EQ(result.code, code) << arguments;
     EXPECT_EQ(result.err, message + "\n") << arguments;
+  }
+  /// Rows of table.csv, cell by cell; the first are the names. (No cell of these tests holds a comma but messages.)
+  std::vector<std::map<std::string, std::string>> table(const std::string& out) {
+    std::istringstream text(read(folder_ / (out + "/table.csv")));
+    const auto cells = [](const std::string& line) {
+      std::vector<std::string> all(1);
+      bool quoted = false;
+      for (const char c : line) {
+        if (c == '"')
+          quoted = !quoted;
+        else if (c == ',' && !quoted)
+          all.emplace_back();
+        else
+          all.back() += c;
+      }
+      return all;
+    };
+    std::string line;
+    std::getline(text, line);
+    const std::vector<std::string> names = cells(line);
+    std::vector<std::map<std::string, std::string>> rows;
+    while (std::getline(text, line)) {
+      const std::vector<std::string> values = cells(line);
+      std::map<std::string, std::string> row;
+      for (std::size_t k = 0; k < names.size() && k < values.size(); ++k) row[names[k]] = values[k];
+      rows.push_back(row);
+    }
+    return rows;
   }
 
   Folder folder_;

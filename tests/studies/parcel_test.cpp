@@ -14,6 +14,7 @@ Row hostile_row() {
   Row row;
   row.run = 3'999'999'999;
   row.point = "00ff";
+  row.scenario = "rubble";
   row.replicate = 7;
   row.seed = -(std::int64_t{1} << 53);
   row.outcome = "plugin";
@@ -31,6 +32,7 @@ Row hostile_row() {
 void expect_same(const Row& a, const Row& b) {
   EXPECT_EQ(a.run, b.run);
   EXPECT_EQ(a.point, b.point);
+  EXPECT_EQ(a.scenario, b.scenario);
   EXPECT_EQ(a.replicate, b.replicate);
   EXPECT_EQ(a.seed, b.seed);
   EXPECT_EQ(a.outcome, b.outcome);
@@ -56,11 +58,12 @@ TEST(Parcel, GivesBackWhatWasPutIn) {
   ASSERT_EQ(back.size(), 2U);
   expect_same(back[0], rows[0]);
   expect_same(back[1], rows[1]);
-  const std::vector<Job> jobs{{hostile_row(), {"cpg.type=hopf", "seed=3"}}, {Row{}, {}}};
+  const std::vector<Job> jobs{{hostile_row(), {"cpg.type=hopf", "seed=3"}, 2}, {Row{}, {}}};
   const std::vector<Job> again = jobs_of(packed(jobs));
   ASSERT_EQ(again.size(), 2U);
   expect_same(again[0].row, jobs[0].row);
   EXPECT_EQ(again[0].sets, jobs[0].sets);
+  EXPECT_EQ(again[0].scenario, 2U);
   EXPECT_TRUE(again[1].sets.empty());
   EXPECT_TRUE(rows_of(packed(std::span<const Row>())).empty());
 }

@@ -176,6 +176,22 @@ TEST_F(StudyFile, ItsReplicatesAreChecked) {
             "s.yaml:4:31: error: ");
 }
 
+TEST_F(StudyFile, ThoseThatComeWithTheProgramAreTaken) {
+  std::size_t searches = 0;
+  for (const auto& file : std::filesystem::directory_iterator(kScenarios + "studies")) {
+    const std::string name = file.path().string();
+    const auto method = studies::read_study(name, studies::Purpose::sweep).method;
+    searches += studies::is_search(method) ? 1 : 0;
+    const auto purpose = studies::is_search(method) ? studies::Purpose::optimize : studies::Purpose::sweep;
+    EXPECT_EQ(error_of(name, purpose), "taken") << name;
+  }
+  EXPECT_GE(searches, 4U);
+  const studies::Study robust = studies::read_study(kScenarios + "studies/hexapod-robust.yaml", studies::Purpose::optimize);
+  EXPECT_EQ(robust.method, studies::Method::cma);
+  EXPECT_EQ(robust.replicates.count, 8);
+  EXPECT_EQ(robust.replicates.combine, studies::Combine::worst);
+}
+
 TEST_F(StudyFile, AllThatIsWrongIsToldAtOnce) {
   EXPECT_EQ(error("gaitlab_study: 1\nscenari: two.yaml\nparameters: {a: {low: 1, high: x}}\nseed: -1\n").substr(0, 7),
             "s.yaml:");
