@@ -192,6 +192,9 @@ Explainer study_keys() {
   explainer.row("  KEY.scale", "", "linear", "linear or log", "Whether values are even in themselves or in their logarithm.");
   explainer.row("  KEY.count", "", "", "2 to 1e9", "Of a grid: number of values from low to high, both included.");
   explainer.row("  KEY.values", "", "", "", "Instead of low and high: numbers or words, one by one.");
+  explainer.row("  KEY.sets", "", "none", "{KEY: EXPRESSION, ...}",
+                "KEY is a number of the study's own, and these keys of the scenario follow it: legs: {low: 0, high: 1, sets: "
+                "{cpg.offset: 0.3*legs - 0.1}}. Expressions are over all parameters that are numbers.");
   explainer.row(
       "replicates", "", "none", "",
       "Runs of each point that differ in their seed and in what `vary` draws; the draws are the same for every point.");
