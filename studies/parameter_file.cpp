@@ -8,26 +8,11 @@
 #include "core/scenario/reader.h"
 #include "core/scenario/value.h"
 #include "core/scenario/wording.h"
+#include "studies/study_keys.h"
 
 namespace gaitlab::studies {
 
 namespace {
-
-constexpr std::array<const char*, 2> kScales{"linear", "log"};
-constexpr double kAny = 1e300;
-
-struct Range {
-  Parameter& parameter;
-  bool& log;
-  void fields(Fields& f) {
-    f.number("low", parameter.low, {"", -kAny, kAny, "Least value, in the unit of the scenario's key."});
-    f.number("high", parameter.high, {"", -kAny, kAny, "Largest value."});
-    int scale = log ? 1 : 0;
-    f.choice("scale", scale, kScales, "Whether values are even in themselves or in their logarithm.");
-    log = scale == 1;
-    f.integer("count", parameter.count, {"", 2, 1e9, "Of a grid: number of values from low to high, both included."});
-  }
-};
 
 /// Scalars of a list of values, numbers or words, as for --set.
 void read_values(const Node& list, const std::string& what, std::vector<std::string>& values, bool& words, Problems& problems) {
@@ -107,7 +92,7 @@ void read_parameters(const Node& node, Study& study, Problems& problems) {
       if (reader.has("low") || reader.has("high"))
         problems.add(values->place, parameter.key + " has values, and low or high; expected one or the other");
     }
-    Range range{parameter, parameter.log};
+    RangeKeys range{parameter, parameter.log};
     range.fields(reader);
     if (values == nullptr) reader.require({"low", "high"});
     if (const Node* sets = reader.take("sets")) read_followers_of(*sets, parameter, problems);
