@@ -124,8 +124,9 @@ int evaluate_study(const EvaluateArguments& a) {
                                                     figure_measure(plan.columns(), plan.scenario()));
   studies::JournalHead head = plan.head();
   head.build = report::build_id();
-  head.runs = 0;                                                    // as many as are asked for
-  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before there is a folder
+  head.runs = 0;  // as many as are asked for
+  // Before there is a folder.
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   const fs::path folder = studies::study_folder(a.out, "evaluate-" + plan.study().name, holds_study(head));
   head.command = fmt::format("gaitlab evaluate {} --out {}", shell_word(a.file), shell_word(folder.string()));
   const studies::Lock lock(folder / "lock");

@@ -133,8 +133,12 @@ int explain(const ManualArguments& arguments) {
   return 0;
 }
 
-int schema(const ManualArguments& arguments) {
-  fmt::print("{}", scenario_schema(standard_catalog(arguments.plugins)));
+struct SchemaArguments : ManualArguments {
+  bool study = false;
+};
+
+int schema(const SchemaArguments& arguments) {
+  fmt::print("{}", arguments.study ? studies::study_schema() : scenario_schema(standard_catalog(arguments.plugins)));
   return 0;
 }
 
@@ -163,8 +167,11 @@ void add_manuals(Commands& commands) {
         command.add_option("NAME", arguments.name, "name as `gaitlab list` prints it; of a module also its file, NAME.yaml");
         add_plugins(command, arguments);
       });
-  add_command<ManualArguments>(commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,
-                               add_plugins);
+  add_command<SchemaArguments>(commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,
+                               [](CLI::App& command, SchemaArguments& arguments) {
+                                 command.add_flag("--study", arguments.study, "that of the file of a study instead");
+                                 add_plugins(command, arguments);
+                               });
   add_command<ManualArguments>(commands, "reference", "Print a page of docs/reference.", reference,
                                [](CLI::App& command, ManualArguments& arguments) {
                                  command.group("");  // not in the help

@@ -9,6 +9,7 @@
 #include "app/study_figures.h"
 #include "app/study_text.h"
 #include "core/scenario/wording.h"
+#include "studies/followers.h"
 #include "studies/number.h"
 #include "studies/scenarios.h"
 #include "studies/study_folder.h"
@@ -158,6 +159,36 @@ std::string scenario_of_row(const studies::JournalHead& head, const std::vector<
                    "is not a journal that this program wrote: it lacks the scenario " + in_quotes(name) + " of a run");
 }
 
+/// The settings of a row over the scenario as the journal holds it: the folder is enough.
+std::vector<std::string> settings_of_row(const Journal& journal, const std::vector<std::string>& names,
+                                         const std::vector<std::string>& row) {
+  const studies::JournalHead& head = journal.head();
+  std::vector<studies::Parameter> parameters;
+  std::vector<std::string> values;
+  std::vector<std::string> drawn;
+  for (std::size_t k = 0; k < head.parameters.size(); ++k) {
+    const studies::JournalParameter& p = head.parameters[k];
+    const std::string& value =
+        row[static_cast<std::size_t>(std::ranges::find(names, journal.columns().parameters[k]) - names.begin())];
+    if (p.drawn) {
+      drawn.push_back(p.key + "=" + value);
+      continue;
+    }
+    parameters.emplace_back().key = p.key;
+    parameters.back().words = p.words;
+    values.push_back(value);
+  }
+  studies::read_followers(parameters, head.definition);
+  Problems problems;
+  const studies::Followers followers(parameters, problems);
+  problems.raise();
+  std::vector<std::string> sets;
+  for (const auto& [key, value] : followers.settings(values)) sets.push_back(key + "=" + value);
+  sets.insert(sets.end(), drawn.begin(), drawn.end());
+  sets.push_back("seed=" + row[3]);
+  return sets;
+}
+
 int rerun_study(const StudyArguments& a) {
   Journal journal = opened(a.folder);
   const studies::JournalHead& head = journal.head();
@@ -167,12 +198,7 @@ int rerun_study(const StudyArguments& a) {
                      fmt::format("{} is not in the journal; it has {} of {} runs", a.run, journal.rows(), head.runs));
   const std::vector<std::string> names = journal.columns().all();
   Catalog catalog = standard_catalog();
-  // The settings of the run, over the scenario as the journal holds it: the folder is enough.
-  std::vector<std::string> sets;
-  for (std::size_t k = 0; k < head.parameters.size(); ++k)
-    sets.push_back(head.parameters[k].key + "=" +
-                   row[static_cast<std::size_t>(std::ranges::find(names, journal.columns().parameters[k]) - names.begin())]);
-  sets.push_back("seed=" + row[3]);
+  const std::vector<std::string> sets = settings_of_row(journal, names, row);
   const Scenario scenario =
       read_stored({"", (fs::path(a.folder) / studies::kJournalFile).string(), scenario_of_row(head, names, row)}, catalog,
                   OtherPlugins::refused, sets);

@@ -8,26 +8,11 @@
 #include "core/scenario/reader.h"
 #include "core/scenario/value.h"
 #include "core/scenario/wording.h"
+#include "studies/study_keys.h"
 
 namespace gaitlab::studies {
 
 namespace {
-
-constexpr std::array<const char*, 2> kScales{"linear", "log"};
-constexpr double kAny = 1e300;
-
-struct Range {
-  Parameter& parameter;
-  bool& log;
-  void fields(Fields& f) {
-    f.number("low", parameter.low, {"", -kAny, kAny, "Least value, in the unit of the scenario's key."});
-    f.number("high", parameter.high, {"", -kAny, kAny, "Largest value."});
-    int scale = log ? 1 : 0;
-    f.choice("scale", scale, kScales, "Whether values are even in themselves or in their logarithm.");
-    log = scale == 1;
-    f.integer("count", parameter.count, {"", 2, 1e9, "Of a grid: number of values from low to high, both included."});
-  }
-};
 
 /// Scalars of a list of values, numbers or words, as for --set.
 void read_values(const Node& list, const std::string& what, std::vector<std::string>& values, bool& words, Problems& problems) {
@@ -62,6 +47,31 @@ void check_range(const Parameter& p, const SourceLocation& place, const std::str
   }
 }
 
+/// {cpg.offset: 0.3*legs - 0.1}
+void read_followers_of(const Node& node, Parameter& parameter, Problems& problems) {
+  const std::string& name = parameter.key;
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  constexpr std::array<std::string_view, 4> kTaken{"pi", "and", "or", "not"};  // in expressions
+  if (!is_name(name, "_") || !letter(name[0]) || std::ranges::find(kTaken, name) != kTaken.end())
+    problems.add(parameter.place, in_quotes(name) +
+                                      " cannot be a number of one's own, which keys follow (sets); expected a "
+                                      "name of letters, digits and _, a letter first");
+  if (node.kind != Node::Kind::map || node.keys.empty()) {
+    problems.add(node.place, name + ".sets is " + (node.kind == Node::Kind::map ? "empty" : found(node)) +
+                                 "; expected keys of the scenario with expressions: {cpg.offset: 0.3*" + clipped(name) + "}");
+    return;
+  }
+  if (parameter.words) problems.add(node.place, name + " has words, which no expression can use; expected numbers beside sets");
+  for (std::size_t k = 0; k < node.keys.size(); ++k) {
+    const Node& expression = node.items[k];
+    if (expression.kind != Node::Kind::scalar) {
+      problems.add(expression.place, node.keys[k].first + " is " + found(expression) + "; expected an expression");
+    } else {
+      parameter.sets.push_back({node.keys[k].first, {expression.text, expression}, node.keys[k].second});
+    }
+  }
+}
+
 }  // namespace
 
 void read_parameters(const Node& node, Study& study, Problems& problems) {
@@ -82,9 +92,10 @@ void read_parameters(const Node& node, Study& study, Problems& problems) {
       if (reader.has("low") || reader.has("high"))
         problems.add(values->place, parameter.key + " has values, and low or high; expected one or the other");
     }
-    Range range{parameter, parameter.log};
+    RangeKeys range{parameter, parameter.log};
     range.fields(reader);
     if (values == nullptr) reader.require({"low", "high"});
+    if (const Node* sets = reader.take("sets")) read_followers_of(*sets, parameter, problems);
     reader.finish();
     if (problems.size() == before && values == nullptr) check_range(parameter, parameter.place, parameter.key, problems);
     study.parameters.push_back(std::move(parameter));

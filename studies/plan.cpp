@@ -106,8 +106,13 @@ Plan::Plan(Study study, const FigureOffer& offer, Catalog& catalog)
   Problems problems;
   scenario_text_ = scenarios_text(scenarios_);
   scenario_digest_ = digest(scenario_text_);
+  followers_ = std::make_unique<Followers>(study_.parameters, problems);
+  problems.raise();
   std::vector<Problems> found(scenarios_.size());
-  for (std::size_t s = 0; s < scenarios_.size(); ++s) find_nominal(scenarios_[s], found[s]);
+  for (std::size_t s = 0; s < scenarios_.size(); ++s) {
+    check_own_names(s, found[s]);
+    find_nominal(scenarios_[s], found[s]);
+  }
   add_of_each(scenarios_, found, problems);
   find_columns(offer, problems);
   choose_shown(problems);
@@ -172,10 +177,30 @@ bool Plan::has_other_engine() const {
   return std::ranges::any_of(scenarios_, [](const StudyScenario& one) { return !one.other_engine.empty(); });
 }
 
+/// A number of one's own that is called like a key of the scenario would be taken for it.
+void Plan::check_own_names(std::size_t scenario, Problems& problems) const {
+  for (const Parameter& p : study_.parameters) {
+    if (p.sets.empty()) continue;
+    const std::string unknown = "unknown key " + in_quotes(p.key);
+    bool is_key = true;
+    try {
+      (void)with({p.key + "=0"}, scenario);
+    } catch (const InputError& error) {
+      is_key = std::ranges::none_of(error.problems(), [&](const Problem& one) { return one.text.starts_with(unknown); });
+    }
+    if (is_key)
+      problems.add(
+          p.place,
+          fmt::format("{} is a key of the scenario, and has keys that follow it (sets); expected another name", p.key));
+  }
+}
+
 void Plan::find_nominal(StudyScenario& scenario, Problems& problems) const {
   std::optional<Node> tree;
   for (const Variation& v : study_.replicates.vary) {
-    const auto same = [&](const Parameter& p) { return p.key == v.key; };
+    const auto same = [&](const Parameter& p) {
+      return p.key == v.key || std::ranges::find(p.sets, v.key, &Follower::key) != p.sets.end();
+    };
     if (!v.times || std::ranges::any_of(study_.parameters, same)) continue;
     if (!tree) tree = parse_yaml(scenario.resolved, scenario.nominal.file);
     const Node* node = find_key(*tree, v.key);
@@ -220,7 +245,7 @@ void Plan::check_corners(std::size_t scenario, Problems& problems) const {
 
 void Plan::note_refused_ends() {
   for (const Parameter& p : study_.parameters) {
-    if (!p.values.empty()) continue;
+    if (!p.values.empty() || !p.sets.empty()) continue;
     for (const bool high : {false, true}) {
       const std::string value = number_text(high ? p.high : p.low);
       for (std::size_t s = 0; s < scenarios_.size(); ++s) {
@@ -238,7 +263,7 @@ void Plan::note_refused_ends() {
 
 std::map<std::string, double> Plan::nominal(const std::vector<std::string>& values, std::size_t scenario) const {
   std::map<std::string, double> nominal = scenarios_[scenario].nominal_values;
-  for (std::size_t k = 0; k < study_.parameters.size(); ++k) nominal[study_.parameters[k].key] = number_of(values[k]);
+  for (const auto& [key, value] : followers_->settings(values)) nominal[key] = number_of(value);
   return nominal;
 }
 
@@ -247,7 +272,7 @@ std::vector<std::string> Plan::sets(std::uint64_t run) const { return sets(point
 /// Of a run, were its point one with these values.
 std::vector<std::string> Plan::sets(const std::vector<std::string>& values, std::uint64_t run) const {
   std::vector<std::string> sets;
-  for (std::size_t k = 0; k < values.size(); ++k) sets.push_back(study_.parameters[k].key + "=" + values[k]);
+  for (const auto& [key, value] : followers_->settings(values)) sets.push_back(key + "=" + value);
   if (study_.replicates.count == 0) return sets;
   const std::uint64_t replicate = points_.replicate(run);
   const std::vector<std::string> drawn = points_.drawn(replicate, nominal(values, points_.scenario(run)));
@@ -266,6 +291,10 @@ bool Plan::raise_budget(std::uint64_t runs) {
 std::string Plan::point_name(const std::vector<std::string>& values) const {
   std::string name = scenario_digest_;
   for (std::size_t k = 0; k < values.size(); ++k) name += study_.parameters[k].key + "=" + values[k] + "\n";
+  const auto own = [](const Parameter& p) { return !p.sets.empty(); };
+  if (std::ranges::any_of(study_.parameters, own)) {  // what follows it may be others in another study
+    for (const auto& [key, value] : followers_->settings(values)) name += key + "=" + value + "\n";
+  }
   return digest(name);
 }
 
@@ -307,9 +336,11 @@ std::string Plan::definition() const {
   std::string text = fmt::format("seed: {}\nmethod: {}\n", study_.seed,
                                  study_.asked ? "asked" : kMethods[static_cast<std::size_t>(study_.method)]);
   if (!study_.asked && is_search(study_.method)) text += search_text(study_);
-  for (const Parameter& p : study_.parameters)
+  for (const Parameter& p : study_.parameters) {
     text += fmt::format("parameter {}: {}\n", p.key,
                         p.values.empty() ? number_range(p) : fmt::format("{}", fmt::join(p.values, ", ")));
+    text += followers_text(p);
+  }
   if (study_.replicates.count > 0) {
     text += fmt::format("replicates: {}, {}", study_.replicates.count,
                         kCombines[static_cast<std::size_t>(study_.replicates.combine)]);

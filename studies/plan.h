@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/followers.h"
 #include "studies/journal.h"
 #include "studies/judge.h"
 #include "studies/points.h"
@@ -74,6 +75,7 @@ class Plan {
   [[nodiscard]] std::vector<std::string> sets(const std::vector<std::string>& values, std::uint64_t run) const;
   void check_corners(std::size_t scenario, Problems& problems) const;
   void note_refused_ends();
+  void check_own_names(std::size_t scenario, Problems& problems) const;
   void find_nominal(StudyScenario& scenario, Problems& problems) const;
   void find_columns(const FigureOffer& offer, Problems& problems);
   void choose_shown(Problems& problems);
@@ -84,6 +86,7 @@ class Plan {
   std::string scenario_text_;  ///< of all, resolved
   std::string scenario_digest_;
   Points points_;
+  std::unique_ptr<Followers> followers_;
   std::vector<FigureName> columns_;
   std::unique_ptr<Judge> judge_, gait_judge_;
   std::unique_ptr<StopRules> stops_;

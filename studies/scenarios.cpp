@@ -52,7 +52,8 @@ std::vector<StudyScenario> read_scenarios(const Study& study, Catalog& catalog) 
 void add_as_written(const InputError& error, const Study& study, Problems& problems) {
   for (const Problem& problem : error.problems()) {
     SourceLocation place = problem.place;
-    const auto makes = [&](const auto& one) { return place.file.starts_with("--set " + one.key + "="); };
+    const std::string written = problem.place.file;
+    const auto makes = [&](const auto& one) { return written.starts_with("--set " + one.key + "="); };
     const auto parameter = std::ranges::find_if(study.parameters, makes);
     const auto variation = std::ranges::find_if(study.replicates.vary, makes);
     for (std::size_t k = 0; k < study.set_places.size(); ++k) {
@@ -60,6 +61,10 @@ void add_as_written(const InputError& error, const Study& study, Problems& probl
     }
     if (variation != study.replicates.vary.end()) place = variation->place;
     if (parameter != study.parameters.end()) place = parameter->place;
+    for (const Parameter& own : study.parameters) {
+      const auto follower = std::ranges::find_if(own.sets, makes);
+      if (follower != own.sets.end()) place = follower->place;
+    }
     if (!holds(problems, {place, problem.text})) problems.add(place, problem.text).notes = problem.notes;
   }
 }

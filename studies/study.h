@@ -12,15 +12,23 @@
 
 namespace gaitlab::studies {
 
-/// A key of the scenario that changes from point to point.
+/// A key of the scenario that follows a number of the study's own.
+struct Follower {
+  std::string key;
+  Text expression;  ///< over the parameters
+  SourceLocation place = {};
+};
+
+/// What changes from point to point: a key of the scenario, or a number of the study's own, which keys follow.
 struct Parameter {
-  std::string key;                  ///< as for --set
+  std::string key;                  ///< as for --set; of one's own: its name
   std::vector<std::string> values;  ///< given one by one; empty: low to high
   bool words = false;               ///< values that are not numbers
   double low = 0, high = 0;
   bool log = false;        ///< even in the logarithm
   std::int64_t count = 0;  ///< of a grid, from low to high; 0: drawn
   SourceLocation place = {};
+  std::vector<Follower> sets = {};  ///< keys that follow it; none: it is one itself
 
   [[nodiscard]] bool in_grid() const { return !values.empty() || count > 0; }
 };

@@ -31,10 +31,31 @@ void check_search(const Study& study, const SourceLocation& place, Problems& pro
                                     least_runs(study)));
 }
 
+/// A key that follows a number has no other value.
+void check_followers(const Study& study, Problems& problems) {
+  for (const Parameter& own : study.parameters) {
+    for (const Follower& f : own.sets) {
+      for (const Parameter& other : study.parameters) {
+        const auto also = [&](const Follower& one) { return one.key == f.key; };
+        if (other.key == f.key)
+          problems.add(f.place, fmt::format("{} follows {} and is a parameter; expected one or the other", f.key, own.key));
+        if (&other < &own && std::ranges::any_of(other.sets, also))
+          problems.add(f.place, fmt::format("{} follows {} and {}; expected one of them", f.key, other.key, own.key));
+      }
+      const auto drawn = [&](const Variation& v) { return v.key == f.key && !v.times; };
+      if (std::ranges::any_of(study.replicates.vary, drawn))
+        problems.add(f.place, fmt::format("{} follows {} and is drawn for every replicate; expected vary: {{{}: {{times: "
+                                          "...}}}}, or one of the two",
+                                          f.key, own.key, f.key));
+    }
+  }
+}
+
 }  // namespace
 
 void check_study(const Study& study, const SourceLocation& place, Problems& problems) {
   if (is_search(study.method)) check_search(study, place, problems);
+  check_followers(study, problems);
   for (const Parameter& p : study.parameters) {
     if (study.method == Method::grid && !p.in_grid())
       problems.add(p.place, p.key + " has no count; expected one for a grid, or method: {type: random} or sobol");

@@ -20,6 +20,8 @@ Study read_study(const std::string& file, Purpose purpose = Purpose::sweep);
 /// `gaitlab explain study` and docs/reference/study.md.
 std::string explain_study();
 std::string study_page();
+/// `gaitlab schema --study`: JSON Schema (draft 7). What it refuses, the reader refuses; the reader knows more.
+std::string study_schema();
 
 /// Finds what a study's settings among themselves rule out.
 void check_study(const Study& study, const SourceLocation& place, Problems& problems);

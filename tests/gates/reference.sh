@@ -26,4 +26,5 @@ page docs/reference/plugins.md reference plugins
 page docs/reference/figure.md reference figure
 page docs/reference/study.md reference study
 page scenarios/gaitlab.schema.json schema
+page scenarios/gaitlab-study.schema.json schema --study
 verdict

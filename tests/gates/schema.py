@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The schema that `gaitlab schema` prints, against the program: what ships is valid, and of wrong scenarios both say the same.
+"""The schemas that `gaitlab schema` prints, against the program: what ships is valid, and of wrong files both say the same.
 usage: schema.py PROGRAM SCENARIOS_FOLDER PUBLISHED_FOLDER
 77 where python3-jsonschema or python3-yaml is missing."""
 import json
@@ -152,12 +152,101 @@ WRONG = [
     "robot: {modules: {zero: mtran}}\nduration: 1\n",
     "robot: {modules: {name: one, bodies: {b: {mas: 1}}}}\nduration: 1\n",
 ]
+
+# ---- studies
+
+study_schema = json.loads(subprocess.run([PROGRAM, "schema", "--study"], check=True, capture_output=True, text=True).stdout)
+jsonschema.Draft7Validator.check_schema(study_schema)
+study_validator = jsonschema.Draft7Validator(study_schema)
+
+
+def program_takes_study(text):
+    """Without a question `evaluate` reads and checks a study, and runs nothing."""
+    with tempfile.TemporaryDirectory() as folder:
+        for shared in ("modules", "robots"):
+            (pathlib.Path(folder) / shared).symlink_to(SCENARIOS / shared)
+        (pathlib.Path(folder) / "two.yaml").write_text(
+            "robot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nphysics: {engine: articulated}\n"
+            "cpg: {type: phase_oscillator}\nduration: 0.1\n")
+        (pathlib.Path(folder) / "s.yaml").write_text(text)
+        code = subprocess.run([PROGRAM, "evaluate", "s.yaml", "--out", "s", "--quiet"], cwd=folder, capture_output=True,
+                              stdin=subprocess.DEVNULL).returncode
+        if code not in (0, 2):
+            failures.append(f"gaitlab evaluate ends with {code}: {text}")
+        return code == 0
+
+
+def expect_study_agreement(text, right):
+    by_schema, by_program = study_validator.is_valid(load(text)), program_takes_study(text)
+    if by_schema != right or by_program != right:
+        verdict = {True: "accepts", False: "refuses"}
+        failures.append(f"the schema of studies {verdict[by_schema]}, the program {verdict[by_program]}: {text!r}")
+
+
+studies = sorted(SCENARIOS.glob("studies/*.yaml"))
+for path in studies:
+    expect_valid(f"studies/{path.name}", path.read_text(), study_validator)
+    if path.read_text().split("\n", 1)[0] != "# yaml-language-server: $schema=../gaitlab-study.schema.json":
+        failures.append(f"studies/{path.name}: its first line does not name the schema")
+
+STUDY = "gaitlab_study: 1\nscenario: two.yaml\n"
+LAG = STUDY + "parameters: {cpg.phase_lag: {low: 0.5, high: 1.5}}\n"
+RIGHT_STUDIES = [
+    LAG,
+    STUDY + "parameters: {cpg.phase_lag: {low: 0.5, high: 1.5, scale: log, count: 3}, cpg.type: {values: [sine, hopf]}}\n",
+    STUDY + "parameters: {legs: {low: 0, high: 1, sets: {cpg.offset: 0.3*legs - 0.1, cpg.phase_lag: 1}}}\n",
+    "gaitlab_study: 1\nscenarios: {flat: two.yaml, 2: two.yaml}\nparameters: {cpg.phase_lag: {values: [1, 2]}}\n",
+    LAG + "name: s\nset: [physics.step=0.001]\nseed: 3\nfigures: [speed]\n",
+    LAG + "replicates: {count: 2, vary: {ground.friction: {normal: [0.8, 0.1], low: 0.3}, actuator.R: {times: {uniform: [0.9, 1]}}}, "
+    "combine: quantile(0.9)}\n",
+    LAG + "objective: [{maximize: speed}, {minimize: torque.peak}]\nconstraints: [torque.rms <= 1]\n",
+    LAG + "guards: none\nstop: [fell, speed > 9 after 1]\n",
+    LAG + "guards: {range.share: 0.1}\nmethod: {type: cma, population: 16}\nbudget: {runs: 99}\nverify: {engine: none}\n",
+]
+WRONG_STUDIES = [
+    STUDY,
+    "gaitlab_study: 2\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0.5, high: 1.5}}\n",
+    "gaitlab_study: 1\nparameters: {cpg.phase_lag: {low: 0.5, high: 1.5}}\n",
+    LAG + "scenarios: {flat: two.yaml}\n",
+    "gaitlab_study: 1\nscenarios: {}\nparameters: {cpg.phase_lag: {values: [1, 2]}}\n",
+    "gaitlab_study: 1\nscenarios: {a b: two.yaml}\nparameters: {cpg.phase_lag: {values: [1, 2]}}\n",
+    STUDY + "parameters: {}\n",
+    STUDY + "parameters: {cpg.phase_lag: {low: 0.5}}\n",
+    STUDY + "parameters: {cpg.phase_lag: {low: 0.5, high: 1 rad}}\n",
+    STUDY + "parameters: {cpg.phase_lag: {low: 0.5, high: 1.5, cuont: 2}}\n",
+    STUDY + "parameters: {cpg.phase_lag: {low: 0.5, high: 1.5, values: [1]}}\n",
+    STUDY + "parameters: {cpg.phase_lag: {values: []}}\n",
+    STUDY + "parameters: {legs: {low: 0, high: 1, sets: {}}}\n",
+    LAG + "objectiv: {maximize: speed}\n",
+    LAG + "objective: {maximise: speed}\n",
+    LAG + "objective: {maximize: speed, minimize: torque.peak}\n",
+    LAG + "constraints: torque.rms <= 1\n",
+    LAG + "guards: walk\n",
+    LAG + "guards: {range.shar: 0.1}\n",
+    LAG + "replicates: {combine: worst}\n",
+    LAG + "replicates: {count: 0}\n",
+    LAG + "replicates: {count: 2, combine: best}\n",
+    LAG + "replicates: {count: 2, vary: {ground.friction: {normal: [0.8]}}}\n",
+    LAG + "replicates: {count: 2, vary: {ground.friction: {uniform: [0, 1], normal: [0.8, 0.1]}}}\n",
+    LAG + "stop: fell\n",
+    LAG + "method: {type: cmaes}\n",
+    LAG + "method: {type: cma, sigma: 2}\n",
+    LAG + "budget: {runs: 64, wall: 1 h}\n",
+    LAG + "verify: {best: 0}\n",
+    LAG + "seed: -1\n",
+]
+for text in RIGHT_STUDIES:
+    expect_study_agreement(text, True)
+for text in WRONG_STUDIES:
+    expect_study_agreement(text, False)
+
 for text in RIGHT:
     expect_agreement(text, True)
 for text in WRONG:
     expect_agreement(text, False)
 
-print(f"{len(shipped)} shipped scenarios and their resolved form, {len(RIGHT)} right and {len(WRONG)} wrong ones")
+print(f"{len(shipped)} shipped scenarios and their resolved form, {len(RIGHT)} right and {len(WRONG)} wrong ones; "
+      f"{len(studies)} shipped studies, {len(RIGHT_STUDIES)} right and {len(WRONG_STUDIES)} wrong ones")
 for failure in failures:
     print("FAILED", failure)
 sys.exit(1 if failures else 0)
