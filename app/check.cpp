@@ -49,15 +49,15 @@ double rounded(double part) { return std::round(100 * part) / 100 + 0.0; }
 
 /// Whoever rolls sees what friction does at low speed.
 void print_creep(const Scenario& s) {
-  std::string names;
+  std::vector<std::string> names;
   for (const Joint& joint : s.robot->joints) {
-    if (joint.turns_freely()) names += (names.empty() ? "" : ", ") + joint.name;
+    if (joint.turns_freely()) names.push_back(joint.name);
   }
   if (names.empty() || s.contact.solver() || s.ground.kind == Ground::Kind::none || s.contact.on == ContactSet::none) return;
   fmt::print(
       "  note: {} turn{} freely: where they roll, feet and wheels that should hold creep, because friction is viscous below\n"
       "    contact.slip_speed, {:g} m/s here{}\n",
-      names, names.find(',') == std::string::npos ? "s" : "", s.contact.penalty.v_lim,
+      joined(names), names.size() == 1 ? "s" : "", s.contact.penalty.v_lim,
       s.contact.penalty.v_lim > kLittleCreep ? fmt::format("; with {:g} m/s they creep less", kLittleCreep) : "");
 }
 

@@ -102,8 +102,8 @@ std::string picture(const report::PaperFigure& figure, const fs::path& file) {
   report::Pdf pdf(figure.paper());
   figure.draw(pdf);
   for (const char32_t code : pdf.missing()) {
-    fmt::print(stderr, "{}: note: U+{:04X} is in neither Helvetica nor Symbol; the PDF has a ? for it\n", file.string(),
-               static_cast<unsigned>(code));
+    say(file.string(), "note",
+        fmt::format("U+{:04X} is in neither Helvetica nor Symbol; the PDF has a ? for it", static_cast<unsigned>(code)));
   }
   return pdf.finish();
 }
@@ -139,11 +139,11 @@ int figure(const FigureArguments& arguments) {
   const std::string drawn = picture(figure, file);
   for (std::size_t i = 0; i < files.size(); ++i) write_file(files[i], texts[i]);
   write_file(file, drawn, arguments.out ? Existing::replaced : Existing::refused);
-  for (const std::string& note : figure.notes()) fmt::print(stderr, "{}: note: {}\n", arguments.recipe, note);
+  for (const std::string& note : figure.notes()) say(arguments.recipe, "note", note);
   const report::Paper& paper = figure.paper();
-  fmt::print("{}: {:.1f} x {:.1f} mm\n", file.string(), paper.width * paper.mm, paper.height * paper.mm);
+  fmt::print("{}: {:.1f} x {:.1f} mm\n", one_line(file.string()), paper.width * paper.mm, paper.height * paper.mm);
   for (std::size_t i = 0; i < files.size(); ++i)
-    fmt::print("{}: {} rows of {} columns\n", files[i].string(), tables[i].rows(), tables[i].columns.size());
+    fmt::print("{}: {} rows of {} columns\n", one_line(files[i].string()), tables[i].rows(), tables[i].columns.size());
   return 0;
 }
 

@@ -66,7 +66,7 @@ std::vector<std::string> told_missing(std::vector<std::string> missing, const fs
 /// What the run's own `--demand` found, which no recording holds.
 void keep_demand(report::Verdict& verdict, const fs::path& file) {
   if (kind_of(file) != fs::file_type::regular || report::take_demand(verdict, read_file(file, kMostJson))) return;
-  fmt::print(stderr, "{}: note: is not of this recording, so that what --demand found there is left out\n", file.string());
+  say(file.string(), "note", "is not of this recording, so that what --demand found there is left out");
 }
 
 /// A run folder, read and judged.
@@ -107,8 +107,8 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
 /// What is doubtful, on stderr.
 void warn(const JudgedRun& run) {
   const Recording& recording = run.recording();
-  for (const std::string& missing : run.read.stored.missing) fmt::print(stderr, "{}: note: {}\n", run.name, missing);
-  if (recording.outcome != "done") fmt::print(stderr, "{}: note: this run ended early: {}\n", run.name, recording.outcome);
+  for (const std::string& missing : run.read.stored.missing) say(run.name, "note", missing);
+  if (recording.outcome != "done") say(run.name, "note", "this run ended early: " + recording.outcome);
   warn_of_run(run.read.scenario, recording, run.summary, run.overlaps);
 }
 
@@ -140,7 +140,7 @@ int report_one(const ReportArguments& arguments) {
   }
   print_summary(scenario, run.recording(), run.summary, run.verdict, arguments.shown);
   if (arguments.out) {
-    fmt::print("  {:<13} {}: summary.json, verdict.json, figure.svg\n", "files", *arguments.out);
+    fmt::print("  {:<13} {}: summary.json, verdict.json, figure.svg\n", "files", one_line(*arguments.out));
     print_page(fs::path(*arguments.out) / kPageFile);
   }
   if (arguments.page) print_page(*arguments.page);

@@ -152,7 +152,7 @@ void print_worst_columns(const TraceDifference& difference) {
 bool judge(const std::string& run, const Trace& then, const Again& again) {
   const std::string size = fmt::format("{} rows of {} columns", then.rows(), then.columns.size());
   if (hash(then) == hash(again.trace)) {
-    fmt::print("{}: bit-equal: {}, trace hash {}\n", run, size, hash(then));
+    fmt::print("{}: bit-equal: {}, trace hash {}\n", one_line(run), size, hash(then));
     return true;
   }
   CompareOptions options;
@@ -166,11 +166,11 @@ bool judge(const std::string& run, const Trace& then, const Again& again) {
   }
   if (difference.findings.empty() && worst <= kTolerance) {
     fmt::print(
-        "{}: within {} of range, not bit-equal: {}, the worst RMS is {:.3g} of its column's range, {} columns are equal\n", run,
-        kTolerance, size, worst, equal);
+        "{}: within {} of range, not bit-equal: {}, the worst RMS is {:.3g} of its column's range, {} columns are equal\n",
+        one_line(run), kTolerance, size, worst, equal);
     return true;
   }
-  fmt::print("{}: differs (A: the recorded run, B: the run again)\n", run);
+  fmt::print("{}: differs (A: the recorded run, B: the run again)\n", one_line(run));
   for (const std::string& finding : difference.findings) fmt::print("  {}\n", finding);
   if (!again.failure.empty()) fmt::print("  the run again {}\n", again.failure);
   print_worst_columns(difference);

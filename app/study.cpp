@@ -71,7 +71,7 @@ int best_of_study(const StudyArguments& a) {
                                                          : studies::ranked(results.points, objectives.front().maximize);
   std::erase_if(order, [&](std::size_t k) { return !results.points[k].feasible(); });
   if (order.empty()) {
-    fmt::print(stderr, "{}: no point is feasible\n", a.folder);
+    say(a.folder + ": no point is feasible\n");
     return 3;
   }
   fmt::print("{}", points_table(journal, results, order, static_cast<std::size_t>(a.most)));
@@ -117,8 +117,9 @@ int merge_study(const StudyArguments& a) {
   fmt::print("{}: {} of {} runs\n", (folder / studies::kJournalFile).string(), rows, all->head().runs);
   write_study_files(*all, studies::results(*all), folder);
   if (missing.empty()) return 0;
-  fmt::print(stderr, "{}: error: {} of {} shards are missing or not whole; run them again: --array={}\n", a.folder,
-             missing.size(), shards.count, array_text(missing));
+  say(a.folder, "error",
+      fmt::format("{} of {} shards are missing or not whole; run them again: --array={}", missing.size(), shards.count,
+                  array_text(missing)));
   return 1;
 }
 
@@ -179,7 +180,7 @@ int rerun_study(const StudyArguments& a) {
     fmt::print("the figures are those of the journal\n");
     return code == 2 ? 2 : 0;
   }
-  for (const std::string& difference : found) fmt::print(stderr, "{}: error: {}\n", a.folder, difference);
+  for (const std::string& difference : found) say(a.folder, "error", difference);
   return 4;
 }
 
