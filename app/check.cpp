@@ -33,6 +33,7 @@ std::unique_ptr<Simulation> made(const Scenario& s, const RunTime& time) try {
 
 struct CheckArguments : ScenarioArguments {
   std::optional<std::string> page;  ///< file for a page of the robot as it starts
+  PluginArguments plugins;
 };
 
 void write_page(const Scenario& s, const std::string& file) {
@@ -63,7 +64,7 @@ void print_creep(const Scenario& s) {
 
 int check(const CheckArguments& arguments) {
   if (arguments.page) check_page(*arguments.page);
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(arguments.plugins);
   const Scenario s = read(arguments, catalog);
   warn_of_start(s, arguments.quiet);
   const RunTime time = measure(s);
@@ -113,6 +114,7 @@ void add_check(Commands& commands) {
   add_command<CheckArguments>(commands, "check", "Validate a scenario without running it, and print what it is made of.", check,
                               [](CLI::App& command, CheckArguments& arguments) {
                                 add_scenario(command, arguments);
+                                add_trust(command, arguments.plugins);
                                 command
                                     .add_option("--page", arguments.page,
                                                 "file for a page of the robot as it starts, with its faces; must not exist")

@@ -23,6 +23,7 @@ struct ExportArguments {
   ScenarioArguments source;  ///< file: run folder or trace file (csv, gltf), scenario (mjcf, urdf, gltf)
   std::string format;        ///< csv, gltf, mjcf, urdf
   std::string file;          ///< to write; must not exist
+  PluginArguments plugins;
 };
 
 void refuse_sets(const ExportArguments& arguments, const char* expected) {
@@ -45,7 +46,7 @@ void export_robot(const ExportArguments& arguments) {
         SourceLocation{arguments.source.file},
         fmt::format("is a folder; --to {} takes a scenario, of a run folder its scenario.resolved.yaml", arguments.format));
   }
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(arguments.plugins);
   const Scenario scenario = read(arguments.source, catalog);
   write_file(arguments.file, arguments.format == "mjcf" ? to_mjcf(scenario) : to_urdf(scenario), Existing::refused);
   fmt::print("{}: {} bodies, {} joints\n", one_line(arguments.file), scenario.robot->bodies.size(),
@@ -76,7 +77,7 @@ void write_gltf(const ExportArguments& arguments, const Scenario& scenario, cons
 void export_gltf(const ExportArguments& arguments) {
   const std::string& source = arguments.source.file;
   const std::filesystem::path path = source;
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(arguments.plugins);
   std::error_code none;
   if (!std::filesystem::is_directory(path, none) && path.extension() != ".h5" && path.extension() != ".csv") {
     write_gltf(arguments, read(arguments.source, catalog), nullptr);
@@ -123,6 +124,7 @@ void add_export(Commands& commands) {
             ->required()
             ->check(CLI::IsMember({"csv", "gltf", "mjcf", "urdf"}));
         command.add_option("FILE", arguments.file, "file to write; must not exist")->required();
+        add_trust(command, arguments.plugins);
         command.add_option("--set", arguments.source.sets, "key.path=value in the scenario")
             ->expected(1)
             ->allow_extra_args(false)

@@ -26,6 +26,7 @@ struct FigureArguments {
   std::string recipe;
   std::optional<std::string> out;
   std::vector<std::string> runs;  ///< NAME=FOLDER
+  PluginArguments plugins;
 };
 
 /// FIG.csv, or of several panels FIG-a.csv, FIG-b.csv ...
@@ -125,7 +126,7 @@ fs::path target(const FigureArguments& arguments) {
 int figure(const FigureArguments& arguments) {
   const report::Recipe recipe = report::read_recipe(arguments.recipe);
   const fs::path file = target(arguments);
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(arguments.plugins);
   const std::vector<report::PaperRun> runs = read_runs(recipe, arguments.runs, catalog);
   const report::PaperFigure figure(recipe, runs);
   const std::vector<Trace> tables = figure.data();
@@ -156,6 +157,7 @@ void add_figure(Commands& commands) {
         command.add_option("RECIPE", arguments.recipe, "recipe (YAML); its keys: gaitlab explain figure curves")->required();
         command.add_option("-o,--out", arguments.out,
                            "FIG.svg or FIG.pdf, replaced where it exists, with FIG.csv beside it (default: RECIPE.svg, new)");
+        add_trust(command, arguments.plugins);
         command.add_option("--run", arguments.runs, "NAME=FOLDER: another folder for a run of the recipe; may be repeated")
             ->expected(1)
             ->allow_extra_args(false)

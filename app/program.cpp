@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "app/command_line.h"
+#include "app/study_text.h"
 #include "core/errors.h"
 
 namespace gaitlab::app {
@@ -53,6 +54,7 @@ int program(std::span<void (*const)(Commands&)> known, int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", [] { return version(); });
   Commands commands{app};
+  for (int k = 1; k < argc; ++k) typed() += " " + shell_word(argv[k]);
   for (const auto add : known) add(commands);
   const int code = read_command_line(app, {argv + std::min(argc, 1), argv + argc}) ? commands.chosen() : 0;
   const bool all_out = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;

@@ -57,6 +57,15 @@ void add_scenario(CLI::App& command, ScenarioArguments& arguments) {
   command.add_flag("--quiet", arguments.quiet, "print no notes, no progress and no summary");
 }
 
+void add_trust(CLI::App& command, PluginArguments& allowed) {
+  command.add_flag("--plugins-from-scenario", allowed.from_scenario,
+                   "load the plugins that the scenario names: their code runs, so look who made them");
+  command.add_option("--plugin", allowed.files, "load this plugin where the scenario names it; may be repeated")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 std::string not_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
 
 }  // namespace gaitlab::app

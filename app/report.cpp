@@ -37,6 +37,7 @@ struct ReportArguments {
   std::optional<std::string> page;  ///< file for a page alone
   SummaryOptions shown;
   std::vector<std::string> joints;  ///< names, of the figure
+  PluginArguments plugins;
 };
 
 /// A value of the run's summary; null where there is none, or no summary that can be read.
@@ -116,7 +117,7 @@ int report_one(const ReportArguments& arguments) {
   const std::string& name = arguments.runs.front();
   Existing existing = Existing::refused;
   if (arguments.page) existing = check_page(*arguments.page, trace_file(name).parent_path() / kPageFile);
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(arguments.plugins);
   const JudgedRun run = judged_run(name, catalog, arguments.joints, arguments.shown);
   const Scenario& scenario = run.read.scenario;
   const std::vector<std::string>& missing = run.read.stored.missing;
@@ -155,7 +156,7 @@ int report_two(const ReportArguments& arguments) {
   const fs::path own = trace_file(arguments.runs[0]).parent_path() / kPairFile;
   const std::string file = arguments.page.value_or(own.string());
   const Existing existing = check_page(file, own);
-  std::array<Catalog, 2> catalogs{standard_catalog(), standard_catalog()};
+  std::array<Catalog, 2> catalogs{careful_catalog(arguments.plugins), careful_catalog(arguments.plugins)};
   const JudgedRun a = judged_run(arguments.runs[0], catalogs[0], {}, arguments.shown);
   const JudgedRun b = judged_run(arguments.runs[1], catalogs[1], {}, arguments.shown);
   report::PageOverlay overlay;
@@ -199,6 +200,7 @@ void add_report(Commands& commands) {
             .add_option("--page", arguments.page,
                         "file for the page alone; new, or the run's report.html (of two runs compare.html)")
             ->check(not_empty);
+        add_trust(command, arguments.plugins);
         add_joint(command, arguments.joints);
         command.get_option("--joint")->needs("--out");
         add_shown(command, arguments.shown);

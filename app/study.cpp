@@ -25,6 +25,7 @@ struct StudyArguments {
   std::string format, file;        ///< export
   std::int64_t run = 0;            ///< rerun
   std::optional<std::string> out;  ///< rerun
+  PluginArguments plugins;         ///< rerun
 };
 
 /// The journal of a folder, to be read.
@@ -154,7 +155,7 @@ int rerun_study(const StudyArguments& a) {
     throw InputError(SourceLocation{"RUN"},
                      fmt::format("{} is not in the journal; it has {} of {} runs", a.run, journal.rows(), head.runs));
   const std::vector<std::string> names = journal.columns().all();
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(a.plugins);
   // The settings of the run, over the scenario as the journal holds it: the folder is enough.
   std::vector<std::string> sets;
   for (std::size_t k = 0; k < head.parameters.size(); ++k)
@@ -219,6 +220,7 @@ void add_study(Commands& commands) {
         command.add_option("RUN", a.run, "number of the run")
             ->required()
             ->check(CLI::Range(std::int64_t{0}, std::int64_t{1000000000}));
+        add_trust(command, a.plugins);
         command.add_option("--out", a.out, "run folder (default DIR/run-RUN); new or empty");
       },
       study);
