@@ -17,6 +17,17 @@ namespace gaitlab::app {
 /// Everything built in, and what these libraries register.
 Catalog standard_catalog(const std::vector<std::string>& plugins = {});
 
+/// What the command line allows of the plugins that scenarios and recorded runs name, where a command looks at what may be a
+/// stranger's.
+struct PluginArguments {
+  bool from_scenario = false;      ///< all of them
+  std::vector<std::string> files;  ///< these
+};
+/// Everything built in; of libraries that a scenario names those that are allowed. InputError: a file that is not there.
+Catalog careful_catalog(const PluginArguments& allowed);
+/// The command line as it was typed, for messages.
+std::string& typed();
+
 /// Module types or robots (`kind`: module, robot) that come with the program: name -> file.
 std::map<std::string, std::string> shipped_files(const std::string& kind);
 

@@ -231,7 +231,7 @@ int approve(const ApproveArguments& arguments) {
   if (before && calibrates) fmt::print("{}", band_changes(*before, golden));
   write_golden(golden, folder);
   tell(golden, folder, calibrates);
-  fmt::print(stderr, "{}", wide_numbers(golden, scenario));
+  say(wide_numbers(golden, scenario));
   return 0;
 }
 

@@ -33,6 +33,7 @@ std::unique_ptr<Simulation> made(const Scenario& s, const RunTime& time) try {
 
 struct CheckArguments : ScenarioArguments {
   std::optional<std::string> page;  ///< file for a page of the robot as it starts
+  PluginArguments plugins;
 };
 
 void write_page(const Scenario& s, const std::string& file) {
@@ -49,21 +50,21 @@ double rounded(double part) { return std::round(100 * part) / 100 + 0.0; }
 
 /// Whoever rolls sees what friction does at low speed.
 void print_creep(const Scenario& s) {
-  std::string names;
+  std::vector<std::string> names;
   for (const Joint& joint : s.robot->joints) {
-    if (joint.turns_freely()) names += (names.empty() ? "" : ", ") + joint.name;
+    if (joint.turns_freely()) names.push_back(joint.name);
   }
   if (names.empty() || s.contact.solver() || s.ground.kind == Ground::Kind::none || s.contact.on == ContactSet::none) return;
   fmt::print(
       "  note: {} turn{} freely: where they roll, feet and wheels that should hold creep, because friction is viscous below\n"
       "    contact.slip_speed, {:g} m/s here{}\n",
-      names, names.find(',') == std::string::npos ? "s" : "", s.contact.penalty.v_lim,
+      joined(names), names.size() == 1 ? "s" : "", s.contact.penalty.v_lim,
       s.contact.penalty.v_lim > kLittleCreep ? fmt::format("; with {:g} m/s they creep less", kLittleCreep) : "");
 }
 
 int check(const CheckArguments& arguments) {
   if (arguments.page) check_page(*arguments.page);
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(arguments.plugins);
   const Scenario s = read(arguments, catalog);
   warn_of_start(s, arguments.quiet);
   const RunTime time = measure(s);
@@ -113,6 +114,7 @@ void add_check(Commands& commands) {
   add_command<CheckArguments>(commands, "check", "Validate a scenario without running it, and print what it is made of.", check,
                               [](CLI::App& command, CheckArguments& arguments) {
                                 add_scenario(command, arguments);
+                                add_trust(command, arguments.plugins);
                                 command
                                     .add_option("--page", arguments.page,
                                                 "file for a page of the robot as it starts, with its faces; must not exist")

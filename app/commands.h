@@ -36,6 +36,9 @@ void draw_joints(Scenario& scenario, const std::vector<std::string>& joints);
 /// What every command that reads a scenario takes.
 void add_scenario(CLI::App& command, ScenarioArguments& arguments);
 
+/// `--plugins-from-scenario` and `--plugin`.
+void add_trust(CLI::App& command, PluginArguments& allowed);
+
 /// For CLI::Option::check: a path that is an empty shell variable would name the working folder.
 std::string not_empty(const std::string& text);
 

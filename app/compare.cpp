@@ -12,6 +12,7 @@
 #include "core/errors.h"
 #include "core/model/pattern.h"
 #include "core/recording/run_files.h"
+#include "core/scenario/wording.h"
 #include "report/numbers.h"
 
 namespace gaitlab::app {
@@ -35,7 +36,7 @@ void check_patterns(const std::vector<std::string>& patterns, const Trace& a, co
   for (const std::string& pattern : patterns) {
     if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return glob(pattern, name); })) continue;
     const std::string near = nearest(pattern, names);
-    problems.add(SourceLocation{"--columns"}, fmt::format("'{}' matches no column of either trace{}", pattern,
+    problems.add(SourceLocation{"--columns"}, fmt::format("{} matches no column of either trace{}", in_quotes(pattern),
                                                           near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
   problems.raise();
@@ -159,8 +160,8 @@ int compare(const CompareArguments& arguments) {
   check_patterns(options.columns, a, b);
   const TraceDifference difference = gaitlab::compare(a, b, options);
 
-  fmt::print("A: {} ({} rows)\n", trace_file(arguments.a).string(), a.rows());
-  fmt::print("B: {} ({} rows)\n", trace_file(arguments.b).string(), b.rows());
+  fmt::print("A: {} ({} rows)\n", one_line(trace_file(arguments.a).string()), a.rows());
+  fmt::print("B: {} ({} rows)\n", one_line(trace_file(arguments.b).string()), b.rows());
   for (const std::string& finding : difference.findings) fmt::print("{}\n", finding);
   print_robots(summary_a, summary_b);
   fmt::print("\n");

@@ -154,12 +154,12 @@ int evaluate_study(const EvaluateArguments& a) {
   if (!finished && reader.gone())
     throw RunError(fmt::format("{}: nobody reads the answers; {} runs are in the journal", folder.string(), rows));
   if (!finished && stopped()) {
-    fmt::print(stderr, "{}: interrupted: {} runs are in the journal; go on with the same questions to\n{}\n", folder.string(),
-               rows, head.command);
+    say(fmt::format("{}: interrupted: {} runs are in the journal; go on with the same questions to\n{}\n", folder.string(),
+                    rows, head.command));
     return 1;
   }
   if (rows > 0) write_study_files(journal, studies::results(journal), folder);
-  if (!a.quiet) fmt::print(stderr, "{}: {} runs are in the journal\n", folder.string(), rows);
+  if (!a.quiet) say(fmt::format("{}: {} runs are in the journal\n", folder.string(), rows));
   return 0;
 }
 

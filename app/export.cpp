@@ -8,6 +8,7 @@
 #include "core/files/atomic_file.h"
 #include "core/recording/csv.h"
 #include "core/recording/run_files.h"
+#include "core/scenario/wording.h"
 #include "interchange/gltf.h"
 #include "interchange/mjcf.h"
 #include "interchange/urdf.h"
@@ -22,6 +23,7 @@ struct ExportArguments {
   ScenarioArguments source;  ///< file: run folder or trace file (csv, gltf), scenario (mjcf, urdf, gltf)
   std::string format;        ///< csv, gltf, mjcf, urdf
   std::string file;          ///< to write; must not exist
+  PluginArguments plugins;
 };
 
 void refuse_sets(const ExportArguments& arguments, const char* expected) {
@@ -34,7 +36,7 @@ void export_trace(const ExportArguments& arguments) {
   refuse_sets(arguments, "--to mjcf or urdf");
   const Trace trace = read_trace(arguments.source.file);
   write_csv(trace, arguments.file, Existing::refused);
-  fmt::print("{}: {} rows of {} columns\n", arguments.file, trace.rows(), trace.columns.size());
+  fmt::print("{}: {} rows of {} columns\n", one_line(arguments.file), trace.rows(), trace.columns.size());
 }
 
 void export_robot(const ExportArguments& arguments) {
@@ -44,10 +46,11 @@ void export_robot(const ExportArguments& arguments) {
         SourceLocation{arguments.source.file},
         fmt::format("is a folder; --to {} takes a scenario, of a run folder its scenario.resolved.yaml", arguments.format));
   }
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(arguments.plugins);
   const Scenario scenario = read(arguments.source, catalog);
   write_file(arguments.file, arguments.format == "mjcf" ? to_mjcf(scenario) : to_urdf(scenario), Existing::refused);
-  fmt::print("{}: {} bodies, {} joints\n", arguments.file, scenario.robot->bodies.size(), scenario.robot->joints.size());
+  fmt::print("{}: {} bodies, {} joints\n", one_line(arguments.file), scenario.robot->bodies.size(),
+             scenario.robot->joints.size());
 }
 
 /// In the colours of the figures; the version without the commit, so that the bytes are those of what is shown.
@@ -64,18 +67,17 @@ GltfLook look() {
 void write_gltf(const ExportArguments& arguments, const Scenario& scenario, const Recording* recording) {
   const Gltf made = to_gltf(scenario, recording, look());
   write_file(arguments.file, made.bytes, Existing::refused);
-  fmt::print("{}: {} bodies, {} joints, {}\n", arguments.file, scenario.robot->bodies.size(), scenario.robot->joints.size(),
-             made.frames > 1 ? fmt::format("{} frames", made.frames) : "standing");
+  fmt::print("{}: {} bodies, {} joints, {}\n", one_line(arguments.file), scenario.robot->bodies.size(),
+             scenario.robot->joints.size(), made.frames > 1 ? fmt::format("{} frames", made.frames) : "standing");
   if (const auto hidden = bodies_without_shape(*scenario.robot); !hidden.empty()) {
-    fmt::print(stderr, "{}: note: bodies without a shape, which are not drawn: {}\n", arguments.source.file,
-               fmt::join(hidden, ", "));
+    say(arguments.source.file, "note", "bodies without a shape, which are not drawn: " + joined(hidden));
   }
 }
 
 void export_gltf(const ExportArguments& arguments) {
   const std::string& source = arguments.source.file;
   const std::filesystem::path path = source;
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(arguments.plugins);
   std::error_code none;
   if (!std::filesystem::is_directory(path, none) && path.extension() != ".h5" && path.extension() != ".csv") {
     write_gltf(arguments, read(arguments.source, catalog), nullptr);
@@ -92,8 +94,7 @@ void export_gltf(const ExportArguments& arguments) {
   }
   write_gltf(arguments, scenario, &recording);
   for (const std::size_t box : boxes_without_way(scenario, recording)) {
-    fmt::print(stderr, "{}: note: ground.boxes[{}] stands as it started: its columns box.{}.* are not recorded\n", source, box,
-               box);
+    say(source, "note", fmt::format("ground.boxes[{0}] stands as it started: its columns box.{0}.* are not recorded", box));
   }
 }
 
@@ -123,6 +124,7 @@ void add_export(Commands& commands) {
             ->required()
             ->check(CLI::IsMember({"csv", "gltf", "mjcf", "urdf"}));
         command.add_option("FILE", arguments.file, "file to write; must not exist")->required();
+        add_trust(command, arguments.plugins);
         command.add_option("--set", arguments.source.sets, "key.path=value in the scenario")
             ->expected(1)
             ->allow_extra_args(false)

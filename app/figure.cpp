@@ -26,6 +26,7 @@ struct FigureArguments {
   std::string recipe;
   std::optional<std::string> out;
   std::vector<std::string> runs;  ///< NAME=FOLDER
+  PluginArguments plugins;
 };
 
 /// FIG.csv, or of several panels FIG-a.csv, FIG-b.csv ...
@@ -102,8 +103,8 @@ std::string picture(const report::PaperFigure& figure, const fs::path& file) {
   report::Pdf pdf(figure.paper());
   figure.draw(pdf);
   for (const char32_t code : pdf.missing()) {
-    fmt::print(stderr, "{}: note: U+{:04X} is in neither Helvetica nor Symbol; the PDF has a ? for it\n", file.string(),
-               static_cast<unsigned>(code));
+    say(file.string(), "note",
+        fmt::format("U+{:04X} is in neither Helvetica nor Symbol; the PDF has a ? for it", static_cast<unsigned>(code)));
   }
   return pdf.finish();
 }
@@ -125,7 +126,7 @@ fs::path target(const FigureArguments& arguments) {
 int figure(const FigureArguments& arguments) {
   const report::Recipe recipe = report::read_recipe(arguments.recipe);
   const fs::path file = target(arguments);
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(arguments.plugins);
   const std::vector<report::PaperRun> runs = read_runs(recipe, arguments.runs, catalog);
   const report::PaperFigure figure(recipe, runs);
   const std::vector<Trace> tables = figure.data();
@@ -139,11 +140,11 @@ int figure(const FigureArguments& arguments) {
   const std::string drawn = picture(figure, file);
   for (std::size_t i = 0; i < files.size(); ++i) write_file(files[i], texts[i]);
   write_file(file, drawn, arguments.out ? Existing::replaced : Existing::refused);
-  for (const std::string& note : figure.notes()) fmt::print(stderr, "{}: note: {}\n", arguments.recipe, note);
+  for (const std::string& note : figure.notes()) say(arguments.recipe, "note", note);
   const report::Paper& paper = figure.paper();
-  fmt::print("{}: {:.1f} x {:.1f} mm\n", file.string(), paper.width * paper.mm, paper.height * paper.mm);
+  fmt::print("{}: {:.1f} x {:.1f} mm\n", one_line(file.string()), paper.width * paper.mm, paper.height * paper.mm);
   for (std::size_t i = 0; i < files.size(); ++i)
-    fmt::print("{}: {} rows of {} columns\n", files[i].string(), tables[i].rows(), tables[i].columns.size());
+    fmt::print("{}: {} rows of {} columns\n", one_line(files[i].string()), tables[i].rows(), tables[i].columns.size());
   return 0;
 }
 
@@ -156,6 +157,7 @@ void add_figure(Commands& commands) {
         command.add_option("RECIPE", arguments.recipe, "recipe (YAML); its keys: gaitlab explain figure curves")->required();
         command.add_option("-o,--out", arguments.out,
                            "FIG.svg or FIG.pdf, replaced where it exists, with FIG.csv beside it (default: RECIPE.svg, new)");
+        add_trust(command, arguments.plugins);
         command.add_option("--run", arguments.runs, "NAME=FOLDER: another folder for a run of the recipe; may be repeated")
             ->expected(1)
             ->allow_extra_args(false)

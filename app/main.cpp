@@ -1,8 +1,8 @@
 // The program `gaitlab`: arguments in, one subcommand, an exit code out.
 #include <csignal>
-#include <cstdio>
 
 #include "app/program.h"
+#include "core/errors.h"
 
 int main(int argc, char** argv) {
   using namespace gaitlab::app;
@@ -11,5 +11,5 @@ int main(int argc, char** argv) {
   constexpr void (*kCommands[])(Commands&) = {add_run,     add_report,   add_check,    add_manuals, add_converge, add_swap,
                                               add_sweep,   add_optimize, add_evaluate, add_study,   add_dynamics, add_figure,
                                               add_compare, add_rerun,    add_export,   add_approve, add_test,     add_new};
-  return guarded([&] { return program(kCommands, argc, argv); }, [](const char* text) { (void)std::fputs(text, stderr); });
+  return guarded([&] { return program(kCommands, argc, argv); }, gaitlab::say);
 }

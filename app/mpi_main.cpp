@@ -265,7 +265,7 @@ int main(int argc, char** argv) {
                    const Work& work, std::atomic<bool>& stop) { return others.lead(local, pack, work, stop); };
       };
     }
-    code = app::guarded(run, [](const char* text) { (void)std::fputs(text, stderr); });
+    code = app::guarded(run, say);
     others.dismiss();
   } else {
     if (std::freopen("/dev/null", "w", stdout) == nullptr) return 1;
@@ -273,7 +273,7 @@ int main(int argc, char** argv) {
       serve(plan, settings, measure);
     };
     try {
-      (void)app::guarded(run, [](const char* text) { said += text; });
+      (void)app::guarded(run, [](std::string_view text) { said += text; });
     } catch (const Served&) {
     }
     send(0, kBye, bytes_of(said));

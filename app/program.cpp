@@ -1,18 +1,36 @@
 #include "app/program.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <system_error>
 
 #include "app/command_line.h"
+#include "app/study_text.h"
 #include "core/errors.h"
 
 namespace gaitlab::app {
 
-int guarded(const std::function<int()>& command, void (*say_piece)(const char*)) {
+namespace {
+
+/// Whoever closed one of these streams means that nothing comes out of it: else the next file that is opened would be it, and
+/// what is printed would be written into that. Writing to what is open to be read only fails as on a closed one.
+void hold_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+}  // namespace
+
+int guarded(const std::function<int()>& command, void (*tell)(std::string_view)) {
+  hold_streams();
   // Pieces, not fmt: nothing may throw any more.
   const auto say = [&](const char* before, const char* what, const char* after) {
-    for (const char* text : {before, what, after}) say_piece(text);
+    for (const char* text : {before, what, after}) tell(text);
   };
   try {
     return command();
@@ -36,10 +54,11 @@ int program(std::span<void (*const)(Commands&)> known, int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", [] { return version(); });
   Commands commands{app};
+  for (int k = 1; k < argc; ++k) typed() += " " + shell_word(argv[k]);
   for (const auto add : known) add(commands);
-  if (!read_command_line(app, {argv + std::min(argc, 1), argv + argc})) return 0;
-  const int code = commands.chosen();
-  if (std::fflush(stdout) != 0 && code == 0) throw RunError("standard output cannot be written");
+  const int code = read_command_line(app, {argv + std::min(argc, 1), argv + argc}) ? commands.chosen() : 0;
+  const bool all_out = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (!all_out && code == 0) throw RunError("standard output cannot be written");
   return code;
 }
 

@@ -2,15 +2,18 @@
 #pragma once
 #include <functional>
 #include <span>
+#include <string_view>
 
 #include "app/commands.h"
 
 namespace gaitlab::app {
 
-/// Bad arguments and bad input exit with 2, failed runs with 1; nobody sees a raw exception. `say` is told why, piece by piece.
-int guarded(const std::function<int()>& command, void (*say)(const char* text));
+/// Bad arguments and bad input exit with 2, failed runs with 1; nobody sees a raw exception. `tell` is told why, piece by
+/// piece.
+int guarded(const std::function<int()>& command, void (*tell)(std::string_view text));
 
-/// Runs the command that the arguments name, of those that are given. Throws what that throws.
+/// Runs the command that the arguments name, of those that are given. Throws what that throws, and
+/// RunError where standard output took less than what was printed, of help as of any other command.
 int program(std::span<void (*const)(Commands&)> commands, int argc, char** argv);
 
 }  // namespace gaitlab::app

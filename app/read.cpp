@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "app/commands.h"
 #include "core/scenario/read_scenario.h"
 #include "report/summary.h"
@@ -34,7 +32,7 @@ Scenario read(const ScenarioArguments& arguments, Catalog& catalog) {
     raise_as_typed(error, seed);
   }
   if (!arguments.quiet) {
-    for (const std::string& note : scenario.notes) fmt::print(stderr, "{}: note: {}\n", arguments.file, note);
+    for (const std::string& note : scenario.notes) say(arguments.file, "note", note);
   }
   return scenario;
 }
@@ -42,11 +40,10 @@ Scenario read(const ScenarioArguments& arguments, Catalog& catalog) {
 void warn_of_start(const Scenario& scenario, bool quiet) {
   if (const std::string warning = report::start_warning(scenario); !warning.empty()) {
     const SourceLocation place = scenario.on_ground ? SourceLocation{scenario.file} : scenario.place("robot.position");
-    fmt::print(stderr, "{}: warning: {}\n", to_string(place), warning);
+    say(to_string(place), "warning", warning);
   }
   for (const report::Warning& doubt : report::setup_warnings(scenario)) {
-    if (doubt.severe) fmt::print(stderr, "{}: warning: {}\n", to_string(doubt.place), doubt.text);
-    if (!doubt.severe && !quiet) fmt::print(stderr, "{}: note: {}\n", to_string(doubt.place), doubt.text);
+    if (doubt.severe || !quiet) say(to_string(doubt.place), doubt.severe ? "warning" : "note", doubt.text);
   }
 }
 
@@ -58,6 +55,15 @@ void add_scenario(CLI::App& command, ScenarioArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("--seed", arguments.seed, "seed of the random number generator, instead of the scenario's");
   command.add_flag("--quiet", arguments.quiet, "print no notes, no progress and no summary");
+}
+
+void add_trust(CLI::App& command, PluginArguments& allowed) {
+  command.add_flag("--plugins-from-scenario", allowed.from_scenario,
+                   "load the plugins that the scenario names: their code runs, so look who made them");
+  command.add_option("--plugin", allowed.files, "load this plugin where the scenario names it; may be repeated")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 std::string not_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }

@@ -37,6 +37,7 @@ struct ReportArguments {
   std::optional<std::string> page;  ///< file for a page alone
   SummaryOptions shown;
   std::vector<std::string> joints;  ///< names, of the figure
+  PluginArguments plugins;
 };
 
 /// A value of the run's summary; null where there is none, or no summary that can be read.
@@ -66,7 +67,7 @@ std::vector<std::string> told_missing(std::vector<std::string> missing, const fs
 /// What the run's own `--demand` found, which no recording holds.
 void keep_demand(report::Verdict& verdict, const fs::path& file) {
   if (kind_of(file) != fs::file_type::regular || report::take_demand(verdict, read_file(file, kMostJson))) return;
-  fmt::print(stderr, "{}: note: is not of this recording, so that what --demand found there is left out\n", file.string());
+  say(file.string(), "note", "is not of this recording, so that what --demand found there is left out");
 }
 
 /// A run folder, read and judged.
@@ -107,8 +108,8 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
 /// What is doubtful, on stderr.
 void warn(const JudgedRun& run) {
   const Recording& recording = run.recording();
-  for (const std::string& missing : run.read.stored.missing) fmt::print(stderr, "{}: note: {}\n", run.name, missing);
-  if (recording.outcome != "done") fmt::print(stderr, "{}: note: this run ended early: {}\n", run.name, recording.outcome);
+  for (const std::string& missing : run.read.stored.missing) say(run.name, "note", missing);
+  if (recording.outcome != "done") say(run.name, "note", "this run ended early: " + recording.outcome);
   warn_of_run(run.read.scenario, recording, run.summary, run.overlaps);
 }
 
@@ -116,7 +117,7 @@ int report_one(const ReportArguments& arguments) {
   const std::string& name = arguments.runs.front();
   Existing existing = Existing::refused;
   if (arguments.page) existing = check_page(*arguments.page, trace_file(name).parent_path() / kPageFile);
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(arguments.plugins);
   const JudgedRun run = judged_run(name, catalog, arguments.joints, arguments.shown);
   const Scenario& scenario = run.read.scenario;
   const std::vector<std::string>& missing = run.read.stored.missing;
@@ -140,7 +141,7 @@ int report_one(const ReportArguments& arguments) {
   }
   print_summary(scenario, run.recording(), run.summary, run.verdict, arguments.shown);
   if (arguments.out) {
-    fmt::print("  {:<13} {}: summary.json, verdict.json, figure.svg\n", "files", *arguments.out);
+    fmt::print("  {:<13} {}: summary.json, verdict.json, figure.svg\n", "files", one_line(*arguments.out));
     print_page(fs::path(*arguments.out) / kPageFile);
   }
   if (arguments.page) print_page(*arguments.page);
@@ -155,7 +156,7 @@ int report_two(const ReportArguments& arguments) {
   const fs::path own = trace_file(arguments.runs[0]).parent_path() / kPairFile;
   const std::string file = arguments.page.value_or(own.string());
   const Existing existing = check_page(file, own);
-  std::array<Catalog, 2> catalogs{standard_catalog(), standard_catalog()};
+  std::array<Catalog, 2> catalogs{careful_catalog(arguments.plugins), careful_catalog(arguments.plugins)};
   const JudgedRun a = judged_run(arguments.runs[0], catalogs[0], {}, arguments.shown);
   const JudgedRun b = judged_run(arguments.runs[1], catalogs[1], {}, arguments.shown);
   report::PageOverlay overlay;
@@ -199,6 +200,7 @@ void add_report(Commands& commands) {
             .add_option("--page", arguments.page,
                         "file for the page alone; new, or the run's report.html (of two runs compare.html)")
             ->check(not_empty);
+        add_trust(command, arguments.plugins);
         add_joint(command, arguments.joints);
         command.get_option("--joint")->needs("--out");
         add_shown(command, arguments.shown);

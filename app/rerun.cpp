@@ -28,6 +28,7 @@ struct RerunArguments {
   bool verify = false;             ///< compare with the recorded trace instead of writing
   std::optional<std::string> out;  ///< as for run
   bool quiet = false;
+  PluginArguments plugins;
 };
 
 namespace fs = std::filesystem;
@@ -152,7 +153,7 @@ void print_worst_columns(const TraceDifference& difference) {
 bool judge(const std::string& run, const Trace& then, const Again& again) {
   const std::string size = fmt::format("{} rows of {} columns", then.rows(), then.columns.size());
   if (hash(then) == hash(again.trace)) {
-    fmt::print("{}: bit-equal: {}, trace hash {}\n", run, size, hash(then));
+    fmt::print("{}: bit-equal: {}, trace hash {}\n", one_line(run), size, hash(then));
     return true;
   }
   CompareOptions options;
@@ -166,21 +167,21 @@ bool judge(const std::string& run, const Trace& then, const Again& again) {
   }
   if (difference.findings.empty() && worst <= kTolerance) {
     fmt::print(
-        "{}: within {} of range, not bit-equal: {}, the worst RMS is {:.3g} of its column's range, {} columns are equal\n", run,
-        kTolerance, size, worst, equal);
+        "{}: within {} of range, not bit-equal: {}, the worst RMS is {:.3g} of its column's range, {} columns are equal\n",
+        one_line(run), kTolerance, size, worst, equal);
     return true;
   }
-  fmt::print("{}: differs (A: the recorded run, B: the run again)\n", run);
+  fmt::print("{}: differs (A: the recorded run, B: the run again)\n", one_line(run));
   for (const std::string& finding : difference.findings) fmt::print("  {}\n", finding);
   if (!again.failure.empty()) fmt::print("  the run again {}\n", again.failure);
   print_worst_columns(difference);
   return false;
 }
 
-int verify(const std::string& run) {
+int verify(const std::string& run, const PluginArguments& plugins) {
   const StoredScenario stored = stored_scenario(run);
   const Past past = read_past(run);
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(plugins);
   const Scenario scenario = read_stored(stored, catalog, OtherPlugins::taken);
   const bool early = ended_early(past, scenario);
   const Again again = run_again(scenario, past, early);
@@ -204,13 +205,13 @@ int verify(const std::string& run) {
 std::string format_of(const fs::path& run) { return is_there(run / "trace.csv") && !is_there(run / "trace.h5") ? "csv" : "h5"; }
 
 int rerun(const RerunArguments& arguments) {
-  if (arguments.verify) return verify(arguments.run);
+  if (arguments.verify) return verify(arguments.run, arguments.plugins);
   RunArguments as;
   as.out = arguments.out;
   as.quiet = arguments.quiet;
   as.format = format_of(arguments.run);
   as.no_page = true;
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(arguments.plugins);
   return run(read_stored(stored_scenario(arguments.run), catalog, OtherPlugins::refused), as);
 }
 
@@ -221,6 +222,7 @@ void add_rerun(Commands& commands) {
       commands, "rerun", "Run again what a run folder holds, from the folder alone.", rerun,
       [](CLI::App& command, RerunArguments& arguments) {
         command.add_option("RUN", arguments.run, "run folder, or its trace.h5")->required();
+        add_trust(command, arguments.plugins);
         CLI::Option* out_option = command.add_option("--out", arguments.out, "run folder, as for run");
         command.add_flag("--verify", arguments.verify, "write nothing; compare with the recorded trace; 4: it differs")
             ->excludes(out_option);

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdio>
 #include <functional>
+#include <new>
+#include <optional>
+#include <utility>
 
 #include "app/commands.h"
 #include "app/progress.h"
@@ -18,30 +20,66 @@
 #include "report/page.h"
 #include "report/run_figure.h"
 #include "report/summary.h"
+#include "report/trust.h"
 
 namespace gaitlab::app {
 
 namespace {
 
-void write_run(const std::filesystem::path& folder, const std::string& format, const Scenario& scenario,
-               const Recording& recording, const report::Summary& summary) {
-  write_recording(recording, {resolved(scenario), scenario.seed, summary.build, recording.outcome}, format, folder);
-  write_file(folder / "scenario.resolved.yaml", resolved(scenario));
+/// The files of a run: each is written, also where others could not be, for what was simulated in hours is not lost with one.
+/// What cannot be written is told at once.
+class RunFiles {
+ public:
+  explicit RunFiles(const std::filesystem::path& folder) : folder_(folder) {}
+
+  template <class Write>
+  void write(const char* name, const Write& file) {
+    try {
+      file(folder_ / name);
+      ++written_;
+    } catch (const std::bad_alloc&) {
+      lose((folder_ / name).string() + ": cannot be written: out of memory");
+    } catch (const RunError& error) {
+      lose(error.what());
+    }
+  }
+  void write_text(const char* name, const std::function<std::string()>& text) {
+    write(name, [&](const std::filesystem::path& file) { write_file(file, text()); });
+  }
+  [[nodiscard]] bool lost_any() const { return lost_ > 0; }
+  [[nodiscard]] bool wrote_any() const { return written_ > 0; }
+
+ private:
+  void lose(const std::string& why) {
+    ++lost_;
+    say("gaitlab", "error", why);
+  }
+
+  std::filesystem::path folder_;
+  int written_ = 0, lost_ = 0;
+};
+
+void write_run(RunFiles& files, const std::string& format, const Scenario& scenario, const Recording& recording) {
+  files.write(format == "csv" ? "trace.csv" : "trace.h5", [&](const std::filesystem::path& file) {
+    write_recording(recording, {resolved(scenario), scenario.seed, report::build_id(), recording.outcome}, format,
+                    file.parent_path());
+  });
+  files.write_text("scenario.resolved.yaml", [&] { return resolved(scenario); });
 }
 
-void write_report(const std::filesystem::path& folder, const Scenario& scenario, const Recording& recording,
-                  const report::Summary& summary, const report::Verdict& verdict, bool page) {
-  write_file(folder / "figure.svg", report::run_figure(scenario, recording, summary));
-  write_file(folder / "verdict.json", report::to_json(verdict));
-  if (page) write_file(folder / kPageFile, report::page(report::page_data(scenario, recording, summary, verdict)));
-  // Last: a folder with a summary is a whole run.
-  write_file(folder / "summary.json", report::to_json(summary, scenario, recording));
+void write_report(RunFiles& files, const Scenario& scenario, const Recording& recording, const report::Summary& summary,
+                  const report::Verdict& verdict, bool page) {
+  files.write_text("figure.svg", [&] { return report::run_figure(scenario, recording, summary); });
+  files.write_text("verdict.json", [&] { return report::to_json(verdict); });
+  if (page) files.write_text(kPageFile, [&] { return report::page(report::page_data(scenario, recording, summary, verdict)); });
+  // Last: a folder with a summary is a whole run, as far as it could be written.
+  files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
 }
 
 /// The first steps of the run tell how long it takes: nothing is simulated twice.
 void note_time(const Scenario& scenario, Simulation& simulation) {
   const RunTime time = measure(simulation, scenario.duration);
-  if (time.seconds > kLongRun) fmt::print(stderr, "{}: note: {}\n", scenario.file, to_string(time));
+  if (time.seconds > kLongRun) say(scenario.file, "note", to_string(time));
 }
 
 }  // namespace
@@ -59,10 +97,9 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   RunFolder folder(arguments.out, scenario.name);
   constexpr double kMuch = 1e8;  // bytes
   if (const RowsNeeded needed = simulation.rows_needed(0); needed.bytes() > kMuch && !arguments.quiet) {
-    fmt::print(
-        stderr,
-        "{}: note: records {:.3g} rows of {:.0f} columns, {:.3g} MB in memory; trace.period and trace.columns make it less\n",
-        scenario.file, needed.rows, needed.columns, needed.bytes() / 1e6);
+    say(scenario.file, "note",
+        fmt::format("records {:.3g} rows of {:.0f} columns, {:.3g} MB in memory; trace.period and trace.columns make it less",
+                    needed.rows, needed.columns, needed.bytes() / 1e6));
   }
 
   const StopOnSignal stop(StopOnSignal::Second::is_ignored);
@@ -80,21 +117,30 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
 
   Recording recording = simulation.take_recording(0);
   if (!failure.empty()) recording.outcome = failure;
-  const report::Summary summary = report::summarise(scenario, recording, wall.count());
-  write_run(folder.path(), arguments.format, scenario, recording, summary);
+  RunFiles files(folder.path());
+  const auto summarised = [&] { return report::summarise(scenario, recording, wall.count()); };
+  std::optional<report::Summary> early;  // the memory that a failed trace.h5 took may not come back
+  try {
+    early = summarised();
+  } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the trace first, then again
+  }
+  write_run(files, arguments.format, scenario, recording);
+  const report::Summary summary = early ? std::move(*early) : summarised();
+  if (files.lost_any()) files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
   const report::Overlaps overlaps = report::overlaps(scenario, recording);
   const report::Verdict verdict = judged(scenario, recording, summary, overlaps, arguments.shown);
-  write_report(folder.path(), scenario, recording, summary, verdict, !arguments.no_page);
-  folder.keep();
-  if (!arguments.quiet) {
-    print_summary(scenario, recording, summary, verdict, arguments.shown);
+  write_report(files, scenario, recording, summary, verdict, !arguments.no_page);
+  if (files.wrote_any()) folder.keep();
+  if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);
+  if (!arguments.quiet && !files.lost_any()) {
     fmt::print("  {:<13} {}: {}, summary.json, verdict.json,\n  {:<13} scenario.resolved.yaml, figure.svg\n", "files",
-               folder.path().string(), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
+               one_line(folder.path().string()), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
     if (!arguments.no_page) print_page(folder.path() / kPageFile);
   }
   warn_of_run(scenario, recording, summary, overlaps);
-  if (failure.empty()) return exit_code(verdict, arguments.shown);
-  fmt::print(stderr, "{}: error: {}; what was simulated until then is in {}\n", scenario.file, failure, folder.path().string());
+  const bool sound = report::not_finite(scenario, recording).empty();
+  if (failure.empty()) return files.lost_any() || !sound ? 1 : exit_code(verdict, arguments.shown);
+  say(scenario.file, "error", fmt::format("{}; what was simulated until then is in {}", failure, folder.path().string()));
   return 1;
 }
 

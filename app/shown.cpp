@@ -9,7 +9,9 @@
 #include "core/scenario/joint_patterns.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
+#include "core/scenario/wording.h"
 #include "report/demand.h"
+#include "report/number_texts.h"
 #include "report/summary.h"
 #include "report/trust.h"
 #include "report/warnings.h"
@@ -20,21 +22,22 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
                    const report::Verdict& verdict, const SummaryOptions& shown) {
   const std::string text = report::to_text(summary, scenario, recording, shown.verbose);
   const std::size_t head = text.find('\n') + 1;
-  fmt::print("{}", text.substr(0, head));
+  using report::texts::without_nan;
+  fmt::print("{}", without_nan(text.substr(0, head)));
   const char* title = "verdict";
   for (const std::string& line : report::to_lines(verdict)) {
-    fmt::print("  {:<13} {}\n", title, line);
+    fmt::print("  {:<13} {}\n", title, without_nan(line));
     title = "";
   }
-  fmt::print("{}", text.substr(head));
-  if (shown.joints) fmt::print("{}", report::joint_table(summary, scenario));
+  fmt::print("{}", without_nan(text.substr(head)));
+  if (shown.joints) fmt::print("{}", without_nan(report::joint_table(summary, scenario)));
 }
 
 report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                        const report::Overlaps& overlaps, const SummaryOptions& shown) {
   report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
   if (!shown.demand || Judged::limited(summary.judged.joints) == 0) return verdict;
-  Catalog catalog = standard_catalog();
+  Catalog catalog = standard_catalog();  // its plugins are those of the run, which are loaded
   const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario)};
   Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
   if (!report::raise_limits(twin)) {
@@ -80,16 +83,20 @@ void draw_joints(Scenario& scenario, const std::vector<std::string>& joints) {
 
 void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                  const report::Overlaps& overlaps) {
-  if (const std::string fall = report::fall_warning(scenario, recording); !fall.empty())
-    fmt::print(stderr, "{}: warning: {}\n", scenario.file, fall);
+  if (const std::string fall = report::fall_warning(scenario, recording); !fall.empty()) say(scenario.file, "warning", fall);
   const std::string where = to_string(scenario.place("physics.step"));
   const std::string warning = report::stability_warning(summary, scenario, recording);
-  if (!warning.empty()) fmt::print(stderr, "{}: warning: {}\n", where, warning);
+  if (!warning.empty()) say(where, "warning", warning);
   for (const report::Warning& doubt : report::run_warnings(scenario, recording, overlaps))
-    fmt::print(stderr, "{}: warning: {}\n", to_string(doubt.place), doubt.text);
+    say(to_string(doubt.place), "warning", doubt.text);
+  if (const std::vector<std::string> names = report::not_finite(scenario, recording); !names.empty()) {
+    say(scenario.file, "warning",
+        fmt::format("no finite number came out for {}; they are - here and null in summary.json; are masses, lengths and gains "
+                    "those of a robot?",
+                    joined(names)));
+  }
   if (recording.outcome != "done") return;
-  for (const std::string& doubt : report::trust_warnings(scenario, recording))
-    fmt::print(stderr, "{}: warning: {}\n", where, doubt);
+  for (const std::string& doubt : report::trust_warnings(scenario, recording)) say(where, "warning", doubt);
 }
 
 }  // namespace gaitlab::app

@@ -27,6 +27,7 @@ struct StudyArguments {
   std::string format, file;        ///< export
   std::int64_t run = 0;            ///< rerun
   std::optional<std::string> out;  ///< rerun
+  PluginArguments plugins;         ///< rerun
 };
 
 /// The journal of a folder, to be read.
@@ -73,7 +74,7 @@ int best_of_study(const StudyArguments& a) {
                                                          : studies::ranked(results.points, objectives.front().maximize);
   std::erase_if(order, [&](std::size_t k) { return !results.points[k].feasible(); });
   if (order.empty()) {
-    fmt::print(stderr, "{}: no point is feasible\n", a.folder);
+    say(a.folder + ": no point is feasible\n");
     return 3;
   }
   fmt::print("{}", points_table(journal, results, order, static_cast<std::size_t>(a.most)));
@@ -119,8 +120,9 @@ int merge_study(const StudyArguments& a) {
   fmt::print("{}: {} of {} runs\n", (folder / studies::kJournalFile).string(), rows, all->head().runs);
   write_study_files(*all, studies::results(*all), folder);
   if (missing.empty()) return 0;
-  fmt::print(stderr, "{}: error: {} of {} shards are missing or not whole; run them again: --array={}\n", a.folder,
-             missing.size(), shards.count, array_text(missing));
+  say(a.folder, "error",
+      fmt::format("{} of {} shards are missing or not whole; run them again: --array={}", missing.size(), shards.count,
+                  array_text(missing)));
   return 1;
 }
 
@@ -197,7 +199,7 @@ int rerun_study(const StudyArguments& a) {
     throw InputError(SourceLocation{"RUN"},
                      fmt::format("{} is not in the journal; it has {} of {} runs", a.run, journal.rows(), head.runs));
   const std::vector<std::string> names = journal.columns().all();
-  Catalog catalog = standard_catalog();
+  Catalog catalog = careful_catalog(a.plugins);
   const std::vector<std::string> sets = settings_of_row(journal, names, row);
   const Scenario scenario =
       read_stored({"", (fs::path(a.folder) / studies::kJournalFile).string(), scenario_of_row(head, names, row)}, catalog,
@@ -219,7 +221,7 @@ int rerun_study(const StudyArguments& a) {
     fmt::print("the figures are those of the journal\n");
     return code == 2 ? 2 : 0;
   }
-  for (const std::string& difference : found) fmt::print(stderr, "{}: error: {}\n", a.folder, difference);
+  for (const std::string& difference : found) say(a.folder, "error", difference);
   return 4;
 }
 
@@ -258,6 +260,7 @@ void add_study(Commands& commands) {
         command.add_option("RUN", a.run, "number of the run")
             ->required()
             ->check(CLI::Range(std::int64_t{0}, std::int64_t{1000000000}));
+        add_trust(command, a.plugins);
         command.add_option("--out", a.out, "run folder (default DIR/run-RUN); new or empty");
       },
       study);

@@ -161,11 +161,11 @@ void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
     if (c.verdict != Verdict::passed) continue;
     if (const std::string names = wide_number_names(*c.golden); !names.empty()) {
-      fmt::print(stderr, "{}: note: numbers with bands above {}, within which a change is not seen: {}\n", c.file,
-                 percent(kWideNumber), names);
+      say(c.file, "note",
+          fmt::format("numbers with bands above {}, within which a change is not seen: {}", percent(kWideNumber), names));
     }
     if (c.other_engine || hash(resolved(*c.scenario)) == c.golden->origin.scenario) continue;
-    fmt::print(stderr, "{}: note: its resolved text is no longer that of the golden\n", c.file);
+    say(c.file, "note", "its resolved text is no longer that of the golden");
   }
 }
 
@@ -239,7 +239,7 @@ int test_goldens(const TestArguments& arguments) {
     try {
       file();
     } catch (const std::runtime_error& error) {  // InputError: a folder that cannot be made
-      fmt::print(stderr, "gaitlab: error: {}\n", error.what());
+      say("gaitlab", "error", error.what());
       written = false;
     }
   };
@@ -250,12 +250,12 @@ int test_goldens(const TestArguments& arguments) {
       write([&] { figures.write(c); });
       fmt::print("\n{}: {}\n{}", c.file, outside(c.difference), failure(c));
     }
-    if (!c.problem.empty()) fmt::print(stderr, "{}\n", c.problem);
+    if (!c.problem.empty()) say(c.problem + "\n");
   }
   fmt::print("\n{}\n", counts(cases));
   if (arguments.junit) write([&] { write_file(*arguments.junit, junit(cases)); });
   if (cases.size() == count(cases, Verdict::skipped))
-    fmt::print(stderr, "gaitlab: error: nothing was tested: no scenario has a golden; make one with gaitlab approve\n");
+    say("gaitlab", "error", "nothing was tested: no scenario has a golden; make one with gaitlab approve");
   const int code = exit_code(cases);
   return code == 0 && !written ? 1 : code;
 }

@@ -1,6 +1,8 @@
 #include "core/errors.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <numeric>
 
 namespace gaitlab {
@@ -12,34 +14,102 @@ std::string to_string(const SourceLocation& place) {
 
 namespace {
 
+constexpr std::size_t kMostProblems = 200;  // more help nobody
+constexpr std::size_t kMostBytes = 500;  // of one: what a user wrote is clipped where it is put in, this is for what was missed
+
+/// The bytes of the control character that begins at `i`: those of ASCII, and the second set, two bytes in UTF-8; else 0.
+std::size_t control_at(std::string_view text, std::size_t i) noexcept {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  if (byte(i) < 0x20 || byte(i) == 0x7F) return 1;
+  return byte(i) == 0xC2 && i + 1 < text.size() && byte(i + 1) >= 0x80 && byte(i + 1) < 0xA0 ? 2 : 0;
+}
+
+/// Gives `put` the text piece by piece, each control character but `kept` as \xHH.
+template <class Put>
+void escape(std::string_view text, char kept, const Put& put) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t control = text[i] == kept ? 0 : control_at(text, i);
+    if (control == 0) put(text.substr(i++, 1));
+    for (const std::size_t end = i + control; i < end; ++i) {
+      const auto byte = static_cast<unsigned char>(text[i]);
+      const std::array<char, 4> shown{'\\', 'x', kHex[byte >> 4U], kHex[byte & 15U]};
+      put({shown.data(), shown.size()});
+    }
+  }
+}
+
+std::string escaped_but(char kept, const std::string& text) {
+  std::string out;
+  escape(text, kept, [&](std::string_view piece) { out += piece; });
+  return out;
+}
+
+/// Between two characters.
+std::string cut(const std::string& text) {
+  if (text.size() <= kMostBytes) return text;
+  std::size_t end = kMostBytes;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80) --end;
+  return text.substr(0, end) + "... (" + std::to_string(text.size() - end) + " bytes more)";
+}
+
+std::string line(const SourceLocation& place, const char* kind, const std::string& text) {
+  return one_line(to_string(place)) + ": " + kind + ": " + cut(escaped_but('\n', text));
+}
+
 std::string report(const std::vector<Problem>& problems) {
   std::string text;
-  for (const Problem& problem : problems) {
+  for (std::size_t i = 0; i < std::min(problems.size(), kMostProblems); ++i) {
     if (!text.empty()) text += '\n';
-    text += to_string(problem.place) + ": error: " + problem.text;
-    for (const auto& [place, note] : problem.notes) text += "\n" + to_string(place) + ": note: " + note;
+    text += line(problems[i].place, "error", problems[i].text);
+    for (const auto& [place, note] : problems[i].notes) text += "\n" + line(place, "note", note);
   }
+  if (problems.size() > kMostProblems)
+    text += "\n" + one_line(problems.front().place.file) + ": error: " + std::to_string(problems.size() - kMostProblems) +
+            " more errors";
   return text;
 }
 
-// Levenshtein distance; a swap of neighbours, the commonest typing error, counts one.
-std::size_t distance(const std::string& a, const std::string& b) {
+// Levenshtein distance; a swap of neighbours, the commonest typing error, counts one. Not below `enough` it may be any number
+// from there on: a name that is no nearer than another need not be read to its end.
+std::size_t distance(const std::string& a, const std::string& b, std::size_t enough) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
   std::vector<std::size_t> next(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
+  std::size_t least_before = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     next[0] = i + 1;
     for (std::size_t j = 0; j < b.size(); ++j) {
       next[j + 1] = std::min({row[j + 1] + 1, next[j] + 1, row[j] + (a[i] == b[j] ? 0U : 1U)});
       if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j]) next[j + 1] = std::min(next[j + 1], before[j - 1] + 1);
     }
+    const std::size_t least = *std::min_element(next.begin(), next.end());
+    if (std::min(least, least_before) >= enough) return enough;
+    least_before = least;
     before = std::exchange(row, std::exchange(next, std::move(before)));
   }
   return row.back();
 }
 
 }  // namespace
+
+std::string one_line(const std::string& name) { return escaped_but(' ', name); }
+
+void say(std::string_view text) noexcept {
+  std::array<char, 1024> piece{};
+  std::size_t used = 0;
+  const auto flush = [&] { (void)std::fwrite(piece.data(), 1, std::exchange(used, 0), stderr); };
+  escape(text, '\n', [&](std::string_view part) {
+    if (used + part.size() > piece.size()) flush();
+    used += part.copy(piece.data() + used, part.size());
+  });
+  flush();
+}
+
+void say(const std::string& name, const char* kind, const std::string& text) {
+  say(one_line(name) + ": " + kind + ": " + text + "\n");
+}
 
 void Problems::raise() const {
   if (!list_.empty()) throw InputError(list_);
@@ -51,10 +121,14 @@ InputError::InputError(SourceLocation place, std::string text)
     : InputError(std::vector<Problem>{{std::move(place), std::move(text), {}}}) {}
 
 std::string nearest(const std::string& found, const std::vector<std::string>& known) {
+  constexpr std::size_t kLongest = 200;  // what is longer is near to no name, and its distances would take seconds
+  if (found.size() > kLongest) return {};
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, found.size() / 3) + 1;
   for (const std::string& name : known) {
-    const std::size_t d = distance(found, name);
+    // Each letter more or less is a step of the distance.
+    if (std::max(name.size(), found.size()) - std::min(name.size(), found.size()) >= best_distance) continue;
+    const std::size_t d = distance(found, name, best_distance);
     if (d < best_distance) {
       best = name;
       best_distance = d;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,18 @@ class Problems {
   std::vector<Problem> list_;
 };
 
-/// Bad input: exit code 2; what() is the whole text for stderr, one `FILE:LINE:COL: error: TEXT` per finding.
+/// A name in one line, its control characters as \x1b.
+std::string one_line(const std::string& name);
+
+/// Prints a text on stderr, by its length and without allocating: control characters (NUL, too, but no end of a line) as \x1b,
+/// because names of files and texts of strangers stand in messages. Every message of the program goes through here. Where
+/// stderr takes nothing, nobody is left to be told.
+void say(std::string_view text) noexcept;
+/// `NAME: KIND: TEXT` in a line; KIND is error, warning or note.
+void say(const std::string& name, const char* kind, const std::string& text);
+
+/// Bad input: exit code 2; what() is the whole text for stderr, one `FILE:LINE:COL: error: TEXT` per finding: at most 200, each
+/// of at most 500 bytes behind its place, and how many more there are; without control characters.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Problem> problems);

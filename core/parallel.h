@@ -4,13 +4,28 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
+#include "core/errors.h"
+
 namespace gaitlab {
 
+/// Once a process: fewer threads than asked for give the same, only later.
+inline void say_no_room(std::size_t started, std::size_t wanted, const std::error_code& why) {
+  static std::atomic<bool> said = false;
+  if (said.exchange(true)) return;
+  say("gaitlab", "warning",
+      "thread " + std::to_string(started + 1) + " of " + std::to_string(wanted) + " cannot be started (" + why.message() +
+          "); the work goes on in " + std::to_string(started) +
+          "; -j asks for fewer, and limits of memory or processes (ulimit -v, ulimit -u, a container's) leave room for more");
+}
+
 /// Calls work(i) for every i < count, up to `jobs` at once, each i once. Every piece writes only what is its own, so that the
-/// result does not depend on `jobs`. All are done before the first exception, in the order of i, is thrown.
+/// result does not depend on `jobs`; where there is no room for so many threads, fewer do it. All are done before the first
+/// exception, in the order of i, is thrown.
 template <class Work>
 void parallel(std::size_t count, int jobs, Work&& work) {
   std::vector<std::exception_ptr> errors(count);
@@ -26,7 +41,12 @@ void parallel(std::size_t count, int jobs, Work&& work) {
   };
   {
     std::vector<std::jthread> others;  // joined at the end of the block
-    for (std::size_t i = 1; i < std::min(count, static_cast<std::size_t>(std::max(1, jobs))); ++i) others.emplace_back(loop);
+    const std::size_t wanted = std::min(count, static_cast<std::size_t>(std::max(1, jobs)));
+    try {
+      for (std::size_t i = 1; i < wanted; ++i) others.emplace_back(loop);
+    } catch (const std::system_error& error) {
+      say_no_room(others.size() + 1, wanted, error.code());
+    }
     loop();
   }
   for (const std::exception_ptr& error : errors) {

@@ -64,6 +64,21 @@ Lines robot(const RunData& run) {
                       dof == 1 ? "" : "s", robot.mass)};
 }
 
+std::string without_nan(std::string text) {
+  const auto within = [&](const char* among, std::size_t at) {
+    return std::string_view(among).find(text[at]) != std::string::npos;
+  };
+  for (const std::string_view word : {"nan", "inf"}) {
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + word.size())) {
+      const std::size_t end = at + word.size();
+      const std::size_t begin = at > 0 && within("+-", at - 1) ? at - 1 : at;
+      const bool alone = (begin == 0 || within(" (\n", begin - 1)) && (end == text.size() || within(" ,;)\n", end));
+      if (alone) text.replace(begin, end - begin, std::string(end - begin - 1, ' ') + "-");
+    }
+  }
+  return text;
+}
+
 Lines distance(const RunData& run) {
   if (run.record.series("com.x").empty()) return {};
   const Summary& s = run.summary;

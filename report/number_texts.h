@@ -16,6 +16,9 @@ std::string rough_percent(double share);
 /// Three decimals; of a thousand and more three digits.
 std::string thousandths(double value);
 
+/// The words nan and inf, with or without a sign, as `-`, as wide as they were: what is not known is told in a warning.
+std::string without_nan(std::string text);
+
 /// J: what the gears gave instead of losing it.
 double created(const Recording& record);
 

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/scenario/wording.h"
 #include "core/simulation/step_advice.h"
 #include "report/number_texts.h"
+#include "report/summary.h"
 
 namespace gaitlab::report {
 
@@ -87,6 +89,31 @@ double energy_scale(const Scenario& s, const Recording& r) {
 }
 
 double torque_error_limit(const Scenario& s) { return s.physics.adapts() ? std::max(kGood, s.physics.accuracy) : kGood; }
+
+std::vector<std::string> not_finite(const Scenario& s, const Recording& r) {
+  std::vector<std::string> names;
+  const auto look = [&](double value, const std::string& name) {
+    if (!std::isfinite(value)) names.push_back(name);
+  };
+  const Ledger& ledger = r.ledger;
+  for (const auto& [name, value] : {std::pair("electrical", ledger.electrical),
+                                    {"copper", ledger.copper},
+                                    {"gear", ledger.gear},
+                                    {"stored", ledger.stored},
+                                    {"contact", ledger.contact},
+                                    {"friction", ledger.friction},
+                                    {"stops", ledger.stops},
+                                    {"hinges", ledger.hinges}})
+    look(value, std::string("energy.") + name);
+  for (std::size_t j = 0; j < r.joints.size(); ++j) {
+    for (const JointStatistic& one : kJointStatistics)
+      look(r.joints[j].*one.member, std::string(one.name) + " of " + s.robot->joints[j].name);
+  }
+  const Summary way = travelled(r);
+  look(way.distance, "distance");
+  look(way.path_length, "path_length");
+  return names;
+}
 
 std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
   std::vector<std::string> warnings;

@@ -30,6 +30,9 @@ std::string steps_text(const Scenario& scenario, const Recording& record);
 /// off their law, steps that never reached the accuracy.
 std::vector<std::string> trust_warnings(const Scenario& scenario, const Recording& record);
 
+/// What of a run, over all its steps, is no finite number: `energy.copper`, `torque_rms of m0/active`. None in a sound one.
+std::vector<std::string> not_finite(const Scenario& scenario, const Recording& record);
+
 /// J, above 0: of lifting the robot by 1 mm; less is nothing.
 double least_energy(const Scenario& scenario);
 

@@ -10,6 +10,7 @@
 #include "core/plugin/robot_info.h"
 #include "report/number_texts.h"
 #include "report/settings_numbers.h"
+#include "report/summary.h"
 #include "report/trust.h"
 
 namespace gaitlab::report {
@@ -257,12 +258,15 @@ void check_bodies(const Scenario& s, const Overlaps& overlaps, std::vector<Warni
 
 std::vector<Warning> run_warnings(const Scenario& s, const Recording& r, const Overlaps& overlaps) {
   std::vector<Warning> out;
-  if (s.actuator.entry != nullptr && r.ledger.electrical < -least_energy(s)) {
+  double drawn = 0;  // as for the cost of transport
+  for (const JointStatistics& joint : r.joints) drawn += joint.electrical;
+  const bool costs = s.robot->mass * s.physics.gravity.norm() * travelled(r).distance > 0;
+  if (s.actuator.entry != nullptr && (r.ledger.electrical < -least_energy(s) || (costs && drawn < 0))) {
     out.push_back(
         {place_of(s, "actuator"),
          fmt::format("the motors gave {:.3g} J back to their supply instead of drawing any, so that the cost of transport "
                      "is negative: the robot went down, or a motor makes energy (Kt, Ks, efficiency)",
-                     -r.ledger.electrical)});
+                     std::max(-r.ledger.electrical, -drawn))});
   }
   check_joints(s, r, out);
   check_still(s, r, out);

@@ -6,9 +6,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <system_error>
 #include <utility>
+
+#include "core/errors.h"
 
 namespace gaitlab {
 
@@ -23,8 +24,9 @@ bool FolderLock::take(const std::filesystem::path& folder) {
     ::close(std::exchange(descriptor_, -1));
     return false;
   }
-  fmt::print(stderr, "{}: note: the file system has no locks ({}); let one process at a time write here\n", folder.string(),
-             std::generic_category().message(errno));
+  say(folder.string(), "note",
+      fmt::format("the file system has no locks ({}); let one process at a time write here",
+                  std::generic_category().message(errno)));
   return true;
 }
 

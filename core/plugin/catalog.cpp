@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cfenv>
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <stdexcept>
 
+#include "core/errors.h"
 #include "core/plugin/plugin.h"
 
 namespace gaitlab {
@@ -42,9 +42,8 @@ class NamedTermination {
 
  private:
   [[noreturn]] static void end() {
-    for (const char* text : {path_, ": error: a static object of this plugin threw an exception when it was loaded\n"}) {
-      (void)std::fputs(text, stderr);
-    }
+    for (const char* text : {path_, ": error: a static object of this plugin threw an exception when it was loaded\n"})
+      say(text);
     std::_Exit(2);  // bad input; nothing was written yet
   }
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/plugin/registry.h"
@@ -63,6 +64,13 @@ const PluginKind& describe(Kind kind);
 const PluginKind* find_kind(std::string_view section);
 inline const char* word(Kind kind) { return describe(kind).section; }
 
+/// Which libraries a scenario may load, whose code runs then.
+struct PluginTrust {
+  bool all = true;
+  std::set<std::string> files = {};  ///< canonical paths
+  std::string remedy = {};           ///< said with a refusal: how to allow it
+};
+
 class Catalog final : public Registry {
  public:
   Catalog() = default;
@@ -75,6 +83,9 @@ class Catalog final : public Registry {
   void set_origin(std::string origin) { origin_ = std::move(origin); }
   void set_loaded(const std::string& path) { loaded_.insert(path); }
   [[nodiscard]] bool loaded(const std::string& path) const { return loaded_.contains(path); }
+
+  void set_trust(PluginTrust trust) { trust_ = std::move(trust); }
+  [[nodiscard]] const PluginTrust& trust() const { return trust_; }
 
   [[nodiscard]] const Entry* find(Kind kind, const std::string& name) const;
   [[nodiscard]] const Engine* engine(const std::string& name) const;
@@ -90,6 +101,7 @@ class Catalog final : public Registry {
   std::deque<Engine> engines_;
   std::set<std::string> loaded_;
   std::string origin_{kBuiltIn};
+  PluginTrust trust_;
 };
 
 /// Loads a plugin library into the catalog: canonical path, RTLD_NOW | RTLD_LOCAL, ABI string first, floating-point control

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <new>
 #include <optional>
 #include <string_view>
 
@@ -121,7 +122,9 @@ void write_h5(const Trace& trace, const Provenance& origin, const std::filesyste
   try {
     hdf5 = to_image(trace, origin, beside);
   } catch (const ImageError& error) {
-    throw RunError(fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+    throw NoImage(fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+  } catch (const std::bad_alloc&) {
+    throw NoImage(path.string() + ": cannot be written: out of memory");
   }
   file.write(header(kFormats.back(), kUserBlock + hdf5.size(), hdf5));
   file.write(hdf5);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.h"
 #include "core/recording/trace.h"
 
 namespace gaitlab {
@@ -26,6 +27,12 @@ struct Beside {
   Trace table;
 };
 
+/// The file could not be built, for want of memory: text that needs none may still be written.
+class NoImage : public RunError {
+ public:
+  using RunError::RunError;
+};
+
 struct StoredTrace {
   Trace trace;
   Provenance origin;
@@ -37,7 +44,7 @@ struct StoredTrace {
 /// NULs; the same for each table of `beside` as `/recording/NAME`; root attributes `format`, `scenario`, `outcome`, `csv_hash`,
 /// `seed`, `build`, `rows`, `checksum` (hash() of the trace). The file's first 512 bytes, which HDF5 leaves to the user, hold
 /// format, size and hash_words() of the rest. No times: the same trace, the same bytes. The file appears whole or not at all;
-/// it is built in memory (about twice its size on top of the trace). RunError: cannot be written (see AtomicFile).
+/// it is built in memory (about twice its size on top of the trace). RunError: cannot be written (see AtomicFile); NoImage.
 void write_h5(const Trace& trace, const Provenance& origin, const std::filesystem::path& path,
               std::span<const Beside> beside = {});
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
+#include <optional>
 #include <type_traits>
 
 #include "core/errors.h"
@@ -115,16 +117,48 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
 
 }  // namespace
 
-void write_recording(const Recording& r, const Provenance& origin, const std::string& format, const fs::path& folder) {
-  const std::vector<Beside> beside = tables(r);
-  if (format == "csv") {
-    write_csv(r.trace, folder / "trace.csv");
-    Provenance own = origin;
-    own.csv_hash = hash(r.trace);
-    write_h5({}, own, folder / kBesideCsv, beside);
-  } else {
-    write_h5(r.trace, origin, folder / "trace.h5", beside);
+namespace {
+
+constexpr std::size_t kKept = std::size_t{1} << 24;  // bytes
+
+/// What trace.csv does not hold.
+void write_beside(const Recording& r, Provenance origin, const fs::path& folder) {
+  origin.csv_hash = hash(r.trace);
+  write_h5({}, origin, folder / kBesideCsv, tables(r));
+}
+
+/// Writes what may need more memory than there is; what to say where it does.
+template <class Write>
+std::optional<std::string> short_of_memory(const fs::path& file, const Write& write) {
+  try {
+    write();
+    return {};
+  } catch (const NoImage& error) {
+    return error.what();
+  } catch (const std::bad_alloc&) {
+    return file.string() + ": cannot be written: out of memory";
   }
+}
+
+}  // namespace
+
+void write_recording(const Recording& r, const Provenance& origin, const std::string& format, const fs::path& folder) {
+  const fs::path rows = folder / "trace.csv";
+  if (format == "csv") {
+    write_csv(r.trace, rows);
+    return write_beside(r, origin, folder);
+  }
+  const fs::path file = folder / "trace.h5";
+  const auto why = short_of_memory(file, [&] {
+    std::string
+        kept;  // HDF5 does not give back what a file took that it could not finish: this is for the text and what follows
+    kept.reserve(kKept);
+    write_h5(r.trace, origin, file, tables(r));
+  });
+  if (!why) return;
+  if (short_of_memory(rows, [&] { write_csv(r.trace, rows); })) throw RunError(*why);
+  const bool beside = !short_of_memory(folder / kBesideCsv, [&] { write_beside(r, origin, folder); });
+  throw RunError(*why + (beside ? "" : fmt::format("; nor can {}", kBesideCsv)) + "; the rows are in trace.csv beside it");
 }
 
 StoredRecording read_recording(const fs::path& folder) {

@@ -13,7 +13,8 @@ inline constexpr const char* kBesideCsv = "recording.h5";  ///< what trace.csv d
 
 /// Writes trace.h5, or, for `format` csv, trace.csv and recording.h5, which has what the CSV file cannot hold. Tables of
 /// `/recording`: `rest`, `ticks`, `loads` and `poses` (see Recording); `joints`, a row for each joint: its statistics and its
-/// torque error; `run`, one row: what is known of the whole run. RunError: a file cannot be written.
+/// torque error; `run`, one row: what is known of the whole run. RunError: a file cannot be written; where memory was short, as
+/// it may be for trace.h5, the rows are then in trace.csv, which is written row by row.
 void write_recording(const Recording& recording, const Provenance& origin, const std::string& format,
                      const std::filesystem::path& folder);
 

@@ -1,6 +1,7 @@
 #include "core/scenario/joint_patterns.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "core/errors.h"
 #include "core/model/pattern.h"
@@ -12,8 +13,9 @@ namespace {
 /// Patterns that mean some joint: every joint's module with any hinge, and its hinge of any module.
 std::vector<std::string> usual_patterns(const std::vector<std::string>& joints) {
   std::vector<std::string> patterns;
+  std::unordered_set<std::string> seen;
   const auto add = [&](std::string pattern) {
-    if (std::ranges::find(patterns, pattern) == patterns.end()) patterns.push_back(std::move(pattern));
+    if (seen.insert(pattern).second) patterns.push_back(std::move(pattern));
   };
   for (const std::string& joint : joints) {
     const std::size_t slash = joint.find('/');
@@ -48,13 +50,15 @@ std::string not_one_joint(const std::string& text, const std::vector<std::string
 
 std::vector<std::string> joints_meant(const std::vector<std::string>& list, const std::vector<std::string>& joints) {
   std::vector<std::string> meant;
+  std::unordered_set<std::string> seen;
   for (const std::string& text : list) {
-    if (!is_pattern(text) || !no_joint(text, joints).empty()) {
+    const std::vector<std::size_t> numbers = is_pattern(text) ? joints_of(text, joints) : std::vector<std::size_t>();
+    if (numbers.empty()) {
+      seen.insert(text);
       meant.push_back(text);
-      continue;
     }
-    for (const std::size_t j : joints_of(text, joints)) {
-      if (std::ranges::find(meant, joints[j]) == meant.end()) meant.push_back(joints[j]);
+    for (const std::size_t j : numbers) {
+      if (seen.insert(joints[j]).second) meant.push_back(joints[j]);
     }
   }
   return meant;

@@ -21,7 +21,9 @@ std::vector<KeyRow> scenario_keys(const Catalog& catalog) {
   Explainer explainer;
   explainer.row("gaitlab", "", "1", "1", "Format version.");
   explainer.row("name", "", "the file's name", "text", "Name of the run folder.");
-  explainer.row("plugins", "", "[]", "list of paths", "Plugin libraries, relative to this file, or {path, hash}.");
+  explainer.row("plugins", "", "[]", "list of paths",
+                "Plugin libraries, relative to this file, or {path, hash}; what only looks at a scenario loads them with "
+                "--plugins-from-scenario.");
   explainer.row("robot:", "", "", "", "The robot; required.");
   explainer.row("  modules", "", kDefaultType, "name | file | map",
                 "Module type, or {0: mtran, 5: ./foot.yaml, default: mtran}.");

@@ -55,6 +55,11 @@ void load(const PluginEntry& entry, const SourceLocation& place, const std::stri
                                     fs::absolute(path).lexically_normal().string()));
     return;
   }
+  if (const PluginTrust& trust = catalog.trust(); !trust.all && !trust.files.contains(canonical.string())) {
+    problems.add(
+        place, fmt::format("plugin '{}' is code of whoever made it, and is not loaded; {}", clipped(entry.path), trust.remedy));
+    return;
+  }
   const std::string hash = file_hash(canonical.string());
   if (hash.empty()) {
     problems.add(place,

@@ -7,7 +7,7 @@
 
 namespace gaitlab {
 
-/// Reads `plugins`: a list of paths (relative to `folder`) or of {path, hash}; loads each into the catalog.
+/// Reads `plugins`: a list of paths (relative to `folder`) or of {path, hash}; loads each into the catalog, if that trusts it.
 std::vector<PluginFile> read_plugins(const Node& node, const std::string& folder, Catalog& catalog, Problems& problems);
 
 /// Loads one that the command line names, relative to the current folder. Throws InputError.

@@ -103,7 +103,7 @@ constexpr const char* kRobot = R"json({
 constexpr const char* kHead = R"json({
   "gaitlab": {"const": 1, "description": "Format version."},
   "name": {"type": ["string", "number", "boolean"], "description": "Name of the run folder; default: the file's name."},
-  "plugins": {"type": "array", "default": [], "description": "Plugin libraries, relative to this file.", "items": {"anyOf": [
+  "plugins": {"type": "array", "default": [], "description": "Plugin libraries, relative to this file; what only looks at a scenario loads them with --plugins-from-scenario.", "items": {"anyOf": [
     {"type": "string"},
     {"type": "object", "additionalProperties": false, "required": ["path"], "properties": {
       "path": {"type": "string", "description": "The library."},

@@ -1,16 +1,8 @@
 #include "core/scenario/section_places.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace gaitlab {
-
-namespace {
-
-constexpr std::size_t kMostProblems = 200;  // more help nobody
-
-}  // namespace
 
 std::optional<SourceLocation> given(const Node& root, const std::string& section, const std::string& key) {
   for (std::size_t i = 0; i < root.keys.size(); ++i) {
@@ -41,11 +33,6 @@ std::vector<Problem> in_order(std::vector<Problem> problems, const std::string& 
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
   };
   std::stable_sort(problems.begin(), problems.end(), before);
-  if (problems.size() > kMostProblems) {
-    const std::string more = fmt::format("{} more errors", problems.size() - kMostProblems);
-    problems.resize(kMostProblems);
-    problems.push_back({{file}, more});
-  }
   return problems;
 }
 

@@ -19,7 +19,7 @@ SourceLocation place_of(const Node& root, const std::string& section, const std:
 /// Notes where every key of a map was given, `physics.step` and so on.
 void note_places(const Node& map, const std::string& prefix, std::map<std::string, SourceLocation>& places);
 
-/// Stable by place within the scenario file, so that findings come in the order in which one reads; at most 200.
+/// Stable by place within the scenario file, so that findings come in the order in which one reads.
 std::vector<Problem> in_order(std::vector<Problem> problems, const std::string& file);
 
 }  // namespace gaitlab

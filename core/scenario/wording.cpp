@@ -87,8 +87,7 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
 }
 
 std::string offer(const std::string& found, const std::vector<std::string>& known, const std::string& kind) {
-  // A name far too long is near to none, and its edit distance costs time.
-  const std::string near = found.size() > 200 ? std::string{} : nearest(found, known);
+  const std::string near = nearest(found, known);
   if (!near.empty()) return "; did you mean " + in_quotes(near) + "?";
   return known.empty() ? "; there are no " + kind : "; known " + kind + ": " + joined(known);
 }

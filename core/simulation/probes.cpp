@@ -7,12 +7,14 @@
 #include "core/model/pattern.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
+#include "core/scenario/wording.h"
 
 namespace gaitlab {
 
 namespace {
 
 const std::string kReaction = "reaction.";
+constexpr std::size_t kMostPatterns = 1000;  // each is tried on every column: more are a program's list, and take seconds
 
 }  // namespace
 
@@ -283,6 +285,13 @@ void Probes::select(const Scenario& scenario) {
   std::vector<bool> wanted(columns_.size(), false);
   wanted[0] = true;
   Problems problems;
+  std::vector<std::string> names;
+  for (const Column& column : columns_) names.push_back(column.name);
+  if (scenario.trace.columns.size() > kMostPatterns) {
+    throw InputError(scenario.place("trace.columns"),
+                     fmt::format("has {} names and patterns; expected at most {}: with * and ? one stands for many columns",
+                                 scenario.trace.columns.size(), kMostPatterns));
+  }
   for (const std::string& pattern : scenario.trace.columns) {
     bool found = false;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
@@ -291,11 +300,10 @@ void Probes::select(const Scenario& scenario) {
     }
     const bool of_no_joint = scenario.robot->joints.empty() && pattern.starts_with("joint.");  // as by default
     if (found || of_no_joint) continue;
-    std::vector<std::string> names;
-    for (const Column& column : columns_) names.push_back(column.name);
-    const std::string near = nearest(pattern, names);
+    constexpr std::size_t kMostOffers = 200;  // as many are shown
+    const std::string near = problems.size() < kMostOffers ? nearest(pattern, names) : "";
     problems.add(scenario.place("trace.columns"),
-                 fmt::format("'{}' matches no column{}", pattern,
+                 fmt::format("{} matches no column{}", in_quotes(pattern),
                              near.empty() ? "; groups are t, joint, base, com, contact, load, body, box, "
                                             "cpg, energy, momentum, angular_momentum, steps, torque_error, reaction"
                                           : "; did you mean '" + near + "'?"));

@@ -1,9 +1,13 @@
 // How a simulation is made from scenarios, and where it starts.
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <new>
+#include <string>
 
 #include "core/simulation/lane.h"
 #include "core/simulation/start.h"
@@ -119,15 +123,30 @@ RowsNeeded rows_needed(const Scenario& s, const Recording& recording) {
   return {s.duration / s.trace.period + 2, static_cast<double>(recording.trace.columns.size() + recording.rest.columns.size())};
 }
 
-/// InputError where the rows do not fit into the memory of this machine: they are kept until the end of the run.
+/// GB of memory that there are for the rows, and whose.
+std::string memory_text(double bytes, const char* whose) { return fmt::format("{} {:.3g} GB of memory", whose, bytes / 1e9); }
+
+/// Where the rows, which are kept until the end of the run, do not fit into what there is.
+InputError too_many_rows(const Scenario& s, const RowsNeeded& needed, const std::string& there_is) {
+  return {s.place("duration"),
+          fmt::format("the run would record {:.3g} rows of {:.0f} columns, {:.3g} GB, and {}: take a longer trace.period than "
+                      "{:.3g} s, fewer trace.columns, or a shorter duration",
+                      needed.rows, needed.columns, needed.bytes() / 1e9, there_is, s.trace.period)};
+}
+
+/// InputError of a machine, a container (cgroup 2) or a process (ulimit -v) that has not so much.
 void check_memory(const Scenario& s, const RowsNeeded& needed) {
-  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (!(memory > 0) || needed.bytes() <= memory) return;
-  throw InputError(
-      s.place("duration"),
-      fmt::format("the run would record {:.3g} rows of {:.0f} columns, {:.3g} GB, and this machine has {:.3g} GB of memory: "
-                  "take a longer trace.period than {:.3g} s, fewer trace.columns, or a shorter duration",
-                  needed.rows, needed.columns, needed.bytes() / 1e9, memory / 1e9, s.trace.period));
+  constexpr double kLittle = 1e8;  // bytes: nobody has less, and asking takes longer than a short rollout
+  if (needed.bytes() < kLittle) return;
+  const auto check = [&](double bytes, const char* whose) {
+    if (bytes > 0 && needed.bytes() > bytes) throw too_many_rows(s, needed, memory_text(bytes, whose));
+  };
+  check(static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)), "this machine has");
+  double container = 0;
+  if (std::ifstream("/sys/fs/cgroup/memory.max") >> container) check(container, "this container has");
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    check(static_cast<double>(limit.rlim_cur), "ulimit -v allows");
 }
 
 }  // namespace
@@ -161,8 +180,12 @@ void Simulation::set_start() {
     recording.poses.columns = pose_columns(layout_.joints);
     lane.ticks_per_row = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kTickRows / s.control_period - 1e-9)));
     check_memory(s, gaitlab::rows_needed(s, recording));
-    const auto reserve = [](Trace& table, double rows) {
-      table.values.reserve(static_cast<std::size_t>(rows + 3) * table.columns.size());
+    const auto reserve = [&](Trace& table, double rows) {
+      try {
+        table.values.reserve(static_cast<std::size_t>(rows + 3) * table.columns.size());
+      } catch (const std::bad_alloc&) {
+        throw too_many_rows(s, gaitlab::rows_needed(s, recording), "so much memory is not to be had");
+      }
     };
     for (Trace* table : {&recording.trace, &recording.rest}) reserve(*table, s.duration / s.trace.period);
     const double ticks = s.duration / (s.control_period * static_cast<double>(lane.ticks_per_row));

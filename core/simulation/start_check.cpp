@@ -9,9 +9,13 @@ namespace gaitlab {
 
 namespace {
 
-// Of a joint's inertia with all others locked, what is left with those beyond it free. Where nothing is left it comes out as
-// rounding, 1e-16 times the sizes along the chain; robots keep more than 1e-6 (a chain of 60 modules).
+// Of a joint's inertia with those beyond it held, what is left with them free. Where nothing is left it comes out as rounding,
+// 1e-16 times the sizes along the chain.
 constexpr double kNothing = 1e-12;
+// How much of a joint's hold reaches its parent. Held for good, a long chain would count as one rod, whose inertia grows with
+// the third power of its length, and that of the joint would seem to be nothing (a chain of 7000 modules); held by half, what
+// is far beyond counts little, and two joints in line with others between them are still seen.
+constexpr double kHold = 0.5;
 
 using Spatial = Eigen::Matrix<double, 6, 6>;
 using Motion = Eigen::Matrix<double, 6, 1>;  ///< angular velocity, then velocity of a link's own origin; world axes
@@ -46,7 +50,7 @@ void check_inertia(const Scenario& scenario, const Kinematics& k, In rotors, std
   const Robot& robot = *scenario.robot;
   std::vector<Spatial> free(robot.links.size());  // with all joints beyond free
   for (std::size_t i = 0; i < free.size(); ++i) free[i] = inertia_of(robot.links[i], k.R[i]);
-  std::vector<Spatial> locked = free;                  // with all joints beyond locked
+  std::vector<Spatial> held = free;                    // with the joints beyond held, the nearest ones most
   for (std::size_t i = free.size() - 1; i > 0; --i) {  // a parent comes before its children
     const Link& link = robot.links[i];
     const auto joint = static_cast<std::size_t>(link.joint);
@@ -55,15 +59,16 @@ void check_inertia(const Scenario& scenario, const Kinematics& k, In rotors, std
     axis.head<3>() = k.R[i] * link.axis;
     const Motion momentum = free[i] * axis;
     const double pivot = axis.dot(momentum) + rotor;
-    if (!(pivot > kNothing * (axis.dot(locked[i] * axis) + rotor))) {
+    if (!(pivot > kNothing * (axis.dot(held[i] * axis) + rotor))) {
       throw InputError(place, fmt::format("joint '{}' moves no inertia: the next joint turns about the same axis "
                                           "(gimbal lock). Give the body between the two hinges mass, or start at other angles",
                                           robot.joints[joint].name));
     }
     const auto parent = static_cast<std::size_t>(link.parent);
     const Vec3 r = k.p[i] - k.p[parent];
-    free[parent] += moved(free[i] - momentum * momentum.transpose() / pivot, r);
-    locked[parent] += moved(locked[i], r);
+    const Spatial left = free[i] - momentum * momentum.transpose() / pivot;
+    free[parent] += moved(left, r);
+    held[parent] += moved(kHold * held[i] + (1 - kHold) * left, r);
   }
 }
 

@@ -212,6 +212,19 @@ TEST_F(Messages, WhatTheMachineCannotHold) {
     EXPECT_TRUE(result.err.starts_with("--set duration=1e6: error: the run would record 4e+10 rows of ")) << result.err;
   }
   EXPECT_TRUE(contains(call("check ok.yaml").out, "records 22 rows of ")) << call("check ok.yaml").out;
+  // Under a limit of the process: above it, and below, where the program itself takes the rest.
+  const std::string program =
+      "'" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' check ok.yaml --set trace.period=1e-4 2>err";
+  for (const auto& [duration, there_is] :
+       {std::pair("350", "ulimit -v allows 1.02 GB of memory"), {"227", "so much memory is not to be had"}}) {
+    const int status = std::system(
+        fmt::format("cd '{}' && ulimit -v 1000000 && {} --set duration={}", folder_.path().string(), program, duration)
+            .c_str());
+    if (WEXITSTATUS(status) != 2 && read(folder_ / "err").find("Sanitizer") != std::string::npos) continue;  // reserves more
+    EXPECT_EQ(WEXITSTATUS(status), 2) << duration;
+    EXPECT_TRUE(contains(read(folder_ / "err"), std::string(", and ") + there_is + ": take a longer trace.period"))
+        << read(folder_ / "err");
+  }
 }
 
 /// Seconds or years: before the run starts.

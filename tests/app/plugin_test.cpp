@@ -18,7 +18,7 @@ class Plugins : public ::testing::Test {
   void SetUp() override { std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules"); }
   std::string error(const std::string& text) {
     folder.write("s.yaml", text);
-    const Result result = gaitlab("check s.yaml", folder / "");
+    const Result result = gaitlab("check s.yaml --plugins-from-scenario", folder / "");
     EXPECT_EQ(result.code, 2);
     return result.err;
   }

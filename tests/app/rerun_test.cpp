@@ -129,10 +129,10 @@ TEST_F(Rerun, AnotherPluginFileIsRefusedButComparedByVerify) {
   folder.write("p.yaml", "gaitlab: 1\nplugins: [" + library + "]\nrobot: {modules: mtran}\nduration: 0.1\ncpg: {type: wave}\n");
   ASSERT_EQ(gaitlab("run p.yaml --quiet --out p", folder / "").code, 0);
   std::ofstream(library, std::ios::binary | std::ios::app) << "one byte more";
-  const Result again = gaitlab("rerun p --quiet --out again", folder / "");
+  const Result again = gaitlab("rerun p --quiet --out again --plugins-from-scenario", folder / "");
   EXPECT_EQ(again.code, 2);
   EXPECT_TRUE(contains(again.err, "is not the file of the record: its hash is ")) << again.err;
-  const Result result = verify("p");
+  const Result result = verify("p --plugins-from-scenario");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(contains(result.out, "plugin " + library + ": another file: hash then ")) << result.out;
 }

@@ -16,11 +16,12 @@ class SwapMatrix : public StudyFixture {
                   "physics: {engine: articulated}\ncpg: {type: sine, frequency: 0.3, amplitude: 0.1}\nduration: 3\n");
   }
 
-  /// Calls it, and sends a signal as soon as this folder is there.
+  /// Calls it, and sends a signal as soon as this folder is there. (What ran the tests may ignore SIGINT: a shell's background
+  /// job.)
   Result signalled(const std::string& arguments, const std::string& made, const std::string& signal) {
-    folder_.write("call.sh", "set -m\n'" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' " + arguments +
-                                 " >out 2>err &\nwhile [ ! -d " + made + " ] && kill -0 $!; do sleep 0.01; done\nkill -" +
-                                 signal + " $!\nwait $!\n");
+    folder_.write("call.sh", "env --default-signal=INT,HUP,TERM '" + std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' " +
+                                 arguments + " >out 2>err &\nwhile [ ! -d " + made +
+                                 " ] && kill -0 $!; do sleep 0.01; done\nkill -" + signal + " $!\nwait $!\n");
     const int status = std::system(("cd '" + folder_.path().string() + "' && bash call.sh 2>/dev/null").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder_ / "out"), read(folder_ / "err")};
   }

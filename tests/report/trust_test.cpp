@@ -1,8 +1,10 @@
 // Whether a run says how far its numbers can be trusted: estimate of the torque error, warnings with their remedy, summary.
 #include "report/trust.h"
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "report/number_texts.h"
 #include "report/summary.h"
 #include "tests/program/fixture.h"
 
@@ -91,6 +93,15 @@ TEST_F(Doubts, SayWhatEnergyIsMissing) {
   }
   s = hexapod({});
   EXPECT_TRUE(contains(only(), "take a smaller physics.step")) << only();
+}
+
+TEST_F(Doubts, NameWhatIsNotFinite) {
+  EXPECT_TRUE(not_finite(s, r).empty());
+  r.ledger.gear = std::numeric_limits<double>::infinity();
+  r.joints[1].torque_rms = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(not_finite(s, r), (std::vector<std::string>{"energy.gear", "torque_rms of m0/passive"}));
+  EXPECT_EQ(texts::without_nan("RMS -nan N m; nan, inf and (nan %)\n"), "RMS    - N m;   -,   - and (  - %)\n");
+  EXPECT_EQ(texts::without_nan("nancy: inf/x 1"), "nancy: inf/x 1");
 }
 
 TEST_F(Doubts, SayWhatIsOffItsLaw) {

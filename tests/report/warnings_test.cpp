@@ -1,6 +1,7 @@
 // Every rule is heard on a scenario made for it, and none on the shipped ones.
 #include "report/warnings.h"
 
+#include "report/summary.h"
 #include "report/trust.h"
 #include "tests/program/fixture.h"
 
@@ -106,6 +107,19 @@ TEST(RunWarnings, AreSilentOnAStone) {
       "contact: {on: none}\nduration: 0.1\n");
   EXPECT_EQ(warnings_of(stone), "");
   EXPECT_EQ(trust_warnings(stone, run(stone)), std::vector<std::string>{});
+}
+
+TEST(RunWarnings, TellANegativeCostOfTransportHoweverSmall) {
+  const Scenario s = shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=1"});
+  Recording r = run(s);
+  double drawn = 0;
+  for (const JointStatistics& joint : r.joints) drawn += joint.electrical;
+  ASSERT_GT(drawn, 0);
+  ASSERT_GT(travelled(r).distance, 0);
+  r.joints[0].electrical -= drawn + 1e-9;
+  r.ledger.electrical = -1e-9;  // far less than lifts the robot by 1 mm
+  EXPECT_LT(summarise(s, r, 1).cost_electrical, 0);
+  expect_one(run_warnings(s, r, {}), true, "so that the cost of transport is negative");
 }
 
 TEST(RunWarnings, TellASetPointThatJumps) {

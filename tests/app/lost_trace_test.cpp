@@ -1,0 +1,64 @@
+// A run whose trace cannot be written: what else was found is, and the rows where they can be.
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class LostTrace : public ::testing::Test {
+ protected:
+  LostTrace() {
+    fs::create_directory_symlink(kScenarios + "modules", folder_ / "modules");
+    folder_.write("s.yaml",
+                  "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncpg: {type: sine, frequency: 0.5}\n"
+                  "physics: {engine: articulated}\ntrace: {period: 5e-6, columns: ['*']}\nduration: 0.15\n");
+  }
+  Result run(const std::string& limits) {
+    const std::string command = "cd '" + folder_.path().string() + "' && " + limits + "; '" + std::string(GAITLAB_BINARY_DIR) +
+                                "/bin/gaitlab' run s.yaml --quiet --no-report --out a 2>err >out";
+    const int status = std::system(("bash -c \"" + command + "\"").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder_ / "out"), read(folder_ / "err")};
+  }
+
+  Folder folder_;
+};
+
+TEST_F(LostTrace, ToMemoryKeepsRowsAsTextAndEverythingElse) {
+  ASSERT_EQ(run("true").code, 0);
+  const std::string hash = read(folder_ / "a/summary.json");
+  fs::remove_all(folder_ / "a");
+  if (run("ulimit -v 2000000").code != 0) GTEST_SKIP() << "a sanitizer, which reserves more than any limit";
+  bool seen = false;
+  // Where memory ends depends on the machine's libraries: no amount of it may crash the program, and some leave the rows alone
+  // as text.
+  for (int limit = 90; limit <= 320 && !seen; limit += 10) {
+    fs::remove_all(folder_ / "a");
+    const Result result = run(fmt::format("ulimit -v {}", limit * 1000));
+    constexpr std::array kOrderly{0, 1, 2, 127};  // 2: the rows do not fit; 127: the libraries do not
+    ASSERT_NE(std::ranges::find(kOrderly, result.code), kOrderly.end()) << limit << ": " << result.code << result.err;
+    if (!fs::exists(folder_ / "a/trace.csv") || !fs::exists(folder_ / "a/summary.json")) continue;
+    seen = true;
+    EXPECT_EQ(result.code, 1);
+    EXPECT_TRUE(contains(result.err, "a/trace.h5: cannot be written: ")) << result.err;
+    EXPECT_TRUE(contains(result.err, "; the rows are in trace.csv beside it\n")) << result.err;
+    EXPECT_FALSE(fs::exists(folder_ / "a/trace.h5"));
+    EXPECT_TRUE(fs::exists(folder_ / "a/scenario.resolved.yaml"));
+    const std::string summary = read(folder_ / "a/summary.json");
+    EXPECT_EQ(summary.substr(summary.find("trace_hash")), hash.substr(hash.find("trace_hash")));
+    EXPECT_EQ(gaitlab("rerun a --verify", folder_.path()).code, 0);
+  }
+  EXPECT_TRUE(seen);
+}
+
+TEST_F(LostTrace, ToADiskKeepsEverythingElse) {
+  const Result result = run("ulimit -f 200");  // 200 kB a file; the trace has more
+  EXPECT_EQ(result.code, 1);
+  EXPECT_TRUE(contains(result.err, "gaitlab: error: a/trace.h5: cannot be written: File too large\n")) << result.err;
+  EXPECT_TRUE(fs::exists(folder_ / "a/scenario.resolved.yaml"));
+  EXPECT_TRUE(contains(read(folder_ / "a/summary.json"), "\"outcome\": \"done\""));
+  EXPECT_TRUE(fs::exists(folder_ / "a/verdict.json"));
+}
+
+}  // namespace
+}  // namespace gaitlab::test
