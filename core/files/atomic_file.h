@@ -16,8 +16,8 @@ enum class Existing { replaced, refused };
 /// path the last one's bytes are there, whole; with Existing::refused the first one's, and the others throw.
 /// A device or a FIFO, also behind a link (/dev/stdout), is written into and never replaced; a FIFO needs a reader. Any other
 /// link is refused: in a folder that others may write to it could lead anywhere.
-/// Every failure is a RunError `PATH: cannot be written: REASON`, but for a name that exists and is refused: InputError. A file size limit (RLIMIT_FSIZE) is such a failure only in a
-/// program that ignores SIGXFSZ: the signal's default ends the process.
+/// Every failure is a RunError `PATH: cannot be written: REASON`, but for a name that exists and is refused: InputError. A file
+/// size limit (RLIMIT_FSIZE) is such a failure only in a program that ignores SIGXFSZ: the signal's default ends the process.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path, Existing existing = Existing::replaced);
