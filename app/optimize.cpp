@@ -9,6 +9,7 @@
 #include "app/study_figures.h"
 #include "app/study_run.h"
 #include "app/study_text.h"
+#include "core/errors.h"
 #include "core/scenario/wording.h"
 #include "report/build_id.h"
 #include "studies/optimizer.h"
@@ -128,16 +129,16 @@ int optimize_study(const OptimizeArguments& a) {
 
   const SearchEnd end = run_study(plan, journal, remembering(executor, answers), a);
   const auto interrupted = [&] {
-    fmt::print(stderr, "{}: interrupted: {} of {} runs are in the journal; go on with\n{}\n", folder.string(), journal.rows(),
-               plan.most_runs(), head.command);
+    say(fmt::format("{}: interrupted: {} of {} runs are in the journal; go on with\n{}\n", folder.string(), journal.rows(),
+                    plan.most_runs(), head.command));
     return 1;
   };
   if (end == SearchEnd::stopped) return interrupted();
   const studies::Results results = studies::results(journal);
   const std::vector<std::size_t> best = candidates(plan, results);
   if (!a.quiet && !best.empty())
-    fmt::print(stderr, "{}: the search has ended; its best {} tried again\n", folder.string(),
-               best.size() == 1 ? "point is" : fmt::format("{} points are", best.size()));
+    say(fmt::format("{}: the search has ended; its best {} tried again\n", folder.string(),
+                    best.size() == 1 ? "point is" : fmt::format("{} points are", best.size())));
   const auto tried = verify(plan, journal, results, best, executor, VerifyProgress(a.quiet), stopped());
   if (!tried) return interrupted();
   journal.write(*tried);
@@ -158,12 +159,12 @@ int optimize_study(const OptimizeArguments& a) {
   if (!stood.empty()) return 0;
   const std::string show = "`gaitlab study show " + shell_word(folder.string()) + "`";
   if (tried->empty()) {
-    fmt::print(stderr, "{}: no point is feasible; {} says which limits most runs break\n", folder.string(), show);
+    say(fmt::format("{}: no point is feasible; {} says which limits most runs break\n", folder.string(), show));
   } else {
-    fmt::print(stderr,
-               "{}: none of the best points was verified; {} says why. `verify: {{best: N}}` tries more, --seed N searches "
-               "elsewhere\n",
-               folder.string(), show);
+    say(fmt::format(
+        "{}: none of the best points was verified; {} says why. `verify: {{best: N}}` tries more, --seed N searches "
+        "elsewhere\n",
+        folder.string(), show));
   }
   return 3;
 }

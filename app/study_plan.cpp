@@ -7,6 +7,7 @@
 
 #include "app/study_figures.h"
 #include "app/study_run.h"
+#include "core/errors.h"
 #include "core/scenario/wording.h"
 
 namespace gaitlab::app {
@@ -69,7 +70,7 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
 
 void print_notes(const studies::Plan& plan, bool quiet) {
   if (quiet) return;
-  for (const Problem& note : plan.notes()) fmt::print(stderr, "{}: note: {}\n", to_string(note.place), note.text);
+  for (const Problem& note : plan.notes()) say(to_string(note.place), "note", note.text);
 }
 
 }  // namespace gaitlab::app

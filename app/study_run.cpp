@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "core/errors.h"
 #include "core/scenario/wording.h"
 
 namespace gaitlab::app {
@@ -49,8 +50,8 @@ void keep_runs(studies::Plan& plan, const std::filesystem::path& file, bool quie
   const std::uint64_t there = studies::Journal(file).end();
   const std::uint64_t wanted = plan.most_runs();
   if (there <= wanted || !plan.raise_budget(there) || quiet) return;
-  fmt::print(stderr, "{}: note: has runs up to number {}, beyond the budget of {}; all of them count\n", file.string(),
-             there - 1, wanted);
+  say(fmt::format("{}: note: has runs up to number {}, beyond the budget of {}; all of them count\n", file.string(), there - 1,
+                  wanted));
 }
 
 void refuse_copies(const char* command) {

@@ -104,7 +104,7 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
   if (!problems.empty()) throw InputError(std::move(problems));
   for (const Swapped& swapped : all) {
     for (const std::string& note : swapped.notes) {
-      if (!arguments.quiet) fmt::print(stderr, "{}: note: {}\n", arguments.file, note);
+      if (!arguments.quiet) say(arguments.file, "note", note);
     }
   }
   return all;
@@ -228,7 +228,7 @@ std::string again(const SwapArguments& arguments) {
 /// Runs them as run_all does; false: it was stopped, which is told.
 bool run_or_tell(const std::vector<Swapped*>& all, const SwapArguments& arguments) {
   if (run_all(all, arguments.jobs)) return true;
-  fmt::print(stderr, "{}: interrupted: nothing is written; run it again with\n{}\n", arguments.files.front(), again(arguments));
+  say(fmt::format("{}: interrupted: nothing is written; run it again with\n{}\n", arguments.files.front(), again(arguments)));
   return false;
 }
 

@@ -8,6 +8,7 @@
 #include "app/study_run.h"
 #include "app/study_text.h"
 #include "app/sweep_arguments.h"
+#include "core/errors.h"
 #include "core/scenario/wording.h"
 #include "report/build_id.h"
 #include "studies/answers.h"
@@ -66,8 +67,8 @@ int sweep_study(const SweepArguments& a) {
   if (!a.quiet && !answers.empty())
     fmt::print("{} of {} were answered by other studies\n", answered, counted(standing.ended - standing.before, "run"));
   if (!standing.whole()) {
-    fmt::print(stderr, "{}: interrupted: {} of {} runs are in the journal; go on with\n{}\n", folder.string(), standing.ended,
-               standing.wanted, goes_on(a, folder));
+    say(fmt::format("{}: interrupted: {} of {} runs are in the journal; go on with\n{}\n", folder.string(), standing.ended,
+                    standing.wanted, goes_on(a, folder)));
     return 1;
   }
   const bool all_failed = standing.wanted > 0 && standing.failed == standing.wanted;
@@ -84,7 +85,7 @@ int sweep_study(const SweepArguments& a) {
     fmt::print("{}", study_summary(journal, results, folder, kShown));
     fmt::print("files in {}: {}, {}\n", folder.string(), studies::kJournalFile, fmt::join(files, ", "));
   }
-  if (all_failed) fmt::print(stderr, "{}: error: none of the {} runs came to its end\n", folder.string(), standing.wanted);
+  if (all_failed) say(fmt::format("{}: error: none of the {} runs came to its end\n", folder.string(), standing.wanted));
   return all_failed ? 1 : 0;
 }
 
