@@ -13,7 +13,6 @@
 #include "app/study_figures.h"
 #include "app/study_text.h"
 #include "app/sweep_arguments.h"
-#include "report/build_id.h"
 #include "studies/asked.h"
 #include "studies/question.h"
 #include "studies/study_file.h"
@@ -120,10 +119,9 @@ int evaluate_study(const EvaluateArguments& a) {
   studies::Study study = studies::read_study(a.file, studies::Purpose::evaluate);
   study.runs = studies::kMostAsked;
   studies::Plan plan(std::move(study), figure_offer(), catalog);
-  const studies::Executor executor = study_executor(plan, {study_threads(a.jobs), static_cast<std::size_t>(a.lanes)},
-                                                    figure_measure(plan.columns(), plan.scenario()));
-  studies::JournalHead head = plan.head();
-  head.build = report::build_id();
+  const studies::Executor executor = study_executor(plan, a);
+  studies::JournalHead head = study_head(plan);
+  std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
   head.runs = 0;  // as many as are asked for
   // Before there is a folder.
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
@@ -135,10 +133,11 @@ int evaluate_study(const EvaluateArguments& a) {
   const WatchReader reader;
   studies::Asked asked(plan, journal);
   Replies replies(journal, a.as_completed);
-  studies::Runner runner(plan, journal,
-                         {.executor = executor, .shard = {}, .jobs = study_threads(a.jobs), .ended = [&](const Brief& run) {
-                            replies.take(run);
-                          }});
+  studies::Runner runner(
+      plan, journal,
+      {.executor = remembering(executor, answers), .shard = {}, .jobs = study_threads(a.jobs), .ended = [&](const Brief& run) {
+         replies.take(run);
+       }});
   Lines lines;
   for (bool more = true; more && !stopped();) {
     more = read_batch(lines, plan.study().parameters, asked, replies);

@@ -11,7 +11,6 @@
 #include "app/study_text.h"
 #include "core/errors.h"
 #include "core/scenario/wording.h"
-#include "report/build_id.h"
 #include "studies/optimizer.h"
 #include "studies/study_file.h"
 #include "studies/verify.h"
@@ -114,10 +113,8 @@ int optimize_study(const OptimizeArguments& a) {
     return 0;
   }
   // Before the folder, which belongs to one process.
-  const studies::Executor executor = study_executor(plan, {study_threads(a.jobs), static_cast<std::size_t>(a.lanes)},
-                                                    figure_measure(plan.columns(), plan.scenario()));
-  studies::JournalHead head = plan.head();
-  head.build = report::build_id();
+  const studies::Executor executor = study_executor(plan, a);
+  studies::JournalHead head = study_head(plan);
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before there is a folder
   const fs::path folder = studies::study_folder(a.out, "optimize-" + plan.study().name, holds_study(head));

@@ -6,8 +6,10 @@
 #include <cstdlib>
 #include <thread>
 
+#include "app/study_figures.h"
 #include "core/errors.h"
 #include "core/scenario/wording.h"
+#include "report/build_id.h"
 
 namespace gaitlab::app {
 
@@ -30,8 +32,16 @@ Team& team() {
   return made;
 }
 
-studies::Executor study_executor(const studies::Plan& plan, const BatchSettings& settings, studies::Measure measure) {
+studies::Executor study_executor(const studies::Plan& plan, const StudyRunArguments& a) {
+  const BatchSettings settings{study_threads(a.jobs), static_cast<std::size_t>(a.lanes)};
+  studies::Measure measure = figure_measure(plan.columns(), plan.scenario());
   return team() ? team()(plan, settings, std::move(measure)) : local_executor(plan, settings, std::move(measure));
+}
+
+studies::JournalHead study_head(const studies::Plan& plan) {
+  studies::JournalHead head = plan.head();
+  head.build = report::build_id();
+  return head;
 }
 
 studies::Journal::Build taken_build(const StudyRunArguments& a) {

@@ -29,7 +29,10 @@ Team& team();
 
 /// What does the runs of a study: every command asks here, before it touches the study's folder, which belongs to one process.
 /// InputError: other processes of the team read another study.
-studies::Executor study_executor(const studies::Plan& plan, const BatchSettings& settings, studies::Measure measure);
+studies::Executor study_executor(const studies::Plan& plan, const StudyRunArguments& arguments);
+
+/// What a journal says of the plan, and of this program.
+studies::JournalHead study_head(const studies::Plan& plan);
 
 /// The journals of --answers. `build`: of this program. InputError: one does not answer this study.
 std::vector<studies::Answers> other_answers(const studies::Plan& plan, const StudyRunArguments& arguments,

@@ -10,7 +10,6 @@
 #include "app/sweep_arguments.h"
 #include "core/errors.h"
 #include "core/scenario/wording.h"
-#include "report/build_id.h"
 #include "studies/answers.h"
 
 namespace gaitlab::app {
@@ -35,10 +34,8 @@ int sweep_study(const SweepArguments& a) {
     return 0;
   }
   // Before the folder, which belongs to one process.
-  const studies::Executor executor = study_executor(plan, {study_threads(a.jobs), static_cast<std::size_t>(a.lanes)},
-                                                    figure_measure(plan.columns(), plan.scenario()));
-  studies::JournalHead head = plan.head();
-  head.build = report::build_id();
+  const studies::Executor executor = study_executor(plan, a);
+  studies::JournalHead head = study_head(plan);
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
   std::uint64_t answered = 0;
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before there is a folder
