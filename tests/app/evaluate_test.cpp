@@ -35,9 +35,8 @@ TEST_F(Evaluate, TakesAnswersOfOtherStudies) {
   ASSERT_EQ(ask(question("1", "0.7") + question("2", "0.9")).code, 0);
   std::filesystem::rename(folder_ / "e", folder_ / "old");
   // A row of the other study is known by a figure that no run would give.
-  ASSERT_EQ(
-      std::system(("sqlite3 '" + (folder_ / "old/study.db") + "' 'update run set \"path_length\" = 77 where run = 0'").c_str()),
-      0);
+  studies::Database(folder_.path() / "old/study.db", studies::Database::Mode::write)
+      .execute("UPDATE run SET path_length = 77 WHERE run = 0");
   const auto all = answers(ask(question("3", "0.7") + question("4", "1.1"), "--answers old"));
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].at("figures").at("path_length"), 77);
