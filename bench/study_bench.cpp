@@ -63,7 +63,10 @@ void write_rows(studies::Journal& journal, std::uint64_t first, std::uint64_t co
     std::vector<studies::Row> rows;
     for (std::uint64_t r = run; r < run + kPack; ++r) {
       const double x = 1.0 / static_cast<double>(r + 3);
-      studies::Row row{.run = r, .point = fmt::format("{:032x}", r * 0x9E3779B97F4A7C15ULL), .outcome = "done"};
+      studies::Row row;
+      row.run = r;
+      row.point = fmt::format("{:032x}", r * 0x9E3779B97F4A7C15ULL);
+      row.outcome = "done";
       row.simulated = 12;
       for (int k = 0; k < 6; ++k) row.values.push_back(fmt::format("{}", x * (k + 1)));
       for (int k = 0; k < 30; ++k) row.figures.push_back(x * (k + 7));
