@@ -126,7 +126,9 @@ int evaluate_study(const EvaluateArguments& a) {
   // Before there is a folder.
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   const fs::path folder = studies::study_folder(a.out, "evaluate-" + plan.study().name, holds_study(head));
-  head.command = fmt::format("gaitlab evaluate {} --out {}", shell_word(a.file), shell_word(folder.string()));
+  head.command = "gaitlab evaluate " + shell_word(a.file);
+  for (const std::string& other : a.answers) head.command += " --answers " + shell_word(other);
+  head.command += " --out " + shell_word(folder.string());
   const studies::Lock lock(folder / "lock");
   Journal journal(folder / studies::kJournalFile, head, a.accept_build ? Journal::Build::any : Journal::Build::same);
 

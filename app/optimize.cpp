@@ -107,22 +107,22 @@ int optimize_study(const OptimizeArguments& a) {
   refuse_copies("gaitlab optimize");
   Catalog catalog = standard_catalog();
   Plan plan(searched_study(a), figure_offer(), catalog);
-  print_notes(plan, a.quiet);
   if (a.dry_run) {
+    print_notes(plan, a.quiet);
     print_plan(plan, a);
     return 0;
   }
   // Before the folder, which belongs to one process.
   const studies::Executor executor = study_executor(plan, a);
+  print_notes(plan, a.quiet);  // one process of several comes here
   studies::JournalHead head = study_head(plan);
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before there is a folder
   const fs::path folder = studies::study_folder(a.out, "optimize-" + plan.study().name, holds_study(head));
   head.command = search_goes_on(a, folder);
   const studies::Lock lock(folder / "lock");
-  keep_runs(plan, folder / studies::kJournalFile, a.quiet);
-  head.runs = plan.most_runs();
   Journal journal(folder / studies::kJournalFile, head, taken_build(a));
+  keep_runs(plan, journal, folder, a.quiet);
 
   const SearchEnd end = run_study(plan, journal, remembering(executor, answers), a);
   const auto interrupted = [&] {

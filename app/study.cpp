@@ -100,21 +100,19 @@ int merge_study(const StudyArguments& a) {
   const studies::Lock lock(folder / "lock");
   std::vector<std::uint64_t> missing;
   std::optional<Journal> all;
-  std::size_t at = 0;
-  for (std::uint64_t index = 0; index < shards.count; ++index) {
-    const studies::Shard shard{index, shards.count};
-    if (at == shards.indices.size() || shards.indices[at] != index) {
-      missing.push_back(index);
-      continue;
-    }
-    ++at;
-    Journal part(journal_file(folder, shard));
+  std::vector<std::uint64_t> rows_of(shards.count);
+  for (const std::uint64_t index : shards.indices) {
+    Journal part(journal_file(folder, {index, shards.count}));
     if (!all) all.emplace(folder / studies::kJournalFile, part.head(), Journal::Build::same);
     all->take(part);
-    const std::uint64_t runs = part.head().runs;
-    all->expect(runs);  // a budget may have grown since
+    all->expect(part.head().runs);  // a budget may have grown since
+    rows_of[index] = part.rows();
+  }
+  const std::uint64_t runs = all->head().runs;
+  for (std::uint64_t index = 0; index < shards.count; ++index) {
     const std::uint64_t wanted = runs / shards.count + (index < runs % shards.count ? 1 : 0);
-    if (part.rows() < wanted) missing.push_back(index);
+    const bool there = std::ranges::binary_search(shards.indices, index);
+    if (!there || rows_of[index] < wanted) missing.push_back(index);
   }
   const std::uint64_t rows = all->rows();
   fmt::print("{}: {} of {} runs\n", (folder / studies::kJournalFile).string(), rows, all->head().runs);
@@ -183,7 +181,9 @@ std::vector<std::string> settings_of_row(const Journal& journal, const std::vect
   studies::read_followers(parameters, head.definition);
   Problems problems;
   const studies::Followers followers(parameters, problems);
-  problems.raise();
+  if (!problems.empty())
+    throw InputError(SourceLocation{studies::kJournalFile},
+                     "is not a journal that this program wrote: " + problems.list().front().text);
   std::vector<std::string> sets;
   for (const auto& [key, value] : followers.settings(values)) sets.push_back(key + "=" + value);
   sets.insert(sets.end(), drawn.begin(), drawn.end());

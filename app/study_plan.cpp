@@ -36,12 +36,16 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
   std::atomic<bool> stop = false;
   const auto start = std::chrono::steady_clock::now();
   const studies::Measure measure = figure_measure(plan.columns(), plan.scenario());
-  constexpr std::uint64_t kPack = 8;
+  // Of all scenarios, where there are several.
+  const std::uint64_t pack = std::min<std::uint64_t>(points.runs(), 8);
+  const auto timed = [&](std::uint64_t k) {
+    return searched ? plan.scenarios()[k % plan.scenarios().size()].nominal : plan.scenario(k * points.runs() / pack);
+  };
   const BatchStream stream{.next = [&]() -> std::optional<Rollout> {
-                             while (next < std::min(points.runs(), kPack)) {
+                             while (next < pack) {
                                const std::uint64_t run = next++;
                                try {
-                                 return Rollout{run, searched ? plan.scenario() : plan.scenario(run)};
+                                 return Rollout{run, timed(run)};
                                } catch (const InputError&) {  // it will be a row of the study
                                }
                              }
@@ -70,7 +74,7 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
 
 void print_notes(const studies::Plan& plan, bool quiet) {
   if (quiet) return;
-  for (const Problem& note : plan.notes()) say(to_string(note.place), "note", note.text);
+  for (const Problem& note : plan.refused_ends()) say(to_string(note.place), "note", note.text);
 }
 
 }  // namespace gaitlab::app

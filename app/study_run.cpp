@@ -54,14 +54,14 @@ std::vector<studies::Answers> other_answers(const studies::Plan& plan, const Stu
   return answers;
 }
 
-void keep_runs(studies::Plan& plan, const std::filesystem::path& file, bool quiet) {
-  std::error_code none;
-  if (!std::filesystem::exists(file, none)) return;
-  const std::uint64_t there = studies::Journal(file).end();
+void keep_runs(studies::Plan& plan, studies::Journal& journal, const std::filesystem::path& folder, bool quiet) {
+  const std::uint64_t there = journal.end();
   const std::uint64_t wanted = plan.most_runs();
-  if (there <= wanted || !plan.raise_budget(there) || quiet) return;
-  say(fmt::format("{}: note: has runs up to number {}, beyond the budget of {}; all of them count\n", file.string(), there - 1,
-                  wanted));
+  if (there <= wanted || !plan.raise_budget(there)) return;
+  journal.expect(plan.most_runs());
+  if (!quiet)
+    say(folder.string(), "note",
+        fmt::format("has runs up to number {}, beyond the budget of {}; all of them count", there - 1, wanted));
 }
 
 void refuse_copies(const char* command) {

@@ -47,8 +47,8 @@ void print_notes(const studies::Plan& plan, bool quiet);
 /// Which build's rows are taken.
 studies::Journal::Build taken_build(const StudyRunArguments& arguments);
 
-/// A budget never leaves out runs that the journal in `file` has: raises it to them, and says so unless `quiet`.
-void keep_runs(studies::Plan& plan, const std::filesystem::path& file, bool quiet);
+/// A budget never leaves out runs that the journal has: raises it to them, and says so in a note on `folder` unless `quiet`.
+void keep_runs(studies::Plan& plan, studies::Journal& journal, const std::filesystem::path& folder, bool quiet);
 
 /// Several copies of the program that do not know of one another, as mpirun starts them, would write one journal: InputError,
 /// unless they are a team. `command`: `gaitlab sweep`.

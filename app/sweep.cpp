@@ -28,13 +28,14 @@ int sweep_study(const SweepArguments& a) {
   const studies::Shard shard = wanted_shard(a);
   if (study.name.empty()) study.name = read_scenario(study.scenario, study.sets, catalog).name;
   Plan plan(std::move(study), figure_offer(), catalog);
-  print_notes(plan, a.quiet);
   if (a.dry_run) {
+    print_notes(plan, a.quiet);
     print_plan(plan, a);
     return 0;
   }
   // Before the folder, which belongs to one process.
   const studies::Executor executor = study_executor(plan, a);
+  print_notes(plan, a.quiet);  // one process of several comes here
   studies::JournalHead head = study_head(plan);
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
   std::uint64_t answered = 0;
@@ -46,9 +47,8 @@ int sweep_study(const SweepArguments& a) {
   if (!shard.whole()) fs::create_directory(folder / "shards", none);
   fs::path lock_file = file;
   const studies::Lock lock(shard.whole() ? folder / "lock" : lock_file.replace_extension("lock"));
-  keep_runs(plan, file, a.quiet);
-  head.runs = plan.most_runs();
   Journal journal(file, head, taken_build(a));
+  keep_runs(plan, journal, folder, a.quiet);
 
   studies::Standing standing;
   {

@@ -97,6 +97,12 @@ void check_same(const std::vector<FigureName>& first, const std::vector<FigureNa
   if (problems.empty()) check(other, first, "there is a figure {}, which the first scenario does not have");
 }
 
+/// Keeps what both have; the first time all.
+void keep_common(std::vector<Limit>& kept, const std::vector<Limit>& limits, bool first) {
+  if (first) kept = limits;
+  std::erase_if(kept, [&](const Limit& one) { return std::ranges::find(limits, one.text, &Limit::text) == limits.end(); });
+}
+
 constexpr std::array kCombines{"mean", "worst", "median", "quantile"};
 
 }  // namespace
@@ -124,7 +130,6 @@ Plan::Plan(Study study, const FigureOffer& offer, Catalog& catalog)
   for (std::size_t s = 0; s < scenarios_.size(); ++s) check_corners(s, refused[s]);
   add_of_each(scenarios_, refused, problems);
   problems.raise();
-  note_refused_ends();
 }
 
 /// Those of the first scenario, which the others must have.
@@ -150,6 +155,7 @@ void Plan::make_judges(const FigureOffer& offer, const Catalog& catalog, Problem
     judge_ = std::make_unique<Judge>(study_, columns[s], offer, one.nominal.limits, one.joints, found[s]);
     one.other_engine = other_engine_of(study_.verify, one.nominal, catalog, found[s]);
     stops_ = std::make_unique<StopRules>(study_, offer, one.joints, found[s]);
+    keep_common(limits_, judge_->limits(), s + 1 == scenarios_.size());
     Problems told;  // as of judge_
     gait_judge_ = std::make_unique<Judge>(gait, columns[s], offer, one.nominal.limits, one.joints, told);
   }
@@ -157,12 +163,11 @@ void Plan::make_judges(const FigureOffer& offer, const Catalog& catalog, Problem
     for (std::size_t s = 1; s < scenarios_.size(); ++s) check_same(columns_, columns[s], study_.figures_place, found[s]);
   }
   const std::string& engine = study_.verify.engine;
-  const bool same =
-      std::ranges::all_of(scenarios_, [&](const StudyScenario& one) { return one.nominal.physics.engine->name == engine; });
-  if (same) {
-    found.front().add(study_.verify.place,
-                      fmt::format("verify.engine {} is the engine of the study itself; expected another, or none: known are {}",
-                                  engine, fmt::join(catalog.engines(), ", ")));
+  for (std::size_t s = 0; s < scenarios_.size(); ++s) {
+    if (scenarios_[s].nominal.physics.engine->name == engine)
+      found[s].add(study_.verify.place,
+                   fmt::format("verify.engine {} is the engine of the study itself; expected another, or none: known are {}",
+                               engine, fmt::join(catalog.engines(), ", ")));
   }
   add_of_each(scenarios_, found, problems);
 }
@@ -243,7 +248,8 @@ void Plan::check_corners(std::size_t scenario, Problems& problems) const {
   add_as_written(*first, study_, problems);
 }
 
-void Plan::note_refused_ends() {
+std::vector<Problem> Plan::refused_ends() const {
+  std::vector<Problem> notes;
   for (const Parameter& p : study_.parameters) {
     if (!p.values.empty() || !p.sets.empty()) continue;
     for (const bool high : {false, true}) {
@@ -253,12 +259,13 @@ void Plan::note_refused_ends() {
           (void)with({p.key + "=" + value}, s);
         } catch (const InputError& error) {
           const std::string in = scenarios_[s].name.empty() ? "" : " in scenario " + scenarios_[s].name;
-          notes_.push_back({p.place, fmt::format("{} is refused{} at its {} of {}, so that points near it will fail: {}", p.key,
-                                                 in, high ? "high" : "low", value, error.problems().front().text)});
+          notes.push_back({p.place, fmt::format("{} is refused{} at its {} of {}, with the other keys as in the file: {}",
+                                                p.key, in, high ? "high" : "low", value, error.problems().front().text)});
         }
       }
     }
   }
+  return notes;
 }
 
 std::map<std::string, double> Plan::nominal(const std::vector<std::string>& values, std::size_t scenario) const {
@@ -380,7 +387,7 @@ JournalHead Plan::head() const {
   for (const Variation& v : study_.replicates.vary) head.parameters.push_back({v.key, v.words, true, 0, 0, false, v.values});
   head.figures = columns_;
   for (const std::size_t column : shown_) head.shown.push_back(columns_[column].name);
-  head.limits = judge_->limits();
+  head.limits = limits_;
   head.guarded = study_.guarded;
   return head;
 }

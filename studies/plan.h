@@ -30,9 +30,8 @@ class Plan {
   [[nodiscard]] std::uint64_t most_runs() const { return points_.runs(); }
   [[nodiscard]] const Judge& judge() const { return *judge_; }
   [[nodiscard]] const StopRules& stops() const { return *stops_; }
-  /// Ends of parameters that the scenario refuses, where the other end, the rest being nominal, is not: points near them will
-  /// fail.
-  [[nodiscard]] const std::vector<Problem>& notes() const { return notes_; }
+  /// Ends of parameters that a scenario refuses, its other keys as they are.
+  [[nodiscard]] std::vector<Problem> refused_ends() const;
   /// The same with all guards as they are by default: what makes a winner without guards suspect.
   [[nodiscard]] const Judge& gait_judge() const { return *gait_judge_; }
   [[nodiscard]] const std::vector<FigureName>& columns() const { return columns_; }
@@ -74,7 +73,6 @@ class Plan {
   [[nodiscard]] std::map<std::string, double> nominal(const std::vector<std::string>& values, std::size_t scenario) const;
   [[nodiscard]] std::vector<std::string> sets(const std::vector<std::string>& values, std::uint64_t run) const;
   void check_corners(std::size_t scenario, Problems& problems) const;
-  void note_refused_ends();
   void check_own_names(std::size_t scenario, Problems& problems) const;
   void find_nominal(StudyScenario& scenario, Problems& problems) const;
   void find_columns(const FigureOffer& offer, Problems& problems);
@@ -91,7 +89,7 @@ class Plan {
   std::unique_ptr<Judge> judge_, gait_judge_;
   std::unique_ptr<StopRules> stops_;
   std::vector<std::size_t> shown_;
-  std::vector<Problem> notes_;
+  std::vector<Limit> limits_;  ///< that are the same in every scenario
 };
 
 }  // namespace gaitlab::studies

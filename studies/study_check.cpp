@@ -51,11 +51,26 @@ void check_followers(const Study& study, Problems& problems) {
   }
 }
 
+/// The seed belongs to the replicates: what is set behind it would win.
+void check_seed(const Study& study, Problems& problems) {
+  constexpr const char* kWhy = "seed cannot be chosen here; expected replicates: {count: N}, whose runs differ in their seed";
+  for (const Parameter& p : study.parameters) {
+    if (p.key == "seed") problems.add(p.place, kWhy);
+    for (const Follower& f : p.sets) {
+      if (f.key == "seed") problems.add(f.place, kWhy);
+    }
+  }
+  for (const Variation& v : study.replicates.vary) {
+    if (v.key == "seed") problems.add(v.place, kWhy);
+  }
+}
+
 }  // namespace
 
 void check_study(const Study& study, const SourceLocation& place, Problems& problems) {
   if (is_search(study.method)) check_search(study, place, problems);
   check_followers(study, problems);
+  check_seed(study, problems);
   for (const Parameter& p : study.parameters) {
     if (study.method == Method::grid && !p.in_grid())
       problems.add(p.place, p.key + " has no count; expected one for a grid, or method: {type: random} or sobol");

@@ -50,7 +50,7 @@ TEST_F(Optimize, ABestThatStandsHasItsFolder) {
   // A smaller budget leaves nothing out.
   const Result fewer = call("optimize s.yaml --out o --runs 20");
   EXPECT_EQ(fewer.code, 0);
-  EXPECT_EQ(fewer.err.rfind("o/study.db: note: has runs up to number 23, beyond the budget of 20; all of them count\n", 0), 0U)
+  EXPECT_EQ(fewer.err.rfind("o: note: has runs up to number 23, beyond the budget of 20; all of them count\n", 0), 0U)
       << fewer.err;
   EXPECT_NE(fewer.out.find("24 of 24 runs ended"), std::string::npos) << fewer.out;
 }

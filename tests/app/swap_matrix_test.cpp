@@ -97,6 +97,9 @@ TEST_F(SwapMatrix, ARunThatBreaksOffKeepsItsRow) {
 TEST_F(SwapMatrix, WhatIsWrongIsToldOfAllAtOnce) {
   refused("swap two.yaml two.yaml --cpg sine",
           "two.yaml: error: its name, two, is that of two.yaml, too; expected a name: of its own");
+  folder_.write("taken.yaml", "gaitlab: 1\nname: swap.csv\nrobot: {modules: mtran}\nduration: 0.1\n");
+  refused("swap two.yaml taken.yaml --cpg sine",
+          "taken.yaml: error: its name, swap.csv, is that of a file of the swap; expected another name:");
   refused("swap two.yaml soft.yaml --cpg sine,sine,hopff",
           "--cpg: error: names 'sine' twice\n--cpg: error: type 'hopff' is unknown; did you mean 'hopf'?");
   EXPECT_EQ(call("swap --cpg sine").code, 2);

@@ -159,6 +159,12 @@ TEST_F(StudyFile, ASearchIsChecked) {
             "s.yaml:1:1: error: method cma has nothing to search: no parameter has low and high");
 }
 
+TEST_F(StudyFile, TheSeedBelongsToTheReplicates) {
+  constexpr const char* kWhy = "seed cannot be chosen here; expected replicates: {count: N}, whose runs differ in their seed";
+  EXPECT_EQ(parameters("seed: {values: [3, 4]}", ""), std::string("s.yaml:3:14: error: ") + kWhy);
+  EXPECT_EQ(with("replicates: {count: 3, vary: {seed: {values: [1, 2]}}}\n"), std::string("s.yaml:4:31: error: ") + kWhy);
+}
+
 TEST_F(StudyFile, ItsReplicatesAreChecked) {
   EXPECT_EQ(with("replicates: {vary: {ground.friction: {normal: [0.8]}}}\n"),
             "s.yaml:4:47: error: ground.friction is not normal: [MEAN, DEVIATION]\ns.yaml:4:13: error: missing key 'count'");
