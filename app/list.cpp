@@ -138,6 +138,8 @@ struct SchemaArguments : ManualArguments {
 };
 
 int schema(const SchemaArguments& arguments) {
+  if (arguments.study && !arguments.plugins.empty())
+    throw InputError(SourceLocation{"--plugin"}, "has no place beside --study: no plugin adds keys to the file of a study");
   fmt::print("{}", arguments.study ? studies::study_schema() : scenario_schema(standard_catalog(arguments.plugins)));
   return 0;
 }
@@ -167,12 +169,11 @@ void add_manuals(Commands& commands) {
         command.add_option("NAME", arguments.name, "name as `gaitlab list` prints it; of a module also its file, NAME.yaml");
         add_plugins(command, arguments);
       });
-  add_command<SchemaArguments>(
-      commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,
-      [](CLI::App& command, SchemaArguments& arguments) {
-        command.add_flag("--study", arguments.study, "that of the file of a study instead")->excludes("--plugin");
-        add_plugins(command, arguments);
-      });
+  add_command<SchemaArguments>(commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,
+                               [](CLI::App& command, SchemaArguments& arguments) {
+                                 command.add_flag("--study", arguments.study, "that of the file of a study instead");
+                                 add_plugins(command, arguments);
+                               });
   add_command<ManualArguments>(commands, "reference", "Print a page of docs/reference.", reference,
                                [](CLI::App& command, ManualArguments& arguments) {
                                  command.group("");  // not in the help

@@ -102,7 +102,7 @@ int merge_study(const StudyArguments& a) {
   std::optional<Journal> all;
   std::vector<std::uint64_t> rows_of(shards.count);
   for (const std::uint64_t index : shards.indices) {
-    Journal part(journal_file(folder, {index, shards.count}));
+    Journal part(journal_file(folder, studies::Shard{index, shards.count}));
     if (!all) all.emplace(folder / studies::kJournalFile, part.head(), Journal::Build::same);
     all->take(part);
     all->expect(part.head().runs);  // a budget may have grown since
