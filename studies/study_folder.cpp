@@ -41,7 +41,14 @@ Lock::Lock(fs::path file) : file_(std::move(file)) {
   // Not followed where it is a link: what it leads to would be overwritten.
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor_ < 0) throw InputError(SourceLocation{file_.string()}, "cannot be opened: " + reason());
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+  // A killed process may not have ended yet where the next one begins: a batch system that starts a job anew.
+  constexpr int kPatience = 50;  // times 20 ms
+  int taken = ::flock(descriptor_, LOCK_EX | LOCK_NB);
+  for (int k = 0; k < kPatience && taken != 0 && errno == EWOULDBLOCK; ++k) {
+    ::usleep(20000);
+    taken = ::flock(descriptor_, LOCK_EX | LOCK_NB);
+  }
+  if (taken != 0) {
     const int error = errno;
     const std::string who = first_line(descriptor_);
     ::close(descriptor_);

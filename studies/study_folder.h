@@ -19,7 +19,7 @@ struct Shard {
 /// Holds the lock of a file for as long as it lives; the file says who.
 class Lock {
  public:
-  /// InputError: another process holds it, `PATH: error: process 12 on HOST is writing this study`.
+  /// InputError: another process holds it and keeps it for a second, `PATH: error: process 12 on HOST is writing this study`.
   explicit Lock(std::filesystem::path file);
   ~Lock();
   Lock(const Lock&) = delete;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/files/child_process.h"
 #include "core/simulation/batch.h"
 
 namespace gaitlab::studies {
@@ -35,18 +35,18 @@ int own_signal(int status) {
 }
 
 pid_t begin(const Plan& plan, std::uint64_t run) {
-  const pid_t child = ::fork();
+  const pid_t child = begin_child([&] {
+    std::atomic<bool> never = false;
+    try {
+      return try_run(plan, run, never) ? 0 : 1;
+    } catch (const InputError&) {
+      return 0;
+    } catch (...) {
+      return 1;
+    }
+  });
   if (child < 0) throw std::system_error(errno, std::generic_category(), "no process for a run that ended one before");
-  if (child > 0) return child;
-  std::atomic<bool> never = false;
-  int code = 1;
-  try {
-    code = try_run(plan, run, never) ? 0 : 1;
-  } catch (const InputError&) {
-    code = 0;
-  } catch (...) {  // NOLINT(bugprone-empty-catch): the code says so
-  }
-  ::_exit(code);
+  return child;
 }
 
 Row crashed(const Plan& plan, std::uint64_t run, int signal) {

@@ -14,6 +14,7 @@
 
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
+#include "core/files/child_process.h"
 #include "core/recording/h5_image.h"
 
 namespace gaitlab {
@@ -98,16 +99,15 @@ bool is_whole(std::string_view bytes) {
 /// are read by a process of their own first.
 void try_apart(const std::string& bytes, const SourceLocation& place) {
   constexpr unsigned kPatience = 60;  // s
-  const pid_t child = ::fork();
-  if (child < 0) throw InputError(place, "cannot be read: no process for a trace of format 1");
-  if (child == 0) {
+  const pid_t child = begin_child([&bytes] {
     ::alarm(kPatience);
     try {
       (void)from_image(bytes);
     } catch (...) {  // NOLINT(bugprone-empty-catch): it lives, and is told below
     }
-    ::_exit(0);
-  }
+    return 0;
+  });
+  if (child < 0) throw InputError(place, "cannot be read: no process for a trace of format 1");
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
