@@ -82,7 +82,7 @@ ok "a Slurm with two nodes"
 
 # ended JOB: waits until none of its tasks is left.
 ended() {
-  for _ in $(seq 400); do
+  for _ in $(seq 1200); do
     [[ -z $(squeue -h -j "$1" -t PENDING,RUNNING,COMPLETING -o %i 2>/dev/null) ]] && return 0
     sleep 0.1
   done
@@ -94,7 +94,7 @@ rows() { sqlite3 "$1/study.db" 'select * from run order by run'; }
 recipe() { awk -v number="$1" '/^    #!/ { ++n } /^    / { if (n == number && !over) print substr($0, 5); next } n == number { over = 1 }' "$root/docs/cluster.md"; }
 
 source "$root/tests/gates/two_modules.sh"
-two_modules "$work" "method: {type: random}" "budget: {runs: 320}"
+two_modules "$work" "method: {type: random}" "budget: {runs: 640}"
 cd "$work"
 PATH=$(dirname -- "$program"):$PATH
 export PATH STUDY=$work/study.yaml OUT=$work/runs/map OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
@@ -121,7 +121,7 @@ scontrol requeue "${job}_2" && scontrol update "JobId=${job}_2" StartTime=now
 merge=$(sbatch --parsable --dependency="afterany:$job" --wrap 'gaitlab study merge "$OUT"')
 ended "$job"
 ended "$merge"
-grep -q ": 320 of 320 runs" "slurm-$merge.out" || bad "merge job: $(<"slurm-$merge.out")"
+grep -q ": 640 of 640 runs" "slurm-$merge.out" || bad "merge job: $(<"slurm-$merge.out")"
 if cmp <(rows "$work/whole") <(rows "$OUT"); then ok "requeued and merged: the rows of one process"; else bad "requeued and merged: other rows"; fi
 
 if [[ -x $(dirname -- "$program")/gaitlab-mpi ]] && command -v mpirun >/dev/null; then

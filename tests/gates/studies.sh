@@ -53,7 +53,7 @@ same "killed $kills times" "$work/killed"
 # SIGTERM: told how to go on; exit code 1, unless it had ended.
 "$program" sweep "$work/study.yaml" --quiet --out "$work/stopped" -j 1 >"$work/log" 2>&1 &
 process=$!
-sleep 0.3
+for _ in $(seq 200); do [[ ! -s $work/stopped/study.db ]] || break; sleep 0.05; done # or it has not learnt of signals yet
 kill -TERM "$process" 2>/dev/null || true
 code=0
 wait "$process" || code=$?
