@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# One process that simulates for long keeps its memory: a study of the caterpillar per engine, whose memory and open files are looked
+# at every ten seconds. The first fifth is its start; after that neither may grow by more than 2 MB, or a file.
+# usage: tests/tools/soak.sh PROGRAM [MINUTES] (60 of each engine, one after the other; the table is on stdout)
+source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
+(($#)) || usage
+program=$(readlink -f -- "$1")
+minutes=${2:-60}
+
+for engine in articulated bullet; do
+  cat >"$work/$engine.yaml" <<TEXT
+gaitlab_study: 1
+name: soak
+scenario: $root/scenarios/caterpillar.yaml
+set: [physics.engine=$engine, duration=6]
+parameters:
+  cpg.frequency: {low: 0.1, high: 1, scale: log}
+  cpg.amplitude: {low: 0.1, high: 1.2}
+  cpg.type: {values: [phase_oscillator, hopf]}
+method: {type: random}
+budget: {runs: 1000000}
+TEXT
+  folder=$work/$engine
+  "$program" sweep "$work/$engine.yaml" --quiet --out "$folder" -j 1 >"$work/log" 2>&1 &
+  process=$!
+  memory=0 files=0 most_memory=0 most_files=0
+  samples=$((minutes * 6))
+  for ((k = 1; k <= samples; ++k)); do
+    sleep 10
+    now=$(awk '/^VmRSS/ { print $2 }' "/proc/$process/status") || { show_log; fail "$engine: the study ended by itself"; }
+    open=$(find "/proc/$process/fd" -mindepth 1 | wc -l)
+    if ((k * 5 <= samples)); then
+      ((memory >= now)) || memory=$now
+      ((files >= open)) || files=$open
+    fi
+    ((most_memory >= now)) || most_memory=$now
+    ((most_files >= open)) || most_files=$open
+  done
+  kill -TERM "$process"
+  wait "$process" || true
+  line="$engine: $minutes minutes, $(sqlite3 "$folder/study.db" 'select count(*) from run') runs of 6 s; memory $memory kB, then at most $most_memory kB; $most_files open files"
+  if ((most_memory - memory > 2048 || most_files > files)); then bad "$line (of which $files at the start)"; else ok "$line"; fi
+done
+verdict
