@@ -173,7 +173,8 @@ class Fields {
   void choice(const char* key, Enum& value, std::span<const char* const> names, const char* about) {
     std::string name = names[static_cast<std::size_t>(value)];
     one_of(key, name, names, about);
-    value = value_of<Enum>(name, names);
+    const Enum read = value_of<Enum>(name, names);
+    if (read != value) value = read;  // threads that only look share the settings
   }
   void per_joint(const char* key, PerJoint& value, Spec spec) { visit({key, spec.about, field::EachJoint{value, spec}}); }
   /// The most that an actuator gives, in the unit of its command or of a current.

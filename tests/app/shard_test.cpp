@@ -91,6 +91,21 @@ TEST_F(Shard, ThatAreDamagedOrOthersAreRefusedAndNothingIsLost) {
   refused("study merge s", "s/shards: error: holds shards of 2 and of 3; expected those of one division");
 }
 
+// The largest budget counts, in whatever order they lie there.
+TEST_F(Shard, OfASmallerBudgetAreNotWhole) {
+  folder_.write("study.yaml",
+                "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0, high: 1}}\n"
+                "method: {type: random}\nbudget: {runs: 8}\n");
+  ASSERT_EQ(call("sweep study.yaml --out s --quiet --shard 0/2").code, 0);
+  ASSERT_EQ(call("sweep study.yaml --out s --quiet --shard 1/2 --runs 12").code, 0);
+  const Result part = call("study merge s");
+  EXPECT_EQ(part.code, 1);
+  EXPECT_EQ(part.out, "s/study.db: 10 of 12 runs\n");
+  EXPECT_EQ(part.err, "s: error: 1 of 2 shards are missing or not whole; run them again: --array=0\n");
+  ASSERT_EQ(call("sweep study.yaml --out s --quiet --shard 0/2 --runs 12").code, 0);
+  EXPECT_EQ(call("study merge s").out, "s/study.db: 12 of 12 runs\n");
+}
+
 TEST_F(Shard, CopiesThatDoNotKnowOfOneAnotherAreRefused) {
   folder_.write("study.yaml", "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0, high: 1}}\n");
   const Environment three(std::map<std::string, std::string>{{"OMPI_COMM_WORLD_SIZE", "3"}});

@@ -209,5 +209,45 @@ TEST_F(StudyScenarios, WhatOneLacksIsToldWithItsName) {
             "scenario long)\n");
 }
 
+TEST_F(StudyScenarios, TheEngineOfOneDoesNotVerify) {
+  std::string other = read(folder_ / "two.yaml");
+  folder_.write("bullet.yaml", other.replace(other.find("articulated"), 11, "bullet"));
+  folder_.write("o.yaml",
+                "gaitlab_study: 1\nscenarios: {short: two.yaml, long: bullet.yaml}\n"
+                "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nbudget: {runs: 48}\nverify: {engine: bullet}\n");
+  const Result result = call("optimize o.yaml --dry-run");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_TRUE(contains(result.err, "verify.engine bullet is the engine of the study itself; expected another")) << result.err;
+  EXPECT_TRUE(contains(result.err, "(in scenario long)")) << result.err;
+}
+
+TEST_F(StudyScenarios, AreAllInTheEstimate) {
+  folder_.write("o.yaml",
+                "gaitlab_study: 1\nscenarios: {short: two.yaml, long: three.yaml}\n"
+                "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nbudget: {runs: 48}\n");
+  const Result result = call("optimize o.yaml --dry-run -j 1");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "48 runs: 24 points, 2 runs each\n")) << result.out;
+  EXPECT_TRUE(contains(result.out, "\n18 s simulated in all\n")) << result.out;
+}
+
+// What `study show` tells of all rows holds for all of them.
+TEST_F(StudyScenarios, LimitsThatDifferAreNotToldAsOne) {
+  folder_.write("strict.yaml", read(folder_ / "two.yaml") + "limits: {saturated_share: 0.03}\n");
+  const auto limits = [&](const std::string& name, const std::string& scenarios) {
+    folder_.write(name + ".yaml", "gaitlab_study: 1\nscenarios: " + scenarios +
+                                      "\nparameters: {cpg.phase_lag: {low: 0.5, high: 1.5, count: 2}}\n"
+                                      "constraints: [torque.peak <= 5]\n");
+    const Result result = call("sweep " + name + ".yaml --quiet --out " + name);
+    EXPECT_EQ(result.code, 0) << result.err;
+    std::vector<std::string> texts;
+    for (const studies::Limit& one : studies::Journal(folder_ / (name + "/study.db")).head().limits) texts.push_back(one.text);
+    return texts;
+  };
+  std::vector<std::string> same = limits("same", "{a: two.yaml, b: three.yaml}");
+  EXPECT_EQ(std::erase_if(same, [](const std::string& text) { return text.starts_with("judged.saturated"); }), 2);
+  EXPECT_EQ(limits("differ", "{a: two.yaml, b: strict.yaml}"), same);
+}
+
 }  // namespace
 }  // namespace gaitlab::test
