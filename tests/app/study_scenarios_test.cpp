@@ -241,7 +241,8 @@ TEST_F(StudyScenarios, LimitsThatDifferAreNotToldAsOne) {
     const Result result = call("sweep " + name + ".yaml --quiet --out " + name);
     EXPECT_EQ(result.code, 0) << result.err;
     std::vector<std::string> texts;
-    for (const studies::Limit& one : studies::Journal(folder_ / (name + "/study.db")).head().limits) texts.push_back(one.text);
+    const studies::Journal journal(folder_ / (name + "/study.db"));
+    for (const studies::Limit& one : journal.head().limits) texts.push_back(one.text);
     return texts;
   };
   std::vector<std::string> same = limits("same", "{a: two.yaml, b: three.yaml}");
