@@ -231,7 +231,7 @@ TEST_F(StudyScenarios, AreAllInTheEstimate) {
   EXPECT_TRUE(contains(result.out, "\n18 s simulated in all\n")) << result.out;
 }
 
-// What `study show` tells of all rows holds for all of them.
+// A limit that `study show` prints must hold in every scenario of the study.
 TEST_F(StudyScenarios, LimitsThatDifferAreNotToldAsOne) {
   folder_.write("strict.yaml", read(folder_ / "two.yaml") + "limits: {saturated_share: 0.03}\n");
   const auto limits = [&](const std::string& name, const std::string& scenarios) {

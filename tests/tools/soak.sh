@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # One process that simulates for long keeps its memory: a study of the caterpillar per engine, whose memory and open files are looked
 # at every ten seconds. The first fifth is its start; after that memory may grow by 2 MB, and by 1.5 kB per run up to 20 000 runs, whose
-# rows are kept to answer equal points. One more file may be open for a moment: SQLite opens the folder to write it to disk.
+# rows are kept to answer equal points. One more file may be open for a moment: a run
+# reads its scenario and its module types.
 # usage: tests/tools/soak.sh PROGRAM [MINUTES] (60 of each engine, one after the other; the table is on stdout)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
