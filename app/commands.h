@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/app.h"
+#include "app/subcommands.h"
 #include "core/files/atomic_file.h"
 
 namespace gaitlab::app {
@@ -51,25 +52,5 @@ inline constexpr const char* kPageFile = "report.html";  ///< in a run folder
 Existing check_page(const std::string& name, const std::filesystem::path& own = {});
 /// Says where a page is.
 void print_page(const std::filesystem::path& file);
-
-/// In the order of the help.
-void add_run(Commands& commands);
-void add_report(Commands& commands);
-void add_check(Commands& commands);
-void add_manuals(Commands& commands);
-void add_converge(Commands& commands);
-void add_swap(Commands& commands);
-void add_sweep(Commands& commands);
-void add_optimize(Commands& commands);
-void add_evaluate(Commands& commands);
-void add_study(Commands& commands);
-void add_dynamics(Commands& commands);
-void add_figure(Commands& commands);
-void add_compare(Commands& commands);
-void add_rerun(Commands& commands);
-void add_export(Commands& commands);
-void add_approve(Commands& commands);
-void add_test(Commands& commands);
-void add_new(Commands& commands);
 
 }  // namespace gaitlab::app

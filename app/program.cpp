@@ -8,7 +8,9 @@
 #include <cstdio>
 #include <system_error>
 
+#include "app/app.h"
 #include "app/command_line.h"
+#include "app/commands.h"
 #include "app/study_text.h"
 #include "core/errors.h"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "app/commands.h"
+#include "app/subcommands.h"
 
 namespace gaitlab::app {
 

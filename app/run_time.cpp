@@ -13,7 +13,7 @@ namespace gaitlab::app {
 namespace {
 
 /// Two digits: `14`, `1100`, `0.5`.
-std::string rounded(double value) {
+std::string two_digits(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
   return fmt::format("{:g}", std::round(value / unit) * unit);
 }
@@ -21,11 +21,11 @@ std::string rounded(double value) {
 std::string duration_text(double seconds) {
   constexpr double kMinute = 60, kHour = 3600, kDay = 86400, kYear = 365.25 * kDay;
   if (seconds < 1) return "less than 1 s";
-  if (seconds < 2 * kMinute) return rounded(seconds) + " s";
-  if (seconds < 2 * kHour) return rounded(seconds / kMinute) + " min";
-  if (seconds < 2 * kDay) return rounded(seconds / kHour) + " h";
-  if (seconds < 2 * kYear) return rounded(seconds / kDay) + " days";
-  return rounded(seconds / kYear) + " years";
+  if (seconds < 2 * kMinute) return two_digits(seconds) + " s";
+  if (seconds < 2 * kHour) return two_digits(seconds / kMinute) + " min";
+  if (seconds < 2 * kDay) return two_digits(seconds / kHour) + " h";
+  if (seconds < 2 * kYear) return two_digits(seconds / kDay) + " days";
+  return two_digits(seconds / kYear) + " years";
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ RunTime measure(const Scenario& scenario) try {
 
 std::string to_string(const RunTime& time) {
   const std::string about = time.seconds < 1 ? "" : "about ";
-  return fmt::format("takes {}{} on this machine ({} steps/s)", about, duration_text(time.seconds), rounded(time.rate));
+  return fmt::format("takes {}{} on this machine ({} steps/s)", about, duration_text(time.seconds), two_digits(time.rate));
 }
 
 }  // namespace gaitlab::app

@@ -1,19 +1,9 @@
-#include <fmt/format.h>
-
 #include "app/app.h"
+#include "app/engines.h"
 #include "report/build_id.h"
-#ifdef GAITLAB_BULLET
-#include "physics_bullet/engine.h"
-#endif
 
 namespace gaitlab::app {
 
-std::string version() {
-#ifdef GAITLAB_BULLET
-  return fmt::format("gaitlab {}, Bullet {}", report::build_id(), bullet_version());
-#else
-  return fmt::format("gaitlab {}, without Bullet", report::build_id());
-#endif
-}
+std::string version() { return "gaitlab " + report::build_id() + ", " + bullet_text(); }
 
 }  // namespace gaitlab::app

@@ -20,7 +20,7 @@ enum FootColumn : std::size_t { kFootForce, kFootPoint = 3, kFootSlid = 6, kFoot
 double level(const Vec3& v) { return std::sqrt(v.x() * v.x() + v.y() * v.y()); }
 
 /// Seven digits are more than the law of contact knows, and half the bytes of a trace file.
-double rounded(double value) { return static_cast<double>(static_cast<float>(value)); }
+double single(double value) { return static_cast<double>(static_cast<float>(value)); }
 
 }  // namespace
 
@@ -115,10 +115,10 @@ void LoadMeter::measure(Foot& foot, Out row) {
   foot.load = load;
   foot.idle = foot.idle && !(load > 0);
   for (Eigen::Index i = 0; i < 3; ++i) {
-    row[kFootForce + static_cast<std::size_t>(i)] = rounded(force[i]);
-    row[kFootPoint + static_cast<std::size_t>(i)] = rounded(foot.point[i]);
+    row[kFootForce + static_cast<std::size_t>(i)] = single(force[i]);
+    row[kFootPoint + static_cast<std::size_t>(i)] = single(foot.point[i]);
   }
-  row[kFootSlid] = rounded(foot.slid);
+  row[kFootSlid] = single(foot.slid);
 }
 
 double LoadMeter::margin() {
@@ -135,12 +135,12 @@ void LoadMeter::measure(Out row) {
   if (!first_) path_ += level(sample_.sums.com - com_before_);
   std::size_t at = 0;
   row[at++] = sample_.t;
-  row[at++] = rounded(path_);
-  row[at++] = rounded(slip_);
-  if (plane_) row[at++] = rounded(margin());
+  row[at++] = single(path_);
+  row[at++] = single(slip_);
+  if (plane_) row[at++] = single(margin());
   for (const DockFace& dock : docks_) {
     const DockLoad load = dock_load(sample_.reactions.dock(dock.module), k.R[dock.link] * dock.normal);
-    for (const double value : {load.tension, load.shear, load.bending, load.torsion}) row[at++] = rounded(value);
+    for (const double value : {load.tension, load.shear, load.bending, load.torsion}) row[at++] = single(value);
   }
   first_ = false;
   com_before_ = sample_.sums.com;

@@ -9,14 +9,14 @@ namespace {
 
 using namespace report;
 
-std::vector<std::string> with(std::vector<std::string> sets) {
+std::vector<std::string> four_seconds(std::vector<std::string> sets) {
   sets.insert(sets.end(), {"duration=4", "physics.engine=articulated"});
   return sets;
 }
 
 /// A caterpillar whose motors have too little current, and what it takes.
 struct Weak {
-  Scenario scenario = shipped("caterpillar.yaml", with({"actuator.i_max=0.35"}));
+  Scenario scenario = shipped("caterpillar.yaml", four_seconds({"actuator.i_max=0.35"}));
   Recording record = run(scenario);
   Summary summary = summarise(scenario, record, 0);
   Verdict judged = verdict(scenario, record, summary, overlaps(scenario, record));
@@ -24,13 +24,13 @@ struct Weak {
 
 TEST(Demand, IsTheRunWithLimitsTwentyTimesAsLarge) {
   Weak weak;
-  Scenario twin = shipped("caterpillar.yaml", with({"actuator.i_max=0.35"}));
+  Scenario twin = shipped("caterpillar.yaml", four_seconds({"actuator.i_max=0.35"}));
   ASSERT_TRUE(raise_limits(twin));
   const Demand made = demand(twin, weak.record, weak.summary);
   ASSERT_TRUE(made.known);
   EXPECT_EQ(made.doubt, "");
   // The same by the command line, in a run of its own.
-  const Scenario free = shipped("caterpillar.yaml", with({"actuator.i_max=7", "actuator.u_max=148"}));
+  const Scenario free = shipped("caterpillar.yaml", four_seconds({"actuator.i_max=7", "actuator.u_max=148"}));
   const Recording record = run(free);
   const std::vector<JudgedJoint> joints = judge(record, weak.summary.limit_cycle).joints;
   ASSERT_EQ(made.joints.size(), joints.size());
@@ -73,12 +73,12 @@ TEST(Demand, OfAnActuatorWithoutLimitsIsNotKnown) {
 TEST(Demand, SaysWhatMakesItDoubtful) {
   const Weak weak;
   const auto twin = [](std::vector<std::string> sets) {
-    Scenario made = shipped("caterpillar.yaml", with(std::move(sets)));
+    Scenario made = shipped("caterpillar.yaml", four_seconds(std::move(sets)));
     EXPECT_TRUE(raise_limits(made));
     return made;
   };
   const std::vector<std::string> fast{"actuator.i_max=0.35", "cpg.frequency=5"};
-  const Scenario hurried = shipped("caterpillar.yaml", with(fast));
+  const Scenario hurried = shipped("caterpillar.yaml", four_seconds(fast));
   const Recording own = run(hurried);
   const Demand thrown = demand(twin(fast), own, summarise(hurried, own, 0));
   EXPECT_TRUE(thrown.known);
@@ -144,7 +144,7 @@ TEST(Demand, StaysWithItsFolder) {
 }
 
 TEST(Demand, OfALimitOfNothingIsNotKnown) {
-  Scenario none = shipped("caterpillar.yaml", with({"actuator.u_max=0"}));
+  Scenario none = shipped("caterpillar.yaml", four_seconds({"actuator.u_max=0"}));
   EXPECT_FALSE(raise_limits(none));
 }
 

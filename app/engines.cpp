@@ -1,0 +1,15 @@
+#include "app/engines.h"
+
+#include "physics_articulated/engine.h"
+#include "physics_bullet/engine.h"
+
+namespace gaitlab::app {
+
+void register_engines(Catalog& catalog) {
+  register_bullet(catalog);
+  register_articulated(catalog);
+}
+
+std::string bullet_text() { return "Bullet " + bullet_version(); }
+
+}  // namespace gaitlab::app

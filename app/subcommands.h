@@ -1,0 +1,28 @@
+// The subcommands of the programs, each beside its code; apart from commands.h, so that no main.cpp is compiled with CLI11.
+#pragma once
+
+namespace gaitlab::app {
+
+struct Commands;
+
+/// In the order of the help.
+void add_run(Commands& commands);
+void add_report(Commands& commands);
+void add_check(Commands& commands);
+void add_manuals(Commands& commands);
+void add_converge(Commands& commands);
+void add_swap(Commands& commands);
+void add_sweep(Commands& commands);
+void add_optimize(Commands& commands);
+void add_evaluate(Commands& commands);
+void add_study(Commands& commands);
+void add_dynamics(Commands& commands);
+void add_figure(Commands& commands);
+void add_compare(Commands& commands);
+void add_rerun(Commands& commands);
+void add_export(Commands& commands);
+void add_approve(Commands& commands);
+void add_test(Commands& commands);
+void add_new(Commands& commands);
+
+}  // namespace gaitlab::app
