@@ -132,3 +132,10 @@ kill_in_the_middle() {
   release
   ((code == 128 + 9)) || bad "$1: killed in the middle of a run, exit code $code"
 }
+
+# kill_at_call N COMMAND...: with tests/plugin_example/dies_at_call.cpp of $program's build, as by kill -9. 1: there is no call N.
+kill_at_call() {
+  code=0
+  { env LD_PRELOAD="$(plugin dies_at_call)" GAITLAB_DIES_AT="$1" "${@:2}"; } >"$work/log" 2>&1 || code=$?
+  ((code == 128 + 9))
+}
