@@ -5,6 +5,7 @@ usage: forged.py PROGRAM TRACE FLIPS   (in a folder of its own)
 """
 import os
 import random
+import resource
 import shutil
 import struct
 import subprocess
@@ -29,7 +30,9 @@ def signed(name):
 
 
 def compare(name):
-    done = subprocess.run([program, "compare", name, good], capture_output=True, text=True, timeout=60)
+    # A minute of CPU time: a tenth of a second is usual. Ten minutes by the clock are for what waits for ever.
+    minute = lambda: resource.setrlimit(resource.RLIMIT_CPU, (60, 60))
+    done = subprocess.run([program, "compare", name, good], capture_output=True, text=True, timeout=600, preexec_fn=minute)
     return done.returncode, done.stderr
 
 

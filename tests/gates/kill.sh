@@ -1,35 +1,11 @@
 #!/usr/bin/env bash
-# kill -9 at random moments: no half file under a final name, an existing golden as it was.
-# usage: kill.sh PROGRAM [N] (N moments a command, 50; KILL_SEED, 1: another choice of moments)
+# Killed in the middle of a run, at each call that changes a file, and at random moments: no half file under a final name, an existing golden as it was.
+# usage: kill.sh PROGRAM [N] (N kills a command, 50; KILL_SEED, 1: another choice of moments)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
 moments=${2:-50}
 RANDOM=${KILL_SEED:-1}
-
-now() { date +%s%N; }
-
-# Milliseconds that a command takes, left alone.
-duration() {
-  local start
-  start=$(now)
-  expect 0 "$@"
-  printf '%d' $((($(now) - start) / 1000000))
-}
-
-# kill_after MILLISECONDS COMMAND...: ended by SIGKILL, or done before.
-kill_after() {
-  local process wait_ms=$1
-  shift
-  "$@" >/dev/null 2>&1 &
-  process=$!
-  sleep "$(printf '%d.%03d' $((wait_ms / 1000)) $((wait_ms % 1000)))"
-  kill -9 "$process" 2>/dev/null || true
-  wait "$process" 2>/dev/null || true
-}
-
-# Sets `moment`: between the start and a little after the end. (Not printed: in a subshell RANDOM would not go on.)
-draw_moment() { moment=$((RANDOM * ($1 + $1 / 10 + 1) / 32768)); }
 
 # Every file under a final name must be readable by what reads it.
 read_it() {
@@ -38,6 +14,7 @@ read_it() {
     *.h5 | *.csv) "$program" compare "$1" "$1" ;;
     *.json) python3 -m json.tool "$1" ;;
     *.yaml) "$program" check "$1" ;;
+    */junit.xml) [[ $(tail -n 1 -- "$1") == "</testsuites>" ]] ;;
     *.svg) [[ $(tail -c 7 -- "$1") == "</svg>" ]] ;; # $(...) takes off the line end
     *.html) cmp -- <(tail -c 20 -- "$1") <(tail -c 20 -- "$root/report/page/dist/page.html") ;;
     *.part | *.golden | *.golden.next) true ;; # a golden is read as a whole, by gaitlab test
@@ -71,27 +48,24 @@ count_state() {
 tell_states() {
   local text="" what
   for what in "${!states[@]}"; do text+="${text:+, }${states[$what]} left $what"; done
-  printf '%-8s killed %d times within %d ms: %s\n' "$1" "$moments" "$2" "$text"
+  kills_told "$1 ($text)"
 }
 
 # A fine trace, so that writing takes a good part of the time; in both formats.
 kill_runs() {
-  local i format time out
+  local format out
   declare -A states=()
   local arguments=(run "$root/scenarios/caterpillar.yaml" --quiet --set duration=0.2 --set trace.period=2.5e-4)
-  for format in csv h5; do
-    time=$(duration "$program" "${arguments[@]}" --format "$format" --out "$work/whole-$format")
-  done
-  for ((i = 0; i < moments; ++i)); do
-    ((i % 2)) && format=csv || format=h5
-    out=$work/run-$i
-    draw_moment "$time"
-    kill_after "$moment" "$program" "${arguments[@]}" --format "$format" --out "$out"
+  for format in csv h5; do cpu_time 0 "$program" "${arguments[@]}" --format "$format" --out "$work/whole-$format"; done
+  kills "$moments"
+  while kills_left; do
+    ((tries % 2)) && format=csv || format=h5
+    out=$work/run-$tries
+    try_to_kill 0 "$took" "$program" "${arguments[@]}" --format "$format" --out "$out" && count_state "$out"
     [[ ! -d $out ]] || { readable "$out"; whole "$out" "$work/whole-$format"; }
-    count_state "$out"
     rm -rf -- "$out"
   done
-  tell_states run "$time"
+  tell_states run
 }
 
 # In $work/golden a scenario s.yaml with its golden, and in $work/changed.yaml the gait that it is changed to later.
@@ -107,40 +81,38 @@ make_golden() {
 
 # Of the changed gait, so that it fails and writes a figure, a table and XML.
 kill_tests() {
-  local i time
-  local test=("$program" test "$work/changed.yaml" --golden "$work/golden/s.golden")
-  time=$(start=$(now) && ("${test[@]}" --out "$work/figures" >/dev/null 2>&1 || true) && printf '%d' $((($(now) - start) / 1000000)))
+  local test=("$program" test "$work/changed.yaml" --golden "$work/golden/s.golden" --out "$work/figures")
+  cpu_time 4 "${test[@]}"
   [[ -e $work/figures ]] || bad "test wrote no figure: it should have failed"
-  for ((i = 0; i < moments; ++i)); do
+  kills "$moments"
+  while kills_left; do
     rm -rf -- "$work/figures" "$work/junit.xml"
-    draw_moment "$time"
-    kill_after "$moment" "${test[@]}" --out "$work/figures" --junit "$work/junit.xml"
+    try_to_kill 0 "$took" "${test[@]}" --junit "$work/junit.xml" || true
     diff -r "$work/old" "$work/golden" || bad "test, killed, changed the golden"
     [[ ! -d $work/figures ]] || readable "$work/figures"
-    [[ ! -e $work/junit.xml || $(tail -n 1 -- "$work/junit.xml") == "</testsuites>" ]] || bad "half a junit.xml"
+    [[ ! -e $work/junit.xml ]] || read_it "$work/junit.xml" || bad "half a junit.xml"
   done
-  printf '%-8s killed %d times within %d ms\n' test "$moments" "$time"
+  kills_told test
 }
 
 # The golden is the old one or the new one, never a mixture: it must pass with its own gait, and the gaits differ.
 kill_approvals() {
-  local i time old=0 new=0 half=0 of
+  local old=0 new=0 half=0 of
   local golden=$work/golden/s.golden
   local approve=("$program" approve "$work/golden/s.yaml" --calibrate --reason "kill.sh: the second")
   cp -- "$work/changed.yaml" "$work/golden/s.yaml"
-  time=$(duration "${approve[@]}")
+  cpu_time 0 "${approve[@]}"
   cp -r -- "$work/golden" "$work/new"
   expect 0 "${approve[@]}"
   cp -r -- "$work/golden" "$work/newer"
-  for ((i = 0; i < moments; ++i)); do
+  kills "$moments"
+  while kills_left; do
     # Every other kill meets what the last one left.
-    if ((i % 2 == 0)); then
+    if ((tries % 2 == 0)); then
       rm -rf -- "$golden"
       cp -r -- "$work/old/s.golden" "$golden"
     fi
-    draw_moment "$time"
-    ((i % 4 > 1)) || moment=$((time - moment * 20 / time)) # every other one near the end, where the files are written
-    kill_after "$moment" "${approve[@]}"
+    try_to_kill 0 "$took" "${approve[@]}" || true
     readable "$golden"
     if cmp -s -- "$golden/golden.json" "$work/old/s.golden/golden.json"; then of=old old=$((old + 1))
     elif cmp -s -- "$golden/golden.json" "$work/newer/s.golden/golden.json"; then of=newer new=$((new + 1))
@@ -148,45 +120,117 @@ kill_approvals() {
     else bad "approve, killed, left a golden that is neither the old nor the new one"; continue
     fi
     diff -rq "$work/$of/s.golden" "$golden" >/dev/null || half=$((half + 1))
-    quietly "$program" test "$work/$of/s.yaml" --golden "$golden" --out "$work/out-$i" ||
+    quietly "$program" test "$work/$of/s.yaml" --golden "$golden" --out "$work/out-$tries" ||
       bad "approve, killed, left a golden ($of) that fails with its own scenario"
   done
-  printf '%-8s killed %d times within %d ms: %d left the old golden, %d the new one; %d of them with files in between\n' \
-    approve "$moments" "$time" "$old" "$new" "$half"
+  kills_told "approve ($old left the old golden, $new the new one; $half of them with files in between)"
 }
 
-# What is left must be what an undisturbed command leaves, or less of it: kill_writer NAME ARGUMENT...; OUT stands for the target.
+# What is left must be what an undisturbed command leaves, or less of it: kill_writer NAME ARGUMENT...; OUT stands for its folder.
 kill_writer() {
-  local i name=$1 time left=0 out
+  local name=$1 out
+  declare -A states=()
   shift
-  time=$(duration "$program" "${@/OUT/$work/expected-$name}")
-  for ((i = 0; i < moments; ++i)); do
-    out=$work/one/$name-$i
-    mkdir -p "$work/one"
-    draw_moment "$time"
-    kill_after "$moment" "$program" "${@/OUT/$out}"
-    if [[ -f $out ]]; then cmp -- "$out" "$work/expected-$name" || bad "$name, killed, left half a file"
-    elif [[ -d $out ]]; then whole "$out" "$work/expected-$name"
-    fi
-    # `new plugin` has one rename for all of its files.
-    [[ $name != new || ! -e $out ]] || diff -rq "$out" "$work/expected-$name" || bad "new plugin, killed, left a part"
-    [[ ! -e $out ]] || left=$((left + 1))
-    rm -rf -- "$work/one"
+  cpu_time 0 "$program" "${@/OUT/$work/expected-$name}"
+  kills "$moments"
+  while kills_left; do
+    out=$work/$name-$tries
+    try_to_kill 0 "$took" "$program" "${@/OUT/$out}" && count_state "$out"
+    [[ ! -d $out ]] || whole "$out" "$work/expected-$name"
+    rm -rf -- "$out"
   done
-  printf '%-8s killed %d times within %d ms: %d left a target, none of them a wrong one\n' "$name" "$moments" "$time" "$left"
+  tell_states "$name"
 }
 
-kill_writers() {
-  kill_writer rerun rerun "$work/whole-h5" --quiet --out OUT
-  kill_writer swap swap "$root/scenarios/pendulum.yaml" --quiet --set duration=0.2 --cpg phase_oscillator,hopf --out OUT
-  kill_writer csv export "$work/whole-h5" --to csv OUT
-  kill_writer gltf export "$work/whole-h5" --to gltf OUT
-  kill_writer mjcf export "$root/scenarios/caterpillar.yaml" --to mjcf OUT
-  kill_writer new new plugin cpg mine --out OUT
+# A small scenario, in a folder that holds nothing else.
+make_small() {
+  mkdir "$work/small" && cd "$work/small"
+  cat >s.yaml <<TEXT
+gaitlab: 1
+plugins: [$(plugin waits)]
+robot: {modules: $root/scenarios/modules/mtran.yaml, base: fixed}
+ground: {type: none}
+contact: {on: none}
+physics: {engine: articulated, accuracy: 0.001}
+cpg: {type: waits, amplitude: 0.6}
+duration: 0.3
+TEXT
+}
+restore() {
+  find . -mindepth 1 -delete
+  cp -r -- "$work/before/." .
 }
 
+# in_the_middle NAME COMMAND...: killed in the middle of its run, it leaves no file, and what was there is as it was.
+in_the_middle() {
+  cp -r -- . "$work/before"
+  kill_in_the_middle "$@"
+  find . -type d -empty -delete
+  diff -r . "$work/before" || bad "$1, killed in the middle of a run, changed what was there"
+  restore
+  rm -rf -- "$work/before"
+}
+
+# at_every_call NAME CODE COMMAND...: killed at each call that changes files, it leaves every file as it was or as an undisturbed one
+# leaves it; the command of `after`, if any, must still succeed.
+sums() { find . -type f -exec sha256sum -- {} +; }
+at_every_call() {
+  local calls file there
+  cp -r -- . "$work/before"
+  mapfile -t -d '' there < <(find . -type f -print0)
+  sums >"$work/sums"
+  expect "$2" "${@:3}"
+  sums >>"$work/sums"
+  for ((calls = 1;; ++calls)); do
+    restore
+    kill_at_call "$calls" "${@:3}" || break
+    while read -r _ file; do
+      case $file in
+        *.part | *.golden.next | ./.new.*) ;; # not a final name
+        */summary.json | */junit.xml) quietly read_it "$file" || bad "$1, killed at call $calls, left half of $file" ;; # they hold times
+        *) bad "$1, killed at call $calls, left another $file" ;;
+      esac
+    done < <(sums | grep -vxFf "$work/sums")
+    for file in "${there[@]}"; do [[ -e $file ]] || bad "$1, killed at call $calls, took $file away"; done
+    ((${#after[@]} == 0)) || quietly "${after[@]}" || bad "$1, killed at call $calls: ${after[*]}"
+  done
+  rm -rf -- "$work/before"
+  if ((code == $2)); then ok "$1, killed at each of $((calls - 1)) calls: files as they were, or whole"; else bad "$1: exit code $code at call $calls, expected $2"; fi
+}
+
+kill_small() {
+  local after=()
+  make_small
+  sed 's/amplitude: 0.6/amplitude: 0.5/' s.yaml >t.yaml
+  in_the_middle run "$program" run s.yaml --out out
+  at_every_call run 0 "$program" run s.yaml --quiet --out out
+  mv out "$work/run"
+  in_the_middle rerun "$program" rerun "$work/run" --plugins-from-scenario --out out
+  at_every_call rerun 0 "$program" rerun "$work/run" --plugins-from-scenario --quiet --out out
+  rm -r out
+  in_the_middle swap "$program" swap s.yaml --cpg waits,sine --out out
+  at_every_call swap 0 "$program" swap s.yaml --cpg waits,sine --out out
+  rm -r out
+  at_every_call csv 0 "$program" export "$work/run" --plugins-from-scenario --to csv run.csv
+  at_every_call gltf 0 "$program" export "$work/run" --plugins-from-scenario --to gltf run.glb
+  at_every_call mjcf 0 "$program" export s.yaml --plugins-from-scenario --to mjcf s.xml
+  at_every_call "new plugin" 0 "$program" new plugin cpg mine --out new
+  rm -r run.csv run.glb s.xml new
+  in_the_middle approve "$program" approve s.yaml --reason first
+  at_every_call approve 0 "$program" approve s.yaml --reason first
+  in_the_middle "approve --calibrate" "$program" approve s.yaml --calibrate --reason second
+  after=("$program" test s.yaml --out "$work/tested")
+  at_every_call "approve --calibrate" 0 "$program" approve s.yaml --calibrate --reason second
+  in_the_middle test "$program" test s.yaml --out out
+  at_every_call test 4 "$program" test t.yaml --golden s.golden --out out --junit junit.xml
+  cd -- "$work"
+  ok "run, rerun, swap, approve and test, killed in the middle of a run: nothing is left, and nothing changed"
+}
+
+kill_small
 kill_runs
-kill_writers
+kill_writer rerun rerun "$work/whole-h5" --quiet --out OUT
+kill_writer swap swap "$root/scenarios/pendulum.yaml" --quiet --set duration=0.2 --cpg phase_oscillator,hopf --out OUT
 if make_golden; then
   kill_tests
   kill_approvals

@@ -15,7 +15,6 @@ export TMPDIR=/tmp # sockets: their paths must be short
 
 source "$root/tests/gates/two_modules.sh"
 two_modules "$work" "method: {type: random}" "budget: {runs: 160}"
-rows() { sqlite3 "$1/study.db" 'select * from run order by run'; }
 # ranks N PROGRAM ARGUMENT...
 ranks() { mpirun --oversubscribe -n "$1" "${@:2}"; }
 sweep=("$mpi" sweep "$work/study.yaml" --quiet -j 1)
@@ -43,28 +42,25 @@ cmp <(rows "$work/search"; verified "$work/search") <(rows "$work/search-3"; ver
 ok "a search by three ranks"
 
 # killed FOLDER SIGNAL WHO: starts three ranks, sends a signal to mpirun, or to one of them (by its number, from 1), and waits.
-# 4000 runs, so that no machine is at their end before the signal comes.
-count() { sqlite3 "$1/study.db" 'select count(*) from run' 2>/dev/null || echo 0; }
+# 100 000 runs, so that no machine is at their end before the signal comes.
+begun() { [[ $(tr -s ' ' '\n' <"/proc/$1/task/$1/children" | grep -c .) == 3 ]] && more_than "$2" "$3/study.db"; }
 killed() {
-  local before
-  before=$([[ -s $1/study.db ]] && count "$1" || echo 0)
-  mpirun --oversubscribe -n 3 "${sweep[@]}" --out "$1" --runs 4000 >"$work/log" 2>&1 &
-  local job=$! children=()
-  for _ in $(seq 100); do
-    [[ -s $1/study.db ]] && (($(count "$1") > before)) && break
-    sleep 0.05
-  done
-  mapfile -t children < <(tr -s ' ' '\n' <"/proc/$job/task/$job/children")
-  local who=$job
-  (($3 == 0)) || who=${children[$3 - 1]:-}
-  if [[ -n $who ]]; then kill "-$2" "$who" 2>/dev/null || true; else bad "rank $3 did not begin"; fi
+  local before who children=()
+  before=$(count "$1/study.db")
+  mpirun --oversubscribe -n 3 "${sweep[@]}" --out "$1" --runs 100000 >"$work/log" 2>&1 &
+  local job=$!
+  wait_for "$job" "three ranks and a row" begun "$job" "$before" "$1"
+  read -ra children <"/proc/$job/task/$job/children" || true # it has no line end
+  who=$job
+  (($3 == 0)) || who=${children[$3 - 1]}
+  kill "-$2" "$who"
   code=0
   wait "$job" || code=$?
 }
 for rank in 3 1; do
   killed "$work/killed" 9 "$rank"
   ((code != 0)) || bad "a rank was killed, and mpirun ended with 0"
-  [[ $(sqlite3 "$work/killed/study.db" 'select count(*) from run') -gt 0 ]] || bad "a rank was killed: the rows are lost"
+  more_than 0 "$work/killed/study.db" || bad "a rank was killed: the rows are lost"
 done
 first() { rows "$1" | head -n 160; }
 expect 0 ranks 3 "${sweep[@]}" --out "$work/killed"
@@ -84,7 +80,7 @@ ok "SIGTERM to mpirun, then one process"
 ln -s "$root/scenarios/modules" "$work/modules"
 cat >"$work/plugin.yaml" <<TEXT
 gaitlab: 1
-plugins: [$(dirname -- "$program")/../plugins/throws.so]
+plugins: [$(plugin throws)]
 robot: {modules: mtran, base: fixed}
 ground: {type: none}
 contact: {on: none}

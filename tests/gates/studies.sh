@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A study gives the same rows whatever threads, lanes, shards, signals and kill -9 do to it, and loses nothing.
-# usage: studies.sh PROGRAM [KILLS] (KILLS moments of kill -9, 6; KILL_SEED, 1: another choice)
+# usage: studies.sh PROGRAM [KILLS] (KILLS of each kind, 6; KILL_SEED, 1: other moments)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
 program=$(readlink -f -- "$1")
@@ -11,7 +11,6 @@ command -v sqlite3 >/dev/null || { skip "studies" "sqlite3 is missing (Debian: s
 source "$root/tests/gates/two_modules.sh"
 two_modules "$work" "method: {type: random}" "budget: {runs: 96}"
 
-rows() { sqlite3 "$1/study.db" 'select * from run order by run'; }
 sweep() { "$program" sweep "$work/study.yaml" --quiet "$@"; }
 # same CASE FOLDER
 same() {
@@ -19,9 +18,7 @@ same() {
   [[ $(sqlite3 "$2/study.db" 'pragma integrity_check') == ok ]] || bad "$1: the journal is damaged"
 }
 
-start=$(date +%s%N)
-expect 0 sweep --out "$work/whole" -j 2
-took=$((($(date +%s%N) - start) / 1000000))
+cpu_time 0 sweep --out "$work/whole" -j 2
 [[ $(rows "$work/whole" | wc -l) == 96 ]] || bad "96 runs, $(rows "$work/whole" | wc -l) rows"
 
 for options in "-j 1" "-j 7" "--lanes 1" "--lanes 4 -j 2"; do
@@ -37,30 +34,29 @@ expect 0 "$program" study merge "$work/shards"
 expect 0 "$program" study merge "$work/shards"
 same "three shards, merged twice" "$work/shards"
 
-# kill -9 at random moments, until a start comes to its end.
-starts=0
-while ((starts < kills)); do
-  "$program" sweep "$work/study.yaml" --quiet --out "$work/killed" -j 2 >/dev/null 2>&1 & # not the function: its shell would be killed
-  process=$!
-  sleep "0.$(printf '%03d' $((RANDOM % (took < 900 ? took + 1 : 900))))"
-  kill -9 "$process" 2>/dev/null || true
-  wait "$process" 2>/dev/null || true
-  starts=$((starts + 1))
+# Killed at random moments, each start going on where the last was killed; the rows of one that comes to its end are compared, and the
+# next begins anew.
+kills "$kills"
+while kills_left; do
+  try_to_kill 0 $((took / 2)) "$program" sweep "$work/study.yaml" --quiet --out "$work/killed" -j 2 ||
+    { same "killed $hits times, to its end" "$work/killed" && rm -r "$work/killed"; }
 done
+kills_told sweep
 expect 0 sweep --out "$work/killed" -j 2
-same "killed $kills times" "$work/killed"
+same "killed $hits times" "$work/killed"
 
-# SIGTERM: told how to go on; exit code 1, unless it had ended.
-"$program" sweep "$work/study.yaml" --quiet --out "$work/stopped" -j 1 >"$work/log" 2>&1 &
+# SIGTERM: told how to go on; exit code 1. 100 000 runs, so that no machine is at their end before the signal comes.
+"$program" sweep "$work/study.yaml" --quiet --out "$work/stopped" -j 1 --runs 100000 >"$work/log" 2>&1 &
 process=$!
-for _ in $(seq 200); do [[ ! -s $work/stopped/study.db ]] || break; sleep 0.05; done # or it has not learnt of signals yet
-kill -TERM "$process" 2>/dev/null || true
+wait_for "$process" "a row" more_than 0 "$work/stopped/study.db"
+kill -TERM "$process"
 code=0
 wait "$process" || code=$?
-if ((code == 1)); then said "go on with gaitlab sweep"; elif ((code != 0)); then bad "SIGTERM: exit code $code"; fi
+((code == 1)) || bad "SIGTERM: exit code $code"
+said "go on with gaitlab sweep"
 [[ $(sqlite3 "$work/stopped/study.db" 'select count(*) from attempt') == 0 ]] || bad "SIGTERM: a run that was stopped counts as one that ended the process"
 expect 0 sweep --out "$work/stopped" -j 1
-same "SIGTERM, then the same command" "$work/stopped"
+if cmp <(rows "$work/whole") <(rows "$work/stopped" | head -n 96); then ok "SIGTERM, then the same command"; else bad "SIGTERM: other rows"; fi
 
 # A second process on the folder.
 exec 9>>"$work/whole/lock"
@@ -82,7 +78,7 @@ said "is of another study"
 sed -i 's/high: 1.3/high: 1.2/' "$work/study.yaml"
 ok "a larger budget goes on, another study is refused"
 
-# Searches: the same runs, generations and verification whatever threads, lanes and kill -9 do; a larger budget goes on.
+# Searches: the same runs, generations and verification whatever threads, lanes and kills do; a larger budget goes on.
 all_rows() { sqlite3 "$1/study.db" 'select * from run order by run; select * from search; select * from verification'; }
 # searched CASE STUDY FOLDER EXPECTED OPTIONS...: and its rows are those of FOLDER.
 searched() {
@@ -105,23 +101,22 @@ done
 printf 'objective: {maximize: speed}\nmethod: {type: cma, population: 8, instances: 2}\n' >>"$work/cma.yaml"
 printf 'objective: [{minimize: torque.peak}, {maximize: distance}]\nmethod: {type: nsga2, population: 16}\n' >>"$work/nsga2.yaml"
 for kind in cma nsga2; do
-  code=0
-  [[ $kind == nsga2 ]] || code=3
-  expect "$code" "$program" optimize "$work/$kind.yaml" --quiet --out "$work/$kind" -j 2
+  ends=0 # with this code
+  [[ $kind == nsga2 ]] || ends=3
+  cpu_time "$ends" "$program" optimize "$work/$kind.yaml" --quiet --out "$work/$kind" -j 2
   [[ $(rows "$work/$kind" | wc -l) == 80 ]] || bad "$kind: 80 runs, $(rows "$work/$kind" | wc -l) rows"
-  searched "$kind: -j 1 --lanes 1" "$work/$kind.yaml" "$work/$kind" "$code" -j 1 --lanes 1
+  searched "$kind: -j 1 --lanes 1" "$work/$kind.yaml" "$work/$kind" "$ends" -j 1 --lanes 1
   rm -rf -- "$work/now"
-  for ((k = 0; k < kills; ++k)); do
-    "$program" optimize "$work/$kind.yaml" --quiet --out "$work/now" -j 2 >/dev/null 2>&1 &
-    process=$!
-    sleep "0.$(printf '%03d' $((RANDOM % 400)))"
-    kill -9 "$process" 2>/dev/null || true
-    wait "$process" 2>/dev/null || true
+  kills "$kills"
+  while kills_left; do
+    try_to_kill 0 $((took / 2)) "$program" optimize "$work/$kind.yaml" --quiet --out "$work/now" -j 2 ||
+      { searched "$kind: killed $hits times, to its end" "$work/$kind.yaml" "$work/$kind" "$ends" && rm -r "$work/now"; }
   done
-  searched "$kind: killed $kills times" "$work/$kind.yaml" "$work/$kind" "$code" -j 7
+  kills_told "$kind"
+  searched "$kind: killed $hits times" "$work/$kind.yaml" "$work/$kind" "$ends" -j 7
   rm -rf -- "$work/now"
   "$program" optimize "$work/$kind.yaml" --quiet --out "$work/now" --runs 50 >/dev/null 2>&1 || true # its best may stand, or not
-  searched "$kind: 50 runs and then 80" "$work/$kind.yaml" "$work/$kind" "$code"
+  searched "$kind: 50 runs and then 80" "$work/$kind.yaml" "$work/$kind" "$ends"
   rm -rf -- "$work/now"
 done
 [[ -s $work/nsga2/best/report.html && -s $work/nsga2/front.svg && -s $work/cma/convergence.svg ]] || bad "optimize: files are missing"

@@ -3,13 +3,16 @@ import { chromium } from "playwright-core";
 import { readFileSync } from "node:fs";
 import { resolve } from "node:path";
 
-const options = { executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader"] };
+// Every wait is for a state, and this, in ms, only ends what would wait for ever: a machine may be slow.
+const patience = 1_200_000;
+const options = { timeout: patience, executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader"] };
 const browser = await chromium.launch(options), flat = await chromium.launch({ ...options, args: [...options.args, "--disable-3d-apis"] });
 export const close = () => Promise.all([browser.close(), flat.close()]);
 
 /** A page that is ready, in a browser with or without WebGL; `complaints`: errors on the console, exceptions, requests. */
 export async function open(file, { link = "paused", width = 1440, height = 900, webgl = true, ...more } = {}) {
   const context = await (webgl ? browser : flat).newContext({ viewport: { width, height }, offline: true, bypassCSP: false, ...more });
+  context.setDefaultTimeout(patience);
   const page = await context.newPage(), complaints = [];
   page.on("console", (m) => { if (m.type() === "error") complaints.push(m.text()); });
   const broken = new Promise((_, reject) => page.on("pageerror", (e) => {
@@ -19,9 +22,15 @@ export async function open(file, { link = "paused", width = 1440, height = 900, 
   broken.catch(() => {}); // once the page is ready, it is a complaint
   page.on("request", (r) => { if (!/^(file|data|blob):/.test(r.url())) complaints.push(`a request: ${r.url()}`); });
   await page.goto(`file://${resolve(file)}#${link}`);
-  await Promise.race([page.waitForSelector("html[data-ready]", { timeout: 120_000 }), broken]);
+  await Promise.race([page.waitForSelector("html[data-ready]"), broken]);
   return { page, complaints, close: () => context.close() };
 }
+
+/** Waits until the page has drawn so many frames; what observes a size draws in the frame after the change. */
+export const frames = (page, n) => page.evaluate((left) => new Promise((done) => {
+  const frame = () => (left-- > 0 ? requestAnimationFrame(frame) : done());
+  frame();
+}), n);
 
 /** What the program put into a page. */
 export function metaOf(file) {

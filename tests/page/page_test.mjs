@@ -6,7 +6,7 @@ import assert from "node:assert/strict";
 import { createRequire } from "node:module";
 import { readFileSync } from "node:fs";
 import { after, test } from "node:test";
-import { close, columnsOf, metaOf, open } from "./browser.mjs";
+import { close, columnsOf, frames, metaOf, open } from "./browser.mjs";
 
 const files = Object.fromEntries(process.argv.slice(2).map((a) => a.split(/=(.*)/s)));
 const { trace, ...pages } = files;
@@ -66,7 +66,8 @@ for (const [name, file] of Object.entries(pages)) {
   on(`${name}: fits narrow windows`, file, { width: 390, height: 844 }, async (page) => {
     for (const width of [390, 320]) {
       await page.setViewportSize({ width, height: 844 });
-      await page.waitForTimeout(150);
+      await page.waitForFunction((w) => window.innerWidth === w, width);
+      await frames(page, 3);
       const wide = await page.evaluate(() => document.documentElement.scrollWidth);
       assert.ok(wide <= width, `${wide} px of ${width}`);
     }
@@ -148,7 +149,7 @@ for (const name of ["feasible", "infeasible"]) {
   on(`${name}: plays`, file, {}, async (page) => {
     await page.keyboard.press("Home");
     await page.click("#play");
-    await page.waitForFunction(() => window.gaitlab.page.state.t > 0.2, null, { timeout: 60_000 });
+    await page.waitForFunction(() => window.gaitlab.page.state.t > 0.2);
     await page.click("#play");
     assert.equal((await state(page)).playing, false);
   });
@@ -296,7 +297,8 @@ for (const name of ["pair", "robots", "ball"]) {
     for (const key of ["End", "Home", "p", "ArrowRight", "z", "d", "p"]) await page.keyboard.press(key);
     for (const [id, values] of [["#what", ["torque", "current", "error"]], ["#side", ["own", "second", "difference"]]]) for (const value of values) await page.selectOption(id, value);
     await page.keyboard.press("Space");
-    await page.waitForTimeout(300);
+    await frames(page, 10);
+    assert.equal((await state(page)).playing, true);
   });
 }
 

@@ -1,30 +1,18 @@
 #include "core/files/child_process.h"
 
 #include <gtest/gtest.h>
-#include <sys/mman.h>
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <array>
 #include <csignal>
-#include <fstream>
-#include <new>
-#include <string>
 
 #include "core/files/folder_lock.h"
 #include "tests/folder.h"
 
 namespace gaitlab {
 namespace {
-
-// 'Z', an ended process that nobody has asked for yet, or 0, none: a process that has ended, whoever its parent is now.
-bool has_ended(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  std::string text;
-  std::getline(file, text);
-  const std::size_t name = text.rfind(')');
-  return name == std::string::npos || text.at(name + 2) == 'Z';
-}
 
 TEST(ChildProcess, EndsWithTheCodeOfItsWork) {
   int status = 0;
@@ -35,38 +23,41 @@ TEST(ChildProcess, EndsWithTheCodeOfItsWork) {
 
 // A study that was killed while such a process of its own ran could not go on before that had ended: its lock lived there.
 TEST(ChildProcess, NeitherOutlivesAKilledParentNorHoldsItsLock) {
-  struct Shared {
-    std::atomic<pid_t> grandchild = 0;
-  };
-  void* memory = ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  ASSERT_NE(memory, MAP_FAILED);
-  auto* shared = new (memory) Shared;
+  // Written by both processes, as their standard output: at its end when both have ended.
+  std::array<int, 2> pipe{};
+  ASSERT_EQ(::pipe(pipe.data()), 0);
   const test::Folder folder;
 
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
     FolderLock lock;
-    if (!lock.take(folder.path())) ::_exit(1);
+    if (!lock.take(folder.path()) || ::dup2(pipe[1], STDOUT_FILENO) < 0) ::_exit(1);
+    ::close(pipe[1]);
     (void)begin_child([&] {
-      shared->grandchild = ::getpid();
+      const pid_t self = ::getpid();
+      if (::write(STDOUT_FILENO, &self, sizeof self) < 0) return 1;
       for (;;) ::pause();
       return 0;
     });
     for (;;) ::pause();
   }
-  for (int k = 0; k < 10000 && shared->grandchild == 0; ++k) ::usleep(1000);
-  ASSERT_NE(shared->grandchild, 0);
+  ::close(pipe[1]);
+  pid_t grandchild = 0;
+  ASSERT_EQ(::read(pipe[0], &grandchild, sizeof grandchild), static_cast<ssize_t>(sizeof grandchild));
   EXPECT_FALSE(FolderLock().take(folder.path()));
 
   ::kill(child, SIGKILL);
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_TRUE(FolderLock().take(folder.path()));
-  for (int k = 0; k < 10000 && !has_ended(shared->grandchild); ++k) ::usleep(1000);
-  EXPECT_TRUE(has_ended(shared->grandchild));
-  if (!has_ended(shared->grandchild)) ::kill(shared->grandchild, SIGKILL);
-  ::munmap(memory, sizeof(Shared));
+  pollfd end{.fd = pipe[0], .events = POLLIN, .revents = 0};
+  constexpr int kTenMinutes = 600'000;  // ms: for a process that is there for ever
+  if (::poll(&end, 1, kTenMinutes) != 1) {
+    ADD_FAILURE() << "it outlives its parent";
+    ::kill(grandchild, SIGKILL);
+  }
+  ::close(pipe[0]);
 }
 
 }  // namespace

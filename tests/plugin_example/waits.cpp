@@ -1,0 +1,48 @@
+// A CPG whose runs wait while the folder that GAITLAB_HOLD names exists, and leave a file there that is called as their
+// process: a gate that finds it kills a program that is in the middle of a run, however fast or slow the machine is.
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <thread>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+using namespace gaitlab;
+
+void wait_while_held() {
+  const char* name = std::getenv("GAITLAB_HOLD");
+  if (name == nullptr) return;
+  const std::filesystem::path folder = name;
+  std::error_code gone;
+  if (std::filesystem::exists(folder, gone)) std::ofstream(folder / std::to_string(::getpid()));
+  while (std::filesystem::exists(folder, gone)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+struct Waits final : Cpg {
+  struct Settings {
+    double frequency = 1, amplitude = 0.6, wait = 1;
+    void fields(Fields& f) {
+      f.number("frequency", frequency, {"Hz", 0, 20, "Of all joints."});
+      f.number("amplitude", amplitude, {"rad", 0, 1.6, "Peak set point."});
+      f.number("wait", wait, {"1", 0, 1, "A run waits where it is above 0.9."});
+    }
+  };
+  Waits(const RobotInfo&, const Settings& settings) : s(settings) {}
+  std::size_t states() const override { return 1; }
+  void start(Out phase) const override { phase[0] = 0; }
+  void derivative(const Measured&, In, Out rate) const override { rate[0] = 2 * std::numbers::pi * s.frequency; }
+  void output(double t, In phase, Out setpoint) const override {
+    if (s.wait > 0.9 && t > 0.1) wait_while_held();
+    for (double& each : setpoint) each = s.amplitude * std::sin(phase[0]);
+  }
+  Settings s;
+};
+}  // namespace
+
+GAITLAB_PLUGIN(registry) { add_cpg<Waits>(registry, "waits", "phi' = 2 pi f, set points A sin(phi)"); }
