@@ -17,10 +17,10 @@ const verdicts = { feasible: "feasible", infeasible: "infeasible", failed: "fail
 after(close);
 
 /** A test on an open page that must not complain. */
-const on = (name, file, options, body) => file && test(name, async () => {
+const on = (name, file, options, body) => file && test(name, async (parts) => {
   const { page, complaints, close: done } = await open(file, options);
   try {
-    await body(page, metaOf(file));
+    await body(page, metaOf(file), parts);
     assert.deepEqual(complaints, []);
   } finally {
     await done();
@@ -30,29 +30,44 @@ const state = (page) => page.evaluate(() => ({ ...window.gaitlab.page.state }));
 const near = (a, b, off, what) => assert.ok(Math.abs(a - b) <= off, `${what}: ${a}, expected ${b}`);
 
 for (const [name, file] of Object.entries(pages)) {
-  on(`${name}: says what it found`, file, {}, async (page, meta) => {
-    if (meta.overlay) return;
-    assert.match(await page.textContent("#said"), saidOf(meta));
-    if (verdicts[name]) assert.equal(meta.verdict.verdict, verdicts[name]);
-    assert.equal(await page.textContent("#name"), meta.name);
-    assert.equal(await page.title(), `${meta.name}: gaitlab report`);
-    if (meta.outcome === "not run") return;
-    const rows = await page.$$eval("#checks [data-check]", (all) => all.map((r) => [r.dataset.check, r.querySelector(".mark").textContent, r.querySelector(".what").textContent]));
-    const words = { pass: "pass", warn: "warning", fail: "fail", "not judged": "not judged" };
-    assert.deepEqual(rows, meta.verdict.checks.map((c) => [c.id, words[c.status], c.title]));
-  });
+  // One page for three tests: without a GPU, to open it and to draw in it costs more than they do.
+  on(name, file, { width: 390, height: 844 }, async (page, meta, part) => {
+    await part.test(`${name}: fits narrow windows`, async () => {
+      for (const width of [390, 320]) {
+        await page.setViewportSize({ width, height: 844 });
+        await page.waitForFunction((w) => window.innerWidth === w, width);
+        await frames(page, 3);
+        const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+        assert.ok(wide <= width, `${wide} px of ${width}`);
+      }
+    });
+    await page.setViewportSize({ width: 1440, height: 900 });
+    await page.waitForFunction(() => window.innerWidth === 1440);
+    await frames(page, 3);
 
-  on(`${name}: accessible, light and dark`, file, {}, async (page) => {
-    await page.evaluate(axe); // by the debugger: the page's own policy lets no script in
-    await page.evaluate(() => document.querySelectorAll("details").forEach((d) => { d.open = true; }));
-    for (const theme of ["light", "dark"]) {
-      const found = await page.evaluate(async (t) => {
-        window.gaitlab.page.theme(t);
-        const { violations } = await window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21aa"] });
-        return violations.map((v) => `${v.id}: ${v.nodes.map((n) => `${n.target} ${n.any[0]?.message ?? ""}`).join("; ")}`);
-      }, theme);
-      assert.deepEqual(found, [], theme);
-    }
+    if (!meta.overlay) await part.test(`${name}: says what it found`, async () => {
+      assert.match(await page.textContent("#said"), saidOf(meta));
+      if (verdicts[name]) assert.equal(meta.verdict.verdict, verdicts[name]);
+      assert.equal(await page.textContent("#name"), meta.name);
+      assert.equal(await page.title(), `${meta.name}: gaitlab report`);
+      if (meta.outcome === "not run") return;
+      const rows = await page.$$eval("#checks [data-check]", (all) => all.map((r) => [r.dataset.check, r.querySelector(".mark").textContent, r.querySelector(".what").textContent]));
+      const words = { pass: "pass", warn: "warning", fail: "fail", "not judged": "not judged" };
+      assert.deepEqual(rows, meta.verdict.checks.map((c) => [c.id, words[c.status], c.title]));
+    });
+
+    await part.test(`${name}: accessible, light and dark`, async () => {
+      await page.evaluate(axe); // by the debugger: the page's own policy lets no script in
+      await page.evaluate(() => document.querySelectorAll("details").forEach((d) => { d.open = true; }));
+      for (const theme of ["light", "dark"]) {
+        const found = await page.evaluate(async (t) => {
+          window.gaitlab.page.theme(t);
+          const { violations } = await window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21aa"] });
+          return violations.map((v) => `${v.id}: ${v.nodes.map((n) => `${n.target} ${n.any[0]?.message ?? ""}`).join("; ")}`);
+        }, theme);
+        assert.deepEqual(found, [], theme);
+      }
+    });
   });
 
   on(`${name}: without WebGL the rest of it works`, file, { webgl: false, link: "paused&faces" }, async (page, meta) => {
@@ -61,16 +76,6 @@ for (const [name, file] of Object.entries(pages)) {
     for (const key of ["f", "c", "n", "a", "1", "j", "d"]) await page.keyboard.press(key);
     if (meta.joints.length) assert.equal(await page.$eval("#joint", (list) => list.options.length), meta.joints.length);
     assert.ok(await page.isHidden("#faces"));
-  });
-
-  on(`${name}: fits narrow windows`, file, { width: 390, height: 844 }, async (page) => {
-    for (const width of [390, 320]) {
-      await page.setViewportSize({ width, height: 844 });
-      await page.waitForFunction((w) => window.innerWidth === w, width);
-      await frames(page, 3);
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
-      assert.ok(wide <= width, `${wide} px of ${width}`);
-    }
   });
 }
 
