@@ -52,7 +52,7 @@ Acceleration forward(const Scenario& scenario, const DynamicsInput& input) {
   settings.gravity = scenario.physics.gravity;
   settings.ground.kind = Ground::Kind::none;
   settings.integrator = scenario.physics.integrator->name;
-  const std::unique_ptr<Plant> plant = scenario.physics.engine->make(settings);
+  const std::unique_ptr<Plant> plant = make_plant(scenario, settings);
   Acceleration acceleration;
   acceleration.joints.resize(input.tau.size());
   plant->accelerate(0, input.state, input.tau, input.wrenches, acceleration);

@@ -1,7 +1,11 @@
 #include "physics_bullet/engine.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <new>
 #include <optional>
 #include <string>
 
@@ -18,6 +22,11 @@ namespace gaitlab {
 namespace {
 
 constexpr const char* kRk4 = "rk4";
+
+bool has_rotors(const Actuator* actuator) {
+  const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
+  return std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; });
+}
 
 class BulletPlant final : public Plant, private InverseMass {
  public:
@@ -43,10 +52,7 @@ class BulletPlant final : public Plant, private InverseMass {
       if (!robot_.joints[j].driven()) passive_.push_back(j);
     }
     monitor_.contacts.reserve(s.contacts.size());
-    const In inertia = s.actuator == nullptr ? In() : s.actuator->reflected_inertia();
-    if (std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; })) {
-      rotors_.emplace(robot_, s.base, inertia);
-    }
+    if (has_rotors(s.actuator)) rotors_.emplace(robot_, s.base, s.actuator->reflected_inertia());
   }
 
   [[nodiscard]] std::size_t lanes() const override { return 1; }
@@ -191,9 +197,38 @@ class BulletPlant final : public Plant, private InverseMass {
   RateMonitor monitor_;
 };
 
+/// Bullet keeps a number for every pair of joints (btMultiBody::finalizeMultiDof) and counts them in an int; rotors need three
+/// matrices more, and a Cholesky factor at every step. Thrown before either is allocated.
+void check_joints(const PlantSettings& s) {
+  constexpr std::size_t kMost = 10000;           // 0.8 GB
+  constexpr std::size_t kMostWithRotors = 2000;  // a second for each step, which grows with the third power
+  const std::size_t joints = s.robot->joints.size();
+  if (joints > kMost) {
+    throw TooManyJoints(
+        fmt::format("engine bullet keeps a number for every pair of joints, {:.3g} GB for the {} joints here, and "
+                    "takes at most {} joints; use engine: articulated, whose memory grows with the number of joints",
+                    8e-9 * static_cast<double>(joints) * static_cast<double>(joints), joints, kMost));
+  }
+  if (joints > kMostWithRotors && has_rotors(s.actuator)) {
+    throw TooManyJoints(
+        fmt::format("engine bullet solves for all {} joints at once in every step, because actuator.rotor_inertia is "
+                    "not 0, and takes at most {} joints then; use engine: articulated, whose time grows with the number "
+                    "of joints",
+                    joints, kMostWithRotors));
+  }
+}
+
+/// Bullet does not check the result of malloc.
+void* allocate(std::size_t size) {
+  void* block = std::malloc(size);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+
 }  // namespace
 
 void register_bullet(Catalog& catalog) {
+  btAlignedAllocSetCustom(allocate, std::free);
   catalog.add(Engine{
       "bullet",
       "One btMultiBody, Bullet's articulated-body algorithm, penalty contacts, explicit integration.\n\n"
@@ -211,6 +246,7 @@ void register_bullet(Catalog& catalog) {
       {1},
       true,
       [](const PlantSettings& s) -> std::unique_ptr<Plant> {
+        check_joints(s);
         if (s.solver) return make_solver_plant(s);
         return std::make_unique<BulletPlant>(s);
       },

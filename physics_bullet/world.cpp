@@ -17,8 +17,6 @@ double friction_between(const btCollisionObject& a, const btCollisionObject& b) 
   return std::min(a.getFriction(), b.getFriction());
 }
 
-constexpr int kJointsBetween = 3;
-
 // Sequential impulses until no row changes a velocity by more than kSettled, or kIterations. Sixteen motors in a row are exact
 // to 1e-6 after 50; contacts of stiff feet settle no further with 1000 (docs/equations.md, 7).
 constexpr int kIterations = 50;
@@ -48,19 +46,15 @@ void OneIslandWorld::solveConstraints(btContactSolverInfo& info) {
   for (int i = 0; i < m_multiBodies.size(); ++i) m_multiBodies[i]->processDeltaVeeMultiDof2();
 }
 
-World::Neighbours::Neighbours(const Robot& robot) : links_(robot.links.size()), near_(links_ * links_) {
-  // Links within reach of one joint after the other.
-  for (std::size_t i = 0; i < links_; ++i) near_[i * links_ + i] = true;
-  for (int joint = 1; joint < kJointsBetween; ++joint) {
-    const std::vector<bool> before = near_;
-    for (std::size_t child = 1; child < links_; ++child) {
-      const auto parent = static_cast<std::size_t>(robot.links[child].parent);
-      for (std::size_t i = 0; i < links_; ++i) {
-        if (before[child * links_ + i]) near_[parent * links_ + i] = near_[i * links_ + parent] = true;
-        if (before[parent * links_ + i]) near_[child * links_ + i] = near_[i * links_ + child] = true;
-      }
-    }
-  }
+World::Neighbours::Neighbours(const Robot& robot) {
+  for (const Link& link : robot.links) parents_.push_back(link.parent);
+}
+
+/// Links with at most two joints between them: the same one, its parent and children, theirs, and siblings.
+bool World::Neighbours::near(int i, int j) const {
+  const auto parent = [&](int link) { return link < 0 ? -1 : parents_[static_cast<std::size_t>(link)]; };
+  const bool siblings = parent(i) == parent(j) && parent(i) >= 0;
+  return i == j || parent(i) == j || parent(j) == i || parent(parent(i)) == j || parent(parent(j)) == i || siblings;
 }
 
 bool World::Neighbours::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
@@ -69,7 +63,7 @@ bool World::Neighbours::needBroadphaseCollision(btBroadphaseProxy* a, btBroadpha
     return false;
   const int i = static_cast<const btCollisionObject*>(a->m_clientObject)->getUserIndex();
   const int j = static_cast<const btCollisionObject*>(b->m_clientObject)->getUserIndex();
-  return i < 0 || j < 0 || !near_[static_cast<std::size_t>(i) * links_ + static_cast<std::size_t>(j)];
+  return i < 0 || j < 0 || !near(i, j);
 }
 
 World::World(const PlantSettings& s, MultiBody& body)

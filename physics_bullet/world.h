@@ -77,8 +77,8 @@ class World {
     bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
 
    private:
-    std::size_t links_;
-    std::vector<bool> near_;  ///< link * links + link
+    [[nodiscard]] bool near(int i, int j) const;
+    std::vector<int> parents_;  ///< one a link; -1 for the root
   };
 
   void add_robot(const Robot& robot, double friction);

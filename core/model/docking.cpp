@@ -262,17 +262,31 @@ double half_cell(const ModuleType& type) {
   return 0;
 }
 
-/// The module whose cells those of `module` continue: the first one up the tree behind which every dock keeps the lattice.
-std::size_t lattice_of(const Robot& robot, std::size_t module) {
-  const auto half = [&](std::size_t m) {
-    const ModuleType& type = robot.types[robot.modules[m].type];
-    return type.lattice ? half_cell(type) : 0;
-  };
-  for (int parent = robot.modules[module].parent; parent >= 0; parent = robot.modules[module].parent) {
-    if (half(static_cast<std::size_t>(parent)) != half(module)) break;
-    module = static_cast<std::size_t>(parent);
+/// Half the cell size of every type; 0 without a lattice.
+std::vector<double> half_cells(const Robot& robot) {
+  std::vector<double> half;
+  for (const ModuleType& type : robot.types) half.push_back(type.lattice ? half_cell(type) : 0);
+  return half;
+}
+
+/// The lattice of every module: the first module up the tree behind which every dock keeps the lattice.
+std::vector<std::size_t> lattices(const Robot& robot, const std::vector<double>& half) {
+  const std::size_t unknown = robot.modules.size();
+  std::vector<std::size_t> first(robot.modules.size(), unknown);
+  std::vector<std::size_t> path;
+  for (std::size_t module = 0; module < first.size(); ++module) {
+    std::size_t at = module;
+    for (path.clear(); first[at] == unknown; at = static_cast<std::size_t>(robot.modules[at].parent)) {
+      path.push_back(at);
+      const Module& own = robot.modules[at];
+      const bool goes_on = own.parent >= 0 && half[robot.modules[static_cast<std::size_t>(own.parent)].type] == half[own.type];
+      if (goes_on) continue;
+      first[at] = at;
+      break;
+    }
+    for (const std::size_t below : path) first[below] = first[at];
   }
-  return module;
+  return first;
 }
 
 }  // namespace
@@ -284,17 +298,19 @@ void check_docks(const std::vector<ModuleType>& types, const std::vector<std::si
 
 void check_cells(const Robot& robot) {
   const Kinematics kinematics = at_zero(robot);
+  const std::vector<double> half_of_type = half_cells(robot);
+  const std::vector<std::size_t> lattice_of = lattices(robot, half_of_type);
   Problems problems;
   std::map<std::pair<std::size_t, std::array<long, 3>>, const Body*> cells;
   for (const Body& body : robot.bodies) {
     const Module& module = robot.modules[body.module];
     const ModuleType& type = robot.types[module.type];
-    const double half = half_cell(type);
+    const double half = half_of_type[module.type];
     const auto face =
         std::find_if(type.faces.begin(), type.faces.end(), [&](const FaceType& f) { return f.body == body.type; });
-    if (!type.lattice || face == type.faces.end() || !(half > 0)) continue;
+    if (face == type.faces.end() || !(half > 0)) continue;
     // Cells are counted from a block of the lattice's first module and along its axes.
-    const std::size_t lattice = lattice_of(robot, body.module);
+    const std::size_t lattice = lattice_of[body.module];
     const FaceType& zero = robot.types[robot.modules[lattice].type].faces.front();
     const Body& origin = robot.bodies[robot.modules[lattice].first_body + zero.body];
     const Pose from{kinematics.R[origin.link] * origin.in_link.R,

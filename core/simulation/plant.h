@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "core/dynamics/wrench.h"
@@ -47,6 +48,11 @@ struct PlantSettings : LaneSettings {
   std::string integrator;              ///< one of the engine's by name; "": its default
   bool solver = false;                 ///< contact.law: bullet; `law` is not used
   double step = 0;                     ///< s: the longest that advance is given
+};
+
+/// Thrown by Engine::make for a robot with too many joints for the engine: the reason and the remedy.
+struct TooManyJoints : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// Stateless but for caches, unless it says otherwise (state_is_complete): the simulation owns the numbers and binds them once;

@@ -55,7 +55,7 @@ Simulation::Simulation(std::span<const Scenario> lanes, Loads loads) try
                                             fmt::join(widths, " or "), lanes_.size()));
   }
   actuator_ = make_actuator(actuators, info(*first.robot));
-  plant_ = first.physics.engine->make(plant_settings());
+  plant_ = make_plant(first, plant_settings());
   for (auto* values :
        {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_, &available_, &largest_}) {
     values->assign(layout_.joints * lanes_.size(), 0.0);

@@ -43,6 +43,12 @@ Spatial moved(const Spatial& inertia, const Vec3& r) {
 
 }  // namespace
 
+std::unique_ptr<Plant> make_plant(const Scenario& scenario, const PlantSettings& settings) try {
+  return scenario.physics.engine->make(settings);
+} catch (const TooManyJoints& error) {
+  throw InputError(scenario.place("physics.engine"), error.what());
+}
+
 // The pivots of the mass matrix, eliminated from the tips inwards, are what the articulated-body recursion divides by:
 // R. Featherstone, Rigid Body Dynamics Algorithms (Springer, 2008), 7.3.
 void check_inertia(const Scenario& scenario, const Kinematics& k, In rotors, std::size_t lanes, std::size_t lane,

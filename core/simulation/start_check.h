@@ -3,8 +3,12 @@
 #include "core/model/kinematics.h"
 #include "core/plugin/fields.h"
 #include "core/scenario/scenario.h"
+#include "core/simulation/plant.h"
 
 namespace gaitlab {
+
+/// InputError at physics.engine of a robot that has too many joints for its engine.
+std::unique_ptr<Plant> make_plant(const Scenario& scenario, const PlantSettings& settings);
 
 /// Every joint must have some inertia to move at the start, or its acceleration has no value: a body without mass between two
 /// hinges whose axes are in line turns freely. `kinematics`: at the start; `rotors`: reflected inertia of joint j, kg m^2, at

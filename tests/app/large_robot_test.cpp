@@ -1,0 +1,75 @@
+// Far too large robots and grounds: an answer at once, in little memory, and never a signal.
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+class LargeRobot : public ::testing::Test {
+ protected:
+  LargeRobot() { std::filesystem::create_directory_symlink(kScenarios + "modules", folder_ / "modules"); }
+
+  void chain(int modules, const std::string& more) {
+    std::string docks;
+    for (int m = 1; m < modules; ++m) docks += fmt::format("{}[1, {}, 4, {}, 0]", m == 1 ? "" : ", ", m, m - 1);
+    folder_.write("s.yaml", "gaitlab: 1\nrobot: {modules: mtran, docks: [" + docks + "]}\n" + more + "duration: 0.1\n");
+  }
+  /// `check` of s.yaml within limits of ulimit: -v kB of memory, -t seconds of CPU.
+  Result check(const std::string& limits) {
+    const std::string command = fmt::format("cd '{}' && ulimit {}; '{}/bin/gaitlab' check s.yaml 2>err >out",
+                                            folder_.path().string(), limits, GAITLAB_BINARY_DIR);
+    const int status = std::system(("bash -c \"" + command + "\"").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder_ / "out"), read(folder_ / "err")};
+  }
+  /// A sanitizer reserves more memory than any limit.
+  bool has_room(const std::string& limits) {
+    chain(2, "");
+    return check(limits).code == 0;
+  }
+
+  Folder folder_;
+};
+
+// It needed 13 GB and 51 s, and ended by SIGSEGV in 4 GB.
+TEST_F(LargeRobot, OfTwentyThousandModulesIsRefusedBeforeItCosts) {
+  const std::string limits = "-t 20 -v 500000";
+  if (!has_room(limits)) GTEST_SKIP() << "a sanitizer, which reserves more than any limit";
+  chain(20'000, "");
+  const Result result = check(limits);
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(
+      result.err,
+      "s.yaml: error: engine bullet keeps a number for every pair of joints, 12.8 GB for the 40000 joints here, and takes at "
+      "most 10000 joints; use engine: articulated, whose memory grows with the number of joints\n");
+  chain(1'001, "physics: {engine: bullet}\nactuator: {rotor_inertia: 1e-7}\n");
+  EXPECT_EQ(
+      check(limits).err,
+      "s.yaml:3:19: error: engine bullet solves for all 2002 joints at once in every step, because actuator.rotor_inertia is "
+      "not 0, and takes at most 2000 joints then; use engine: articulated, whose time grows with the number of joints\n");
+}
+
+// Bullet wrote to the null pointer that it had been given for a block.
+TEST_F(LargeRobot, WithoutMemoryForBulletEndsWithAWord) {
+  if (!has_room("-v 120000")) GTEST_SKIP() << "a sanitizer, which reserves more than any limit";
+  chain(3'000, "");  // 288 MB for the pairs of its joints
+  for (const int kilobytes : {150'000, 250'000, 350'000}) {
+    const Result result = check(fmt::format("-v {}", kilobytes));
+    EXPECT_EQ(result.code, 1) << kilobytes;
+    EXPECT_EQ(result.err, "gaitlab: error: out of memory\n") << kilobytes;
+  }
+}
+
+// The search for the way out of n boxes took n^4 looks at a box: no first step ever ended.
+TEST_F(LargeRobot, OnTwentyThousandBoxesInOnePlaceIsAnsweredAtOnce) {
+  std::string boxes;
+  for (int b = 0; b < 20'000; ++b) {
+    boxes += std::string(b == 0 ? "" : ", ") + "{center: [0, 0, 0.05], size: [0.4, 0.4, 0.1]}";
+  }
+  folder_.write("s.yaml",
+                "gaitlab: 1\nrobot: {modules: mtran}\nduration: 0.1\nground: {type: boxes, boxes: [" + boxes + "]}\n");
+  const Result result = check("-t 100");  // 2 s; a sanitizer takes ten times as long
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "base frame at [0, 0, 0.1325] m at the start: lowered onto the ground")) << result.out;
+}
+
+}  // namespace
+}  // namespace gaitlab::test
