@@ -1,6 +1,7 @@
 // `gaitlab figure`: a figure for a paper from run folders and a recipe, with the numbers that it shows.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "core/recording/csv.h"
 #include "core/recording/recording_file.h"
 #include "core/recording/run_files.h"
+#include "core/scenario/text_file.h"
 #include "core/scenario/wording.h"
 #include "report/paper_figure.h"
 #include "report/pdf.h"
@@ -64,6 +66,20 @@ std::vector<Named> folders_of(const report::Recipe& recipe, const std::vector<st
   return folders;
 }
 
+/// A run that a recipe in `folder` names.
+StoredRun read_named_run(const std::string& run, const std::string& folder, Catalog& catalog) {
+  try {
+    return read_run(run, catalog);
+  } catch (const InputError& error) {
+    Problems found;
+    Problems told;
+    add_all(error, found);
+    add_found(found, {trace_file(run).string(), folder, "recording", ""}, told);
+    told.raise();
+    throw;
+  }
+}
+
 std::vector<report::PaperRun> read_runs(const report::Recipe& recipe, const std::vector<std::string>& given, Catalog& catalog) {
   const std::vector<Named> folders = folders_of(recipe, given);
   Problems problems;
@@ -75,8 +91,10 @@ std::vector<report::PaperRun> read_runs(const report::Recipe& recipe, const std:
   }
   problems.raise();
   std::vector<report::PaperRun> runs;
+  const std::string folder = fs::path(recipe.file).parent_path().string();
   for (const Named& run : folders) {
-    auto [stored, scenario] = read_run(run.text, catalog);
+    const bool typed = std::ranges::any_of(given, [&](const std::string& text) { return text.starts_with(run.name + "="); });
+    auto [stored, scenario] = typed ? read_run(run.text, catalog) : read_named_run(run.text, folder, catalog);
     if (stored.recording.trace.columns.empty() || stored.recording.trace.columns.front().name != "t")
       throw InputError(SourceLocation{run.text}, "its trace has no column t");
     if (stored.recording.rows() > 0) stored.recording.simulated = stored.recording.trace.at(stored.recording.rows() - 1, 0);

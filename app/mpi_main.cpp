@@ -201,15 +201,21 @@ class Others {
     return all;
   }
 
-  /// The next message, if there is one; kBye: that process was stopped. InputError: it ended by itself, and why.
+  /// The next message, if there is one; kBye: that process was stopped. InputError or RunError, as its exit code was: it ended
+  /// by itself, and why.
   std::optional<Message> next() {
     std::optional<Message> message = received();
     if (!message) std::this_thread::sleep_for(kOften);
     if (!message || message->tag != kBye) return message;
     left_[static_cast<std::size_t>(message->rank)] = false;
-    const std::string why = text_of(message->bytes);
-    if (why.empty()) return message;
-    throw InputError(SourceLocation{"rank " + std::to_string(message->rank)}, why.substr(0, why.find_last_not_of('\n') + 1));
+    std::string why = text_of(message->bytes);
+    if (why.size() < 2) return message;
+    const bool bad_input = why.front() == '2';
+    why = why.substr(1, why.find_last_not_of('\n'));
+    const std::string rank = "rank " + std::to_string(message->rank);
+    if (bad_input) throw InputError(SourceLocation{rank}, why);
+    constexpr std::string_view kError = "gaitlab: error: ";  // this process says it again
+    throw RunError(rank + ": " + (why.starts_with(kError) ? why.substr(kError.size()) : why));
   }
 
   std::vector<bool> left_;  ///< by rank
@@ -273,10 +279,11 @@ int main(int argc, char** argv) {
       serve(plan, settings, measure);
     };
     try {
-      (void)app::guarded(run, [](std::string_view text) { said += text; });
+      code = app::guarded(run, [](std::string_view text) { said += text; });
     } catch (const Served&) {
     }
-    send(0, kBye, bytes_of(said));
+    send(0, kBye, bytes_of(std::to_string(code) + said));
+    code = 0;  // the first has the exit code of all
   }
   MPI_Finalize();
   return code;

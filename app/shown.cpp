@@ -1,6 +1,7 @@
 // What every command that has a run prints of it, warns of, and returns.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "app/commands.h"
@@ -18,19 +19,33 @@
 
 namespace gaitlab::app {
 
+namespace {
+
+/// Lines for a terminal: the outcome of a recorded run is a text of whoever made the file.
+std::string printed(const std::string& text) {
+  std::string all;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    all += one_line(text.substr(at, end - at)) + (end < text.size() ? "\n" : "");
+    at = end + 1;
+  }
+  return report::texts::without_nan(all);
+}
+
+}  // namespace
+
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                    const report::Verdict& verdict, const SummaryOptions& shown) {
   const std::string text = report::to_text(summary, scenario, recording, shown.verbose);
   const std::size_t head = text.find('\n') + 1;
-  using report::texts::without_nan;
-  fmt::print("{}", without_nan(text.substr(0, head)));
+  fmt::print("{}", printed(text.substr(0, head)));
   const char* title = "verdict";
   for (const std::string& line : report::to_lines(verdict)) {
-    fmt::print("  {:<13} {}\n", title, without_nan(line));
+    fmt::print("  {:<13} {}\n", title, printed(line));
     title = "";
   }
-  fmt::print("{}", without_nan(text.substr(head)));
-  if (shown.joints) fmt::print("{}", without_nan(report::joint_table(summary, scenario)));
+  fmt::print("{}", printed(text.substr(head)));
+  if (shown.joints) fmt::print("{}", printed(report::joint_table(summary, scenario)));
 }
 
 report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,

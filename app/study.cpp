@@ -54,7 +54,7 @@ int show_study(const StudyArguments& a) {
   if (!who.empty()) {
     fmt::print("{} is writing it\n", who);
   } else if (results.runs < journal.head().runs) {
-    fmt::print("go on with: {}\n", printable(journal.head().command));
+    fmt::print("go on with: {}\n", one_line(journal.head().command));
   }
   return 0;
 }
@@ -88,40 +88,88 @@ int export_study(const StudyArguments& a) {
   return 0;
 }
 
-/// Numbers as Slurm's --array takes them: 3,17.
-std::string array_text(const std::vector<std::uint64_t>& indices) { return fmt::format("{}", fmt::join(indices, ",")); }
+/// Numbers in ascending order, of which there may be very many.
+class Ranges {
+ public:
+  /// All from `first` to `last`, both included and above those that were added before.
+  void add(std::uint64_t first, std::uint64_t last) {
+    count_ += last - first + 1;
+    if (!ranges_.empty() && ranges_.back().second + 1 == first) {
+      ranges_.back().second = last;
+    } else {
+      ranges_.emplace_back(first, last);
+    }
+  }
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  /// As Slurm's --array takes them: 3,17,20-99; at most 200 of them.
+  [[nodiscard]] std::string text() const {
+    constexpr std::size_t kMost = 200;
+    std::string all;
+    for (std::size_t k = 0; k < std::min(kMost, ranges_.size()); ++k) {
+      const auto& [first, last] = ranges_[k];
+      all += (k > 0 ? "," : "") + (first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last));
+    }
+    if (ranges_.size() > kMost)
+      all += fmt::format(" (and {}; merge again for them)", counted(ranges_.size() - kMost, "more range"));
+    return all;
+  }
 
-int merge_study(const StudyArguments& a) {
-  const fs::path folder = a.folder;
-  const studies::Shards shards = studies::shards_in(folder);
-  if (shards.count == 0)
-    throw InputError(SourceLocation{a.folder},
-                     "holds no shards; expected files shards/I-of-N.db, as gaitlab sweep --shard I/N writes them");
-  const studies::Lock lock(folder / "lock");
-  std::vector<std::uint64_t> missing;
-  std::optional<Journal> all;
-  std::vector<std::uint64_t> rows_of(shards.count);
+ private:
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges_;
+  std::uint64_t count_ = 0;
+};
+
+/// Takes the rows of all shards that are there. Returns which are missing or not whole.
+Ranges take_shards(std::optional<Journal>& all, const fs::path& folder, const studies::Shards& shards) {
+  std::vector<std::uint64_t> rows;
   for (const std::uint64_t index : shards.indices) {
-    Journal part(journal_file(folder, studies::Shard{index, shards.count}));
+    Journal part(studies::shard_file(folder, {index, shards.count}));
     if (!all) all.emplace(folder / studies::kJournalFile, part.head(), Journal::Build::same);
     all->take(part);
     all->expect(part.head().runs);  // a budget may have grown since
-    rows_of[index] = part.rows();
+    rows.push_back(part.rows());
   }
   const std::uint64_t runs = all->head().runs;
-  for (std::uint64_t index = 0; index < shards.count; ++index) {
-    const std::uint64_t wanted = runs / shards.count + (index < runs % shards.count ? 1 : 0);
-    const bool there = std::ranges::binary_search(shards.indices, index);
-    if (!there || rows_of[index] < wanted) missing.push_back(index);
+  Ranges missing;
+  std::uint64_t next = 0;  // the first that has not been looked at
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::uint64_t index = shards.indices[k];
+    if (next < index) missing.add(next, index - 1);
+    if (rows[k] < runs / shards.count + (index < runs % shards.count ? 1 : 0)) missing.add(index, index);
+    next = index + 1;
+  }
+  if (next < shards.count) missing.add(next, shards.count - 1);
+  return missing;
+}
+
+int merge_study(const StudyArguments& a) {
+  const fs::path folder = a.folder;
+  const fs::path file = folder / studies::kJournalFile;
+  const studies::Shards shards = studies::shards_in(folder);
+  std::error_code none;
+  if (shards.count == 0 && !fs::exists(file, none))
+    throw InputError(SourceLocation{a.folder},
+                     "holds no shards; expected files shards/I-of-N.db, as gaitlab sweep --shard I/N writes them");
+  const studies::Lock lock(folder / "lock");
+  std::optional<Journal> all;
+  Ranges missing;
+  if (shards.count > 0) {
+    missing = take_shards(all, folder, shards);
+  } else {
+    all.emplace(file);  // of an array of one task
   }
   const std::uint64_t rows = all->rows();
-  fmt::print("{}: {} of {} runs\n", (folder / studies::kJournalFile).string(), rows, all->head().runs);
+  fmt::print("{}: {} of {} runs\n", file.string(), rows, all->head().runs);
   write_study_files(*all, studies::results(*all), folder);
-  if (missing.empty()) return 0;
-  say(a.folder, "error",
-      fmt::format("{} of {} shards are missing or not whole; run them again: --array={}", missing.size(), shards.count,
-                  array_text(missing)));
-  return 1;
+  if (missing.count() > 0)
+    say(a.folder, "error",
+        fmt::format("{} of {} shards are missing or not whole; run them again: --array={}", missing.count(), shards.count,
+                    missing.text()));
+  const std::uint64_t lacking = shards.count == 0 && rows < all->head().runs ? all->head().runs - rows : 0;
+  if (lacking > 0)
+    say(a.folder, "error",
+        fmt::format("{} of {} runs have not ended; go on with: {}", lacking, all->head().runs, all->head().command));
+  return missing.count() > 0 || lacking > 0 ? 1 : 0;
 }
 
 /// What of the row is not what the run gave, a line each.
@@ -207,11 +255,18 @@ int rerun_study(const StudyArguments& a) {
   RunArguments run_arguments;
   run_arguments.out = a.out.value_or((fs::path(a.folder) / fmt::format("run-{}", a.run)).string());
   const int code = run(scenario, run_arguments);
-  const StoredRun again = read_run(*run_arguments.out, catalog);
+  std::optional<StoredRun> written;
+  try {
+    written = read_run(*run_arguments.out, catalog);
+  } catch (const InputError&) {
+    if (code != 1) throw;
+    return 1;  // the run could not be written, and has said so
+  }
+  const StoredRun& again = *written;
   if (const auto cell =
           [&](const char* name) { return row[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())]; };
       cell("outcome") == "stopped") {
-    fmt::print("the study ended this run early: {}; here it ran on\n", printable(cell("message")));
+    fmt::print("the study ended this run early: {}; here it ran on\n", one_line(cell("message")));
     return code == 2 ? 2 : 0;
   }
   const studies::Judged judged = figure_measure(head.figures, scenario)(scenario, again.stored.recording);
@@ -219,7 +274,8 @@ int rerun_study(const StudyArguments& a) {
       differences(names, row, journal.columns(), judged.figures, again.stored.recording.outcome);
   if (found.empty()) {
     fmt::print("the figures are those of the journal\n");
-    return code == 2 ? 2 : 0;
+    const bool lost = code == 1 && again.stored.recording.outcome == "done";  // some of its files
+    return code == 2 ? 2 : lost ? 1 : 0;
   }
   for (const std::string& difference : found) say(a.folder, "error", difference);
   return 4;

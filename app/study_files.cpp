@@ -207,7 +207,7 @@ void write_replicates(const Drawn& drawn, const studies::FigureName& name, const
 std::string study_note(const JournalHead& head, std::uint64_t runs) {
   return fmt::format("{} runs; {}; gaitlab {}", runs,
                      head.guarded ? "guards: gait" : "without guards: results may exploit the simulation",
-                     printable(head.build));
+                     one_line(head.build));
 }
 
 std::vector<std::string> write_study_files(Journal& journal, const Results& results, const std::filesystem::path& folder) {

@@ -115,12 +115,6 @@ std::string file_name(const std::string& figure) {
   return name.substr(0, kLongest);
 }
 
-std::string printable(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
-  return out;
-}
-
 std::string shell_word(const std::string& word) {
   constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,+-@%";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
@@ -220,7 +214,7 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
   if (!limits.empty()) text += "\n";
   for (const auto& [outcome, one] : results.failures.by_outcome)
     text += fmt::format("{} {}, first: run {}{}: {}\n", one.count, clipped(outcome), one.first_run,
-                        in_which_scenario(head, one.first_run), printable(one.message));
+                        in_which_scenario(head, one.first_run), one_line(one.message));
   text += verification_text(journal);
   if (results.runs > 0)
     text += fmt::format("one of them again, with its trace: gaitlab study rerun {} RUN\n", shell_word(folder.string()));
@@ -241,7 +235,7 @@ std::string verification_text(Journal& journal) {
       ways += fmt::format("{}{} {}", ways.empty() ? "" : ", ", clipped(v.what),
                           std::isnan(objective) ? "-" : fmt::format("{:.4g}", objective));
       if (!v.reason.empty())
-        reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what), printable(v.reason));
+        reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what), one_line(v.reason));
     }
     text += fmt::format("run {} {} ({}){}\n", run, reasons.empty() ? "stood" : "did not stand", ways,
                         reasons.empty() ? "" : "\n  " + reasons);

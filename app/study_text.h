@@ -65,9 +65,6 @@ class StudyProgress {
   Time last_{};
 };
 
-/// Without control characters, which a stranger may have put into a journal.
-std::string printable(const std::string& text);
-
 /// Of a table: in quotes where it holds commas, quotes or line ends.
 std::string csv_cell(const std::string& text);
 

@@ -17,11 +17,20 @@ namespace {
 constexpr std::size_t kMostProblems = 200;  // more help nobody
 constexpr std::size_t kMostBytes = 500;  // of one: what a user wrote is clipped where it is put in, this is for what was missed
 
-/// The bytes of the control character that begins at `i`: those of ASCII, and the second set, two bytes in UTF-8; else 0.
+/// The bytes of the control character that begins at `i`, in UTF-8: those of ASCII, the second set, and the marks of the
+/// bidirectional algorithm, with which a text shows in another order than it is written; else 0.
 std::size_t control_at(std::string_view text, std::size_t i) noexcept {
-  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
+  const unsigned second = byte(i + 1);
+  const unsigned third = byte(i + 2);
   if (byte(i) < 0x20 || byte(i) == 0x7F) return 1;
-  return byte(i) == 0xC2 && i + 1 < text.size() && byte(i + 1) >= 0x80 && byte(i + 1) < 0xA0 ? 2 : 0;
+  if (byte(i) == 0xC2) return second >= 0x80 && second < 0xA0 ? 2 : 0;
+  if (byte(i) == 0xD8) return second == 0x9C ? 2 : 0;  // U+061C
+  if (byte(i) != 0xE2) return 0;
+  const bool marks =
+      second == 0x80 && (third == 0x8E || third == 0x8F || (third >= 0xAA && third <= 0xAE));  // U+200E, 202A ...
+  const bool isolates = second == 0x81 && third >= 0xA6 && third <= 0xA9;                      // U+2066 ...
+  return marks || isolates ? 3 : 0;
 }
 
 /// Gives `put` the text piece by piece, each control character but `kept` as \xHH.

@@ -155,7 +155,9 @@ void add_sources(const Node& node, const std::string& where, std::string& text) 
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const Node& item = node.items[i];
     if (node.kind == Node::Kind::map && node.keys[i].first == "source") {
-      text += "  " + wrapped(fmt::format("{}: {}", where.empty() ? "type" : where, item.text), 4, 98)
+      std::string source = item.text;
+      std::ranges::replace(source, '\n', ' ');
+      text += "  " + wrapped(fmt::format("{}: {}", where.empty() ? "type" : where, one_line(source)), 4, 98)
                          .substr(4);  // further lines further in
       continue;
     }

@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <fstream>
+#include <new>
+#include <system_error>
 
 #include "core/errors.h"
 #include "core/scenario/wording.h"
@@ -24,6 +29,40 @@ bool on_network(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (::statfs(folder.c_str(), &about) != 0) return false;
   return std::ranges::find(kNetworks, static_cast<unsigned long>(about.f_type)) != kNetworks.end();
+}
+
+/// Whether the rollback journal ends with the name of a super-journal, as of a transaction over several databases. This program
+/// writes none, and SQLite deletes the file of that name, wherever it is.
+bool names_another_file(const std::filesystem::path& journal) {
+  constexpr std::string_view kMagic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
+  std::ifstream file(journal, std::ios::binary);
+  std::array<char, kMagic.size()> end{};
+  file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+  return file.read(end.data(), end.size()) && std::string_view(end.data(), end.size()) == kMagic;
+}
+
+/// SQLite opens all four by their names, waits for a FIFO and follows links.
+void check_files(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMost = std::uintmax_t{1} << 40;  // bytes: of 2e9 runs
+  for (const char* behind : {"", "-wal", "-shm", "-journal"}) {
+    std::filesystem::path one = file;
+    one += behind;
+    const auto refuse = [&](const std::string& why) {
+      throw InputError(SourceLocation{one.string()}, "cannot be read: " + why);
+    };
+    struct stat about {};
+    if (::lstat(one.c_str(), &about) != 0) {
+      if (errno != ENOENT) refuse(std::generic_category().message(errno));
+      continue;
+    }
+    if (S_ISLNK(about.st_mode)) refuse("is a link; name the file that it leads to");
+    if (S_ISDIR(about.st_mode)) refuse(std::generic_category().message(EISDIR));
+    if (!S_ISREG(about.st_mode)) refuse("not a regular file");
+    if (static_cast<std::uintmax_t>(about.st_size) > kMost)
+      refuse(fmt::format("it has {} bytes; expected at most {}", about.st_size, kMost));
+    if (std::string_view(behind) == "-journal" && names_another_file(one))
+      refuse("it names another file, which SQLite would delete; gaitlab writes no such journal");
+  }
 }
 
 /// `file:` and the path, for opening with options.
@@ -44,6 +83,7 @@ std::string uri(const std::filesystem::path& file, const char* options) {
 void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 
 Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
+  check_files(file);
   const bool write = mode == Mode::write;
   // A log that a writer left needs the file of shared memory beside it; where nobody may write, and no log is left, there is
   // nothing that could change.
@@ -71,8 +111,10 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   constexpr int kPatience = 5000;  // ms, for another writer: merge beside a sweep
   sqlite3_busy_timeout(opened, kPatience);
   execute("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0");
-  if (!write) return;
-  if (on_network(file)) execute("PRAGMA locking_mode = EXCLUSIVE");
+}
+
+void Database::write_ahead() {
+  if (on_network(file_)) execute("PRAGMA locking_mode = EXCLUSIVE");
   execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
 }
 
@@ -91,6 +133,8 @@ void Database::fail(int code) const {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw RunError(file_.string() + ": another program is writing it: " + text);
+    case SQLITE_NOMEM:
+      throw std::bad_alloc();
     default:
       throw RunError(file_.string() + ": cannot be written: " + text + "; what is in it stays");
   }
@@ -157,7 +201,12 @@ bool Statement::step() {
 
 int Statement::columns() const { return sqlite3_column_count(statement_.get()); }
 bool Statement::null(int at) const { return sqlite3_column_type(statement_.get(), at) == SQLITE_NULL; }
-double Statement::number(int at) const { return sqlite3_column_double(statement_.get(), at); }
+double Statement::number(int at) const {
+  const double value = sqlite3_column_double(statement_.get(), at);
+  if (std::isfinite(value)) return value;
+  throw InputError(SourceLocation{database_->file_.string()},
+                   "is not a journal that this program wrote: a number in it is infinite");
+}
 std::int64_t Statement::integer(int at) const { return sqlite3_column_int64(statement_.get(), at); }
 
 std::string Statement::text(int at) const {

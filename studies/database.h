@@ -28,9 +28,10 @@ class Statement {
   void run() { (void)step(); }
   [[nodiscard]] int columns() const;
   [[nodiscard]] bool null(int at) const;
+  /// InputError: it is infinite, which bind() never writes.
   [[nodiscard]] double number(int at) const;
   [[nodiscard]] std::int64_t integer(int at) const;
-  /// Numbers as the shortest text that gives the same double; NULL as "".
+  /// Numbers as the shortest text that gives the same double; NULL as "". InputError as above.
   [[nodiscard]] std::string text(int at) const;
 
  private:
@@ -48,11 +49,16 @@ class Statement {
 class Database {
  public:
   enum class Mode { read, write };
-  /// Schemas are not trusted, there are no extensions, triggers and views of the file do not run. Written as a write-ahead log,
-  /// which readers do not wait for; on a file system of a network, where that needs it, locked for one process.
+  /// Schemas are not trusted, there are no extensions, triggers and views of the file do not run. InputError: the file, or one
+  /// of those that SQLite keeps beside it (-wal, -shm, -journal), is a link, a FIFO, a device or too large, or its -journal
+  /// names another file, which SQLite would delete.
   Database(const std::filesystem::path& file, Mode mode);
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
+
+  /// Written from now on as a write-ahead log, which readers do not wait for; on a file system of a network, where that needs
+  /// it, locked for one process.
+  void write_ahead();
 
   void execute(const std::string& sql);
   [[nodiscard]] Statement prepare(const std::string& sql) { return {*this, sql}; }

@@ -1,18 +1,26 @@
 #include "studies/journal.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "studies/journal_tables.h"
 #include "studies/number.h"
 
 namespace gaitlab::studies {
 
 Journal::Journal(const std::filesystem::path& file, const JournalHead& head, Build build)
     : file_(file), head_(head), database_(file, Database::Mode::write), columns_(head) {
-  if (database_.integer("SELECT count(*) FROM sqlite_master") == 0 && database_.integer("PRAGMA application_id") == 0) {
+  const std::int64_t application = database_.integer("PRAGMA application_id");
+  if (database_.integer("SELECT count(*) FROM sqlite_master") == 0 && (application == 0 || application == kApplication)) {
+    // Not in the log: from here on the first bytes of the file itself say what it is, also after kill -9.
+    database_.execute(fmt::format("PRAGMA application_id = {}", kApplication));
+    database_.write_ahead();
     create();
   } else {
-    read_head();
+    read_head();  // another program's file stays as it is
+    database_.write_ahead();
     compare(head, build);
   }
   prepare();

@@ -121,6 +121,7 @@ class Journal {
   /// Opens it to be read: also while another process writes. InputError as above.
   explicit Journal(const std::filesystem::path& file);
 
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] const JournalHead& head() const { return head_; }
   [[nodiscard]] const RunColumns& columns() const { return columns_; }
   /// Whether each run has a row.

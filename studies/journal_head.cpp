@@ -87,7 +87,7 @@ std::vector<std::string> RunColumns::all() const {
 
 void Journal::create() {
   Transaction transaction(database_);
-  database_.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplication, kSchema));
+  database_.execute(fmt::format("PRAGMA user_version = {}", kSchema));
   for (const JournalTable& table : kTables) database_.execute(table.sql);
   database_.execute(columns_.sql);
   database_.execute(std::string("CREATE VIEW best AS SELECT * FROM run WHERE feasible = 1 ORDER BY \"objective.1\" ") +

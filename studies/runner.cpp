@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <new>
 
+#include "core/errors.h"
+#include "core/scenario/wording.h"
 #include "studies/suspects.h"
 
 namespace gaitlab::studies {
@@ -33,7 +37,8 @@ Runner::Runner(const Plan& plan, Journal& journal, RunnerSettings settings)
       maximize_(plan.study().objectives.front().maximize),
       present_(journal.present(plan.most_runs())),
       next_(settings_.shard.index) {
-  for (std::uint64_t run = settings_.shard.index; run < plan.most_runs(); run += settings_.shard.count) ++standing_.wanted;
+  const Shard& shard = settings_.shard;
+  if (shard.index < plan.most_runs()) standing_.wanted = (plan.most_runs() - shard.index - 1) / shard.count + 1;
   journal.each_brief([&](const Brief& one) {
     if (one.run >= present_.size() || !settings_.shard.has(one.run)) return;
     standing_.add(one, maximize_);
@@ -48,9 +53,16 @@ bool Runner::run(std::uint64_t end, std::atomic<bool>& stop) {
   const Work work{.next = [this, end] { return next(end); },
                   .begin = [this](std::span<const std::uint64_t> runs) { begin(runs); },
                   .end = [this](std::vector<Row>&& rows) { write(rows); }};
-  const bool whole = settings_.executor(work, stop);
-  forget_stopped();
-  return whole;
+  try {
+    const bool whole = settings_.executor(work, stop);
+    forget_stopped();
+    return whole;
+  } catch (const std::bad_alloc&) {
+    throw RunError(fmt::format(
+        "{}: the memory is not enough for {}; ask for fewer with -j, or raise the limit (ulimit -v, a container's); "
+        "what has ended is in the journal",
+        journal_.file().string(), counted(static_cast<std::size_t>(std::max(1, settings_.jobs)), "thread")));
+  }
 }
 
 void Runner::run_suspects(std::uint64_t end, const std::atomic<bool>& stop) {

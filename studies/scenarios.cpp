@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/scenario/resolved.h"
+#include "core/scenario/text_file.h"
 #include "core/scenario/wording.h"
 
 namespace gaitlab::studies {
@@ -25,6 +27,15 @@ std::vector<std::string> joints_of(const Scenario& scenario) {
   return names;
 }
 
+/// What was found in a scenario that the file of a study names.
+InputError without_quotes(const InputError& error, const std::filesystem::path& study, const std::string& scenario) {
+  Problems found;
+  Problems told;
+  add_all(error, found);
+  add_found(found, {scenario, study.parent_path().string(), "scenario", "gaitlab"}, told);
+  return InputError(told.list());
+}
+
 }  // namespace
 
 std::vector<StudyScenario> read_scenarios(const Study& study, Catalog& catalog) {
@@ -40,7 +51,7 @@ std::vector<StudyScenario> read_scenarios(const Study& study, Catalog& catalog) 
       one.resolved = resolved(one.nominal);
       one.joints = joints_of(one.nominal);
     } catch (const InputError& error) {
-      add_as_written(error, study, found[k]);
+      add_as_written(study.file.empty() ? error : without_quotes(error, study.file, files[k].file), study, found[k]);
     }
   }
   Problems problems;

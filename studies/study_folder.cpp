@@ -1,19 +1,18 @@
 #include "studies/study_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
+#include <chrono>
+#include <string_view>
 #include <system_error>
+#include <thread>
 
 #include "core/errors.h"
+#include "core/files/atomic_file.h"
 #include "core/recording/run_folder.h"
-#include "core/scenario/wording.h"
 #include "studies/journal.h"
+#include "studies/journal_tables.h"
 
 namespace gaitlab::studies {
 
@@ -21,82 +20,121 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string reason() { return std::generic_category().message(errno); }
+struct ShardName {
+  std::string index, count;
+};
 
-std::string first_line(int descriptor) {
-  std::array<char, 200> bytes{};
-  const ssize_t size = ::pread(descriptor, bytes.data(), bytes.size(), 0);
-  std::string text(bytes.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
-  return clipped(text.substr(0, text.find('\n')));
+/// Of I-of-N.db, also where I and N are no numbers of a shard.
+std::optional<ShardName> shard_name(const std::string& name) {
+  constexpr std::string_view kOf = "-of-";
+  constexpr std::string_view kEnd = ".db";
+  const std::size_t middle = name.find(kOf);
+  if (!name.ends_with(kEnd) || middle == std::string::npos || middle + kOf.size() + kEnd.size() > name.size()) return {};
+  const auto digits = [](const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  };
+  ShardName found{name.substr(0, middle), name.substr(middle + kOf.size())};
+  found.count.resize(found.count.size() - kEnd.size());
+  if (!digits(found.index) || !digits(found.count)) return {};
+  return found;
+}
+
+/// Nothing where a shard has no such name.
+std::optional<Shard> shard_of(const ShardName& name) {
+  constexpr std::size_t kDigits = 7;  // as of --shard
+  for (const std::string& text : {name.index, name.count}) {
+    if (text.size() > kDigits || (text.size() > 1 && text.front() == '0')) return {};
+  }
+  const Shard shard{std::stoul(name.index), std::stoul(name.count)};
+  return shard.index < shard.count ? std::optional(shard) : std::nullopt;
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+    names.push_back(entry.path().filename().string());
+  return names;
+}
+
+/// What the first bytes of a file say that it is.
+enum class Content { journal, unborn, other };
+
+/// unborn: nothing yet, or a database of which the first bytes do not say what it is, as of a process that was killed as it
+/// made its journal.
+Content content_of(const fs::path& file) {
+  constexpr std::string_view kSqlite{"SQLite format 3\0", 16};
+  constexpr std::size_t kPlace = 68;  // of the application_id, four bytes, the highest first
+  std::error_code none;
+  if (fs::is_symlink(file, none)) return Content::other;
+  std::string bytes;
+  try {
+    bytes = read_start(file, kPlace + 4);
+  } catch (const InputError&) {
+    return Content::other;
+  }
+  if (bytes.empty()) return Content::unborn;
+  if (bytes.size() < kPlace + 4 || !bytes.starts_with(kSqlite)) return Content::other;
+  std::uint32_t application = 0;
+  for (std::size_t k = 0; k < 4; ++k) application = application << 8U | static_cast<unsigned char>(bytes[kPlace + k]);
+  if (application == kApplication) return Content::journal;
+  return application == 0 ? Content::unborn : Content::other;
+}
+
+/// Whether a name is that of a journal, or of a file that SQLite keeps beside one.
+bool is_journals(const std::string& name) {
+  for (const char* behind : {"-wal", "-shm", "-journal"}) {
+    if (name.ends_with(behind)) return is_journals(name.substr(0, name.size() - std::string_view(behind).size()));
+  }
+  return name == kJournalFile || shard_name(name).has_value();
+}
+
+/// Whether nothing lies there but what a study that was killed at its start leaves.
+bool holds_a_start(const fs::path& folder) {
+  const std::vector<std::string> names = names_in(folder);
+  return std::ranges::all_of(names, [&](const std::string& name) {
+    const fs::path file = folder / name;
+    if (name == "shards") return fs::is_directory(fs::symlink_status(file)) && holds_a_start(file);
+    if (name == "lock" || name.ends_with(".lock")) return is_lock(file);
+    return is_journals(name) && (!name.ends_with(".db") || content_of(file) == Content::unborn);
+  });
+}
+
+bool holds_a_journal(const fs::path& folder) {
+  if (content_of(folder / kJournalFile) == Content::journal) return true;
+  const fs::path shards = folder / "shards";
+  return std::ranges::any_of(names_in(shards), [&](const std::string& name) {
+    return shard_name(name) && content_of(shards / name) == Content::journal;
+  });
+}
+
+/// Whether a folder that exists and is not empty is a study's. InputError: its study.db is something else.
+bool is_studys(const fs::path& folder) {
+  std::error_code none;
+  if (fs::is_empty(folder, none) || none) return false;
+  if (holds_a_journal(folder) || holds_a_start(folder)) return true;
+  if (!fs::exists(fs::symlink_status(folder / kJournalFile, none))) return false;
+  const Journal there(folder / kJournalFile);  // of an older program, which was killed: only its log says what it is
+  return true;
 }
 
 }  // namespace
 
-std::string host() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
-}
-
-Lock::Lock(fs::path file) : file_(std::move(file)) {
-  // Not followed where it is a link: what it leads to would be overwritten.
-  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-  if (descriptor_ < 0) throw InputError(SourceLocation{file_.string()}, "cannot be opened: " + reason());
-  // A killed process may not have ended yet where the next one begins: a batch system that starts a job anew.
-  constexpr int kPatience = 50;  // times 20 ms
-  int taken = ::flock(descriptor_, LOCK_EX | LOCK_NB);
-  for (int k = 0; k < kPatience && taken != 0 && errno == EWOULDBLOCK; ++k) {
-    ::usleep(20000);
-    taken = ::flock(descriptor_, LOCK_EX | LOCK_NB);
-  }
-  if (taken != 0) {
-    const int error = errno;
-    const std::string who = first_line(descriptor_);
-    ::close(descriptor_);
-    if (error != EWOULDBLOCK)
-      throw InputError(SourceLocation{file_.string()}, "cannot be locked: " + std::generic_category().message(error));
-    throw InputError(SourceLocation{file_.string()},
-                     (who.empty() ? "another process" : who) +
-                         " is writing this study; wait for it, or look at what there is with `gaitlab study show`");
-  }
-  const std::string text = fmt::format("process {} on {}\n", ::getpid(), host());
-  // For people: a study whose disk is full says so where it matters.
-  if (::ftruncate(descriptor_, 0) == 0) (void)!::pwrite(descriptor_, text.data(), text.size(), 0);
-}
-
-Lock::~Lock() {
-  if (::ftruncate(descriptor_, 0) != 0) errno = 0;
-  ::close(descriptor_);
-}
-
-std::string Lock::holder(const fs::path& file) {
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-  if (descriptor < 0) return {};
-  const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;
-  std::string who = held ? first_line(descriptor) : "";
-  ::close(descriptor);
-  return who;
-}
-
 Shards shards_in(const fs::path& folder) {
   Shards shards;
-  std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "shards", none)) {
-    const std::string name = entry.path().filename().string();
-    const std::size_t middle = name.find("-of-");
-    if (!name.ends_with(".db") || middle == std::string::npos) continue;
-    const std::string index = name.substr(0, middle);
-    const std::string count = name.substr(middle + 4, name.size() - middle - 7);
-    const auto number = [](const std::string& text) {
-      return !text.empty() && text.size() < 8 && text.find_first_not_of("0123456789") == std::string::npos;
-    };
-    if (!number(index) || !number(count)) continue;
-    const auto of = static_cast<std::uint64_t>(std::stoul(count));
-    if (shards.count != 0 && of != shards.count)
+  for (const std::string& name : names_in(folder / "shards")) {
+    const std::optional<ShardName> parts = shard_name(name);
+    if (!parts) continue;
+    const std::optional<Shard> shard = shard_of(*parts);
+    if (!shard)
+      throw InputError(SourceLocation{(folder / "shards" / name).string()},
+                       "is no shard of a study; expected I-of-N.db with I from 0 to N - 1, without zeros in front");
+    if (shards.count != 0 && shard->count != shards.count)
       throw InputError(SourceLocation{(folder / "shards").string()},
-                       fmt::format("holds shards of {} and of {}; expected those of one division", std::min(of, shards.count),
-                                   std::max(of, shards.count)));
-    shards.count = of;
-    shards.indices.push_back(std::stoul(index));
+                       fmt::format("holds shards of {} and of {}; expected those of one division",
+                                   std::min(shard->count, shards.count), std::max(shard->count, shards.count)));
+    shards.count = shard->count;
+    shards.indices.push_back(shard->index);
   }
   std::ranges::sort(shards.indices);
   return shards;
@@ -104,24 +142,32 @@ Shards shards_in(const fs::path& folder) {
 
 fs::path study_folder(const std::optional<fs::path>& out, const std::string& name,
                       const std::function<bool(const fs::path&)>& is_it) {
-  const auto has_study = [](const fs::path& folder) {
-    std::error_code none;
-    return fs::exists(folder / kJournalFile, none) || fs::exists(folder / "shards", none) || fs::exists(folder / "lock", none);
-  };
-  if (out && has_study(*out)) return *out;
   for (int k = 1; !out; ++k) {
     const fs::path folder = fs::path("runs") / (k == 1 ? name : fmt::format("{}-{}", name, k));
     std::error_code none;
     if (!fs::exists(folder, none)) break;
-    if (has_study(folder) && is_it(folder)) return folder;
+    if (is_it(folder)) return folder;
   }
-  RunFolder folder(out, name);
-  folder.keep();
-  return folder.path();
+  for (bool again = out.has_value();; again = false) {
+    if (out && is_studys(*out)) return *out;
+    try {
+      RunFolder folder(out, name);
+      folder.keep();
+      return folder.path();
+    } catch (const InputError&) {
+      if (!again) throw;
+    }
+    constexpr std::chrono::milliseconds kPatience{20};  // another shard may just have made it
+    std::this_thread::sleep_for(kPatience);
+  }
+}
+
+fs::path shard_file(const fs::path& folder, const Shard& shard) {
+  return folder / "shards" / fmt::format("{}-of-{}.db", shard.index, shard.count);
 }
 
 fs::path journal_file(const fs::path& folder, const Shard& shard) {
-  return shard.whole() ? folder / kJournalFile : folder / "shards" / fmt::format("{}-of-{}.db", shard.index, shard.count);
+  return shard.whole() ? folder / kJournalFile : shard_file(folder, shard);
 }
 
 }  // namespace gaitlab::studies

@@ -13,21 +13,27 @@
 
 namespace gaitlab {
 
+bool take_lock(int descriptor, const std::filesystem::path& folder) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return true;
+  const int error = errno;
+  if (error == EWOULDBLOCK) return false;
+  static std::string noted;  // a study locks its folder first, then the file `lock` in it
+  if (std::exchange(noted, folder.string()) != folder.string())
+    say(folder.string(), "note",
+        fmt::format("the file system has no locks ({}); let one process at a time write here",
+                    std::generic_category().message(error)));
+  return true;
+}
+
 FolderLock::~FolderLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 bool FolderLock::take(const std::filesystem::path& folder) {
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return true;  // who cannot open it cannot write it
-  if (errno == EWOULDBLOCK) {
-    ::close(std::exchange(descriptor_, -1));
-    return false;
-  }
-  say(folder.string(), "note",
-      fmt::format("the file system has no locks ({}); let one process at a time write here",
-                  std::generic_category().message(errno)));
-  return true;
+  if (descriptor_ < 0 || take_lock(descriptor_, folder)) return true;  // who cannot open it cannot write it
+  ::close(std::exchange(descriptor_, -1));
+  return false;
 }
 
 }  // namespace gaitlab

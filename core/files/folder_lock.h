@@ -4,6 +4,10 @@
 
 namespace gaitlab {
 
+/// flock(2) of what is open, without waiting, until it is closed. False: another process holds it. Where the file system has no
+/// locks a note on stderr names `folder`, once, and nothing is held.
+[[nodiscard]] bool take_lock(int descriptor, const std::filesystem::path& folder);
+
 /// Holds a folder for as long as it lives: flock(2) of the folder itself, which leaves no file and ends with the process.
 class FolderLock {
  public:
@@ -13,7 +17,7 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// False: another process holds it. Where the file system knows no locks it says so on stderr, and holds nothing.
+  /// False: another process holds it. Where the file system has no locks: as take_lock().
   [[nodiscard]] bool take(const std::filesystem::path& folder);
 
  private:

@@ -95,13 +95,15 @@ void finish_field(const Node& section, const std::string& folder, Heightfield& f
   const std::size_t before = problems.size();
   if (file != nullptr && file->kind == Node::Kind::scalar) {
     const std::string path = (std::filesystem::path(folder) / file->text).lexically_normal().string();
+    Problems found;
     try {
       const Node node = grid_node(read_text(path, file->place), path);
       grid = node.place;
-      HeightfieldFields{field, false}.set(read_rows(node, "row", kHeights, problems));
+      HeightfieldFields{field, false}.set(read_rows(node, "row", kHeights, found));
     } catch (const InputError& error) {
-      add_all(error, problems);
+      add_all(error, found);
     }
+    add_found(found, {path, folder, "file of heights", ""}, problems);
   }
   if (problems.size() != before) return;
   const bool read = values != nullptr ? values->kind == Node::Kind::list : file->kind == Node::Kind::scalar;

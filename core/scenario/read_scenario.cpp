@@ -273,13 +273,32 @@ class ScenarioReader {
     const Period cpg{"CPG step", scenario_.cpg_step, given(root_, "cpg", "step")};
     check_periods({control}, cpg, place_of(root_, "cpg", "step"), problems_);
   }
+  /// A file that the section names, and that messages may not quote; empty: there is none.
+  [[nodiscard]] std::string other_file(const Node& section) const {
+    if (section.kind == Node::Kind::scalar) {
+      const std::string path = path_from(folder_, section.text);
+      std::error_code none;
+      const bool file = section.text.find('\n') == std::string::npos && std::filesystem::is_regular_file(path, none);
+      return file && !may_quote(path, folder_) ? path : "";
+    }
+    for (const Node& item : section.items) {
+      if (std::string found = other_file(item); !found.empty()) return found;
+    }
+    return {};
+  }
+
   /// Uses a plugin; what it throws is bad input like any other.
   template <class Use>
   void attempt(Use use) {
     try {
       use();
     } catch (const PluginError& error) {
-      problems_.add(place_of(root_, word(error.kind), "type"), error.what());
+      const std::string section = word(error.kind);
+      const Node* node = root_.find(section);
+      const std::string other = node != nullptr ? other_file(*node) : "";
+      problems_.add(
+          place_of(root_, section, "type"),
+          other.empty() ? error.what() : fmt::format("{} does not take the file {}; {}", section, in_quotes(other), kNotShown));
     }
   }
 

@@ -50,15 +50,18 @@ std::vector<Dock> read_connections(Reader& reader, const std::string& folder, Pr
     problems.add(build->place, fmt::format("build is {}; expected a build file", found(*build)));
     return {};
   }
+  const std::string path = build_path(folder, name.value);
+  std::vector<Dock> rows;
+  Problems found;
   try {
-    const std::string path = build_path(folder, name.value);
     const std::string text = read_text(path, build->place);
     check_text(text, path);
-    return read_build(text, path, problems);
+    rows = read_build(text, path, found);
   } catch (const InputError& e) {
-    add_all(e, problems);
+    add_all(e, found);
   }
-  return {};
+  add_found(found, {path, folder, "build file", ""}, problems);
+  return rows;
 }
 
 std::size_t module_count(const std::vector<Dock>& docks) {

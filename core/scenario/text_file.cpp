@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
 #include "core/files/atomic_file.h"
+#include "core/scenario/data_folder.h"
 
 namespace gaitlab {
 namespace {
@@ -39,7 +44,45 @@ std::string bad_character(const std::string& text, std::size_t at) {
   return {};
 }
 
+/// Whether a file lies in a folder; false where either cannot be told.
+bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  std::error_code failure;
+  const std::filesystem::path inner = std::filesystem::canonical(file, failure);
+  if (failure) return false;
+  const std::filesystem::path outer = std::filesystem::canonical(folder.empty() ? "." : folder, failure);
+  if (failure) return false;
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+/// Whether a line of the file begins with the key.
+bool says(const NamedFile& file) {
+  if (file.key.empty()) return false;
+  try {
+    const std::string text = "\n" + read_text(file.path);
+    return text.find("\n" + file.key + ":") != std::string::npos;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 }  // namespace
+
+bool may_quote(const std::string& path, const std::string& folder) {
+  return lies_in(path, folder) || lies_in(path, data_folder());
+}
+
+void add_found(const Problems& found, const NamedFile& file, Problems& problems) {
+  const auto of_file = [&](const Problem& problem) { return problem.place.file == file.path; };
+  const bool hidden = std::ranges::any_of(found.list(), of_file) && !may_quote(file.path, file.folder) && !says(file);
+  bool first = true;
+  for (const Problem& problem : found.list()) {
+    if (!hidden || !of_file(problem)) {
+      problems.add(problem.place, problem.text).notes = problem.notes;
+    } else if (std::exchange(first, false)) {
+      problems.add(problem.place, fmt::format("is not a {}; {}", file.kind, kNotShown));
+    }
+  }
+}
 
 std::string read_text(const std::string& path, const SourceLocation& asked_at) {
   std::string text;

@@ -57,7 +57,7 @@ void TypeLibrary::define(const Node& types) {
 std::optional<std::size_t> TypeLibrary::find(const Node& node) {
   if (node.kind == Node::Kind::map) {
     const auto [seen, fresh] = inline_.emplace(&node, Index{});
-    return fresh ? seen->second = read(node, false) : seen->second;
+    return fresh ? seen->second = read(node, false, problems_) : seen->second;
   }
   if (node.kind != Node::Kind::scalar) {
     problems_.add(node.place, fmt::format("the module type is {}; expected a name, a file or a map", found(node)));
@@ -70,7 +70,7 @@ std::optional<std::size_t> TypeLibrary::find_name(const Node& node) {
   const auto [seen, fresh] = seen_.emplace("name " + node.text, Index{});
   if (!fresh) return seen->second;
   if (const auto defined = defined_.find(node.text); defined != defined_.end()) {
-    return seen->second = read(*defined->second, false);
+    return seen->second = read(*defined->second, false, problems_);
   }
   std::vector<std::string> known;
   for (const auto& [name, type] : defined_) known.push_back(name);
@@ -90,19 +90,21 @@ std::optional<std::size_t> TypeLibrary::find_name(const Node& node) {
 std::optional<std::size_t> TypeLibrary::read_file(const std::string& path, const SourceLocation& asked_at) {
   const auto [seen, fresh] = seen_.emplace(file_key(path), Index{});
   if (!fresh) return seen->second;
+  Problems found;
   try {
-    const std::optional<Node> document = parse_yaml(read_text(path, asked_at), path, problems_);
-    if (document) return seen->second = read(*document, true);
+    const std::optional<Node> document = parse_yaml(read_text(path, asked_at), path, found);
+    if (document) seen->second = read(*document, true, found);
   } catch (const InputError& e) {
-    add_all(e, problems_);
+    add_all(e, found);
   }
-  return {};
+  add_found(found, {path, folder_, "module file", "gaitlab_module"}, problems_);
+  return seen->second;
 }
 
-std::optional<std::size_t> TypeLibrary::read(const Node& document, bool versioned) {
-  const std::size_t before = problems_.size();
-  ModuleType type = read_module(document, versioned, problems_);
-  if (problems_.size() != before) return {};
+std::optional<std::size_t> TypeLibrary::read(const Node& document, bool versioned, Problems& problems) {
+  const std::size_t before = problems.size();
+  ModuleType type = read_module(document, versioned, problems);
+  if (problems.size() != before) return {};
   types.push_back(std::move(type));
   documents.push_back(document);
   return types.size() - 1;

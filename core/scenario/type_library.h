@@ -33,7 +33,7 @@ class TypeLibrary {
 
   Index find_name(const Node& node);
   Index read_file(const std::string& path, const SourceLocation& asked_at);
-  Index read(const Node& document, bool versioned);
+  Index read(const Node& document, bool versioned, Problems& problems);
   [[nodiscard]] std::vector<std::string> search_folders() const;
 
   std::string folder_;

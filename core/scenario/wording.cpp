@@ -38,11 +38,13 @@ std::string range_text(const Spec& spec) {
 std::string clipped(const std::string& text) {
   constexpr std::size_t kLongest = 60;
   std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const bool starts_character = (c & 0xC0U) != 0x80;
-    if (out.size() >= kLongest && starts_character) return out + "...";
-    out += c < 0x20 || c == 0x7F ? fmt::format("\\x{:02x}", c) : std::string(1, text[i]);
+  const auto goes_on = [&](std::size_t i) { return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80; };
+  for (std::size_t i = 0; i < text.size();) {
+    if (out.size() >= kLongest) return out + "...";
+    std::size_t character = 1;
+    while (character < 4 && goes_on(i + character)) ++character;
+    out += one_line(text.substr(i, character));
+    i += character;
   }
   return out;
 }

@@ -105,6 +105,17 @@ TEST(Value, RangesInWords) {
 TEST(Value, MessagesShowNoControlCharactersAndStayShort) {
   EXPECT_EQ(in_quotes("a\x1b[31m"), "'a\\x1b[31m'");
   EXPECT_EQ(clipped(std::string(500, 'x')), std::string(60, 'x') + "...");
+  EXPECT_EQ(clipped(std::string(60, 'x')), std::string(60, 'x'));
+  EXPECT_EQ(clipped("\xc2\x9b!"), "\\xc2\\x9b!");
+  // Marks of the bidirectional algorithm: the first and last of each group, and what is beside them.
+  for (const char* mark : {"\u061c", "\u200e", "\u200f", "\u202a", "\u202e", "\u2066", "\u2069"}) {
+    EXPECT_TRUE(clipped(mark).starts_with("\\x")) << clipped(mark);
+    EXPECT_EQ(clipped(mark), one_line(mark));
+  }
+  for (const char* letter :
+       {"\u061b", "\u061d", "\u200d", "\u2010", "\u2029", "\u202f", "\u2065", "\u206a", "\u00e9", "\u05d0"})
+    EXPECT_EQ(clipped(letter), letter);
+  EXPECT_EQ(clipped("a\xe2\x80"), "a\xe2\x80");  // cut within a mark
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+// The file `lock` of a study, or of one of its shards: one process at a time writes.
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace gaitlab::studies {
+
+/// Holds the lock of a file for as long as it lives; the file says who.
+class Lock {
+ public:
+  /// Makes the file, or takes one of its own kind: regular, under one name, empty or with the line `process N on HOST`.
+  /// InputError: it is another; another process holds it and keeps it for a second, `PATH: error: process 12 on HOST is writing
+  /// this study`. Where the file system has no locks: as take_lock().
+  explicit Lock(std::filesystem::path file);
+  ~Lock();
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+  /// Who holds it, or "".
+  static std::string holder(const std::filesystem::path& file);
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+};
+
+/// Whether a file is a lock of a study, which nobody need hold: regular, under one name, empty or with such a line.
+bool is_lock(const std::filesystem::path& file);
+
+/// Name of this machine.
+std::string host();
+
+}  // namespace gaitlab::studies
