@@ -82,9 +82,10 @@ TEST(Node, DepthAndSizeAreLimited) {
 
 TEST(Node, AnAliasBombCostsNothing) {
   std::string bomb = "a0: &a0 [x, x]\n";
-  for (int i = 1; i < 40; ++i)
-    bomb += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [*a" + std::to_string(i - 1) + ", *a" +
-            std::to_string(i - 1) + "]\n";
+  for (int i = 1; i < 40; ++i) {
+    const std::string before = "*a" + std::to_string(i - 1);
+    bomb += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + before + ", " + before + "]\n";
+  }
   EXPECT_NE(error(bomb).find("found an alias"), std::string::npos);
 }
 
