@@ -70,7 +70,7 @@ wait_until() {
       "$@" # it may have succeeded just before the end
       return
     fi
-    sleep 0.02
+    sleep 0.05
   done
 }
 # wait_for PROCESS WHAT COMMAND...: the same; where it waits in vain the script ends.
