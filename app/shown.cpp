@@ -21,7 +21,7 @@ namespace gaitlab::app {
 
 namespace {
 
-/// Lines for a terminal: the outcome of a recorded run is a text of whoever made the file.
+/// Lines for a terminal: the outcome of a recorded run is a text of another author.
 std::string printed(const std::string& text) {
   std::string all;
   for (std::size_t at = 0; at < text.size();) {

@@ -88,10 +88,10 @@ int export_study(const StudyArguments& a) {
   return 0;
 }
 
-/// Numbers in ascending order, of which there may be very many.
+/// A set of very many numbers, added in ascending order.
 class Ranges {
  public:
-  /// All from `first` to `last`, both included and above those that were added before.
+  /// Adds `first` to `last`, both included and above all earlier numbers.
   void add(std::uint64_t first, std::uint64_t last) {
     count_ += last - first + 1;
     if (!ranges_.empty() && ranges_.back().second + 1 == first) {
@@ -168,7 +168,7 @@ int merge_study(const StudyArguments& a) {
   const std::uint64_t lacking = shards.count == 0 && rows < all->head().runs ? all->head().runs - rows : 0;
   if (lacking > 0)
     say(a.folder, "error",
-        fmt::format("{} of {} runs have not ended; go on with: {}", lacking, all->head().runs, all->head().command));
+        fmt::format("{} of {} runs have not ended; continue with: {}", lacking, all->head().runs, all->head().command));
   return missing.count() > 0 || lacking > 0 ? 1 : 0;
 }
 

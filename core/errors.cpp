@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t kMostProblems = 200;  // more help nobody
 constexpr std::size_t kMostBytes = 500;  // of one: what a user wrote is clipped where it is put in, this is for what was missed
 
-/// The bytes of the control character that begins at `i`, in UTF-8: those of ASCII, the second set, and the marks of the
-/// bidirectional algorithm, with which a text shows in another order than it is written; else 0.
+/// Number of bytes of the control character that begins at `i`, in UTF-8: ASCII, the second set, or a bidirectional mark, which
+/// shows a text in another order than its bytes; else 0.
 std::size_t control_at(std::string_view text, std::size_t i) noexcept {
   const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
   const unsigned second = byte(i + 1);

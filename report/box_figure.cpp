@@ -47,7 +47,9 @@ double quartile(const std::vector<double>& sorted, double share) {
   const double at = share * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(at);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+  const double part = at - static_cast<double>(below);
+  const double between = sorted[above] - sorted[below];
+  return std::isfinite(between) ? sorted[below] + part * between : (1 - part) * sorted[below] + part * sorted[above];
 }
 
 std::string box_svg(const BoxFigure& figure) {

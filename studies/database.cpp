@@ -31,8 +31,8 @@ bool on_network(const std::filesystem::path& file) {
   return std::ranges::find(kNetworks, static_cast<unsigned long>(about.f_type)) != kNetworks.end();
 }
 
-/// Whether the rollback journal ends with the name of a super-journal, as of a transaction over several databases. This program
-/// writes none, and SQLite deletes the file of that name, wherever it is.
+/// Checks that the rollback journal ends with the name of a super-journal, as a transaction over several databases leaves it.
+/// This program writes none, and SQLite deletes the file of that name, wherever it is.
 bool names_another_file(const std::filesystem::path& journal) {
   constexpr std::string_view kMagic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
   std::ifstream file(journal, std::ios::binary);
@@ -111,12 +111,11 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   constexpr int kPatience = 5000;  // ms, for another writer: merge beside a sweep
   sqlite3_busy_timeout(opened, kPatience);
   execute("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0");
+  // Before the first look at a write-ahead log, which else takes shared memory.
+  if (write && on_network(file)) execute("PRAGMA locking_mode = EXCLUSIVE");
 }
 
-void Database::write_ahead() {
-  if (on_network(file_)) execute("PRAGMA locking_mode = EXCLUSIVE");
-  execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
-}
+void Database::write_ahead() { execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL"); }
 
 void Database::fail(int code) const {
   const std::string text = database_ ? sqlite3_errmsg(database_.get()) : sqlite3_errstr(code);

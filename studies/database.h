@@ -49,15 +49,15 @@ class Statement {
 class Database {
  public:
   enum class Mode { read, write };
-  /// Schemas are not trusted, there are no extensions, triggers and views of the file do not run. InputError: the file, or one
-  /// of those that SQLite keeps beside it (-wal, -shm, -journal), is a link, a FIFO, a device or too large, or its -journal
+  /// Schemas are not trusted, there are no extensions, triggers and views of the file do not run. InputError: the file, or a
+  /// file that SQLite keeps beside it (-wal, -shm, -journal), is a link, a FIFO, a device or too large, or its -journal
   /// names another file, which SQLite would delete.
   Database(const std::filesystem::path& file, Mode mode);
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
-  /// Written from now on as a write-ahead log, which readers do not wait for; on a file system of a network, where that needs
-  /// it, locked for one process.
+  /// Written from now on as a write-ahead log, which readers do not wait for; file systems of networks need
+  /// a lock for one process then.
   void write_ahead();
 
   void execute(const std::string& sql);

@@ -14,7 +14,7 @@ Journal::Journal(const std::filesystem::path& file, const JournalHead& head, Bui
     : file_(file), head_(head), database_(file, Database::Mode::write), columns_(head) {
   const std::int64_t application = database_.integer("PRAGMA application_id");
   if (database_.integer("SELECT count(*) FROM sqlite_master") == 0 && (application == 0 || application == kApplication)) {
-    // Not in the log: from here on the first bytes of the file itself say what it is, also after kill -9.
+    // Written before the log begins, so that the first bytes of the file identify it, also after kill -9.
     database_.execute(fmt::format("PRAGMA application_id = {}", kApplication));
     database_.write_ahead();
     create();

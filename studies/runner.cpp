@@ -58,10 +58,10 @@ bool Runner::run(std::uint64_t end, std::atomic<bool>& stop) {
     forget_stopped();
     return whole;
   } catch (const std::bad_alloc&) {
-    throw RunError(fmt::format(
-        "{}: the memory is not enough for {}; ask for fewer with -j, or raise the limit (ulimit -v, a container's); "
-        "what has ended is in the journal",
-        journal_.file().string(), counted(static_cast<std::size_t>(std::max(1, settings_.jobs)), "thread")));
+    throw RunError(
+        fmt::format("{}: the memory is not enough for {}; take fewer with -j, or raise the limit (ulimit -v, a container's); "
+                    "the runs that have ended are in the journal",
+                    journal_.file().string(), counted(static_cast<std::size_t>(std::max(1, settings_.jobs)), "thread")));
   }
 }
 

@@ -27,7 +27,7 @@ std::vector<std::string> joints_of(const Scenario& scenario) {
   return names;
 }
 
-/// What was found in a scenario that the file of a study names.
+/// The problems of a scenario that the file of a study names.
 InputError without_quotes(const InputError& error, const std::filesystem::path& study, const std::string& scenario) {
   Problems found;
   Problems told;

@@ -24,7 +24,7 @@ struct ShardName {
   std::string index, count;
 };
 
-/// Of I-of-N.db, also where I and N are no numbers of a shard.
+/// The two numbers in I-of-N.db, also if a shard cannot have them.
 std::optional<ShardName> shard_name(const std::string& name) {
   constexpr std::string_view kOf = "-of-";
   constexpr std::string_view kEnd = ".db";
@@ -39,7 +39,7 @@ std::optional<ShardName> shard_name(const std::string& name) {
   return found;
 }
 
-/// Nothing where a shard has no such name.
+/// Nothing if a shard cannot have such a name.
 std::optional<Shard> shard_of(const ShardName& name) {
   constexpr std::size_t kDigits = 7;  // as of --shard
   for (const std::string& text : {name.index, name.count}) {
@@ -57,11 +57,11 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-/// What the first bytes of a file say that it is.
+/// The kind of a file by its first bytes.
 enum class Content { journal, unborn, other };
 
-/// unborn: nothing yet, or a database of which the first bytes do not say what it is, as of a process that was killed as it
-/// made its journal.
+/// unborn: an empty file, or a database without an application ID, as a process leaves it that was killed while it made its
+/// journal.
 Content content_of(const fs::path& file) {
   constexpr std::string_view kSqlite{"SQLite format 3\0", 16};
   constexpr std::size_t kPlace = 68;  // of the application_id, four bytes, the highest first
@@ -81,7 +81,7 @@ Content content_of(const fs::path& file) {
   return application == 0 ? Content::unborn : Content::other;
 }
 
-/// Whether a name is that of a journal, or of a file that SQLite keeps beside one.
+/// Checks that a name belongs to a journal, or to a file that SQLite keeps beside a journal.
 bool is_journals(const std::string& name) {
   for (const char* behind : {"-wal", "-shm", "-journal"}) {
     if (name.ends_with(behind)) return is_journals(name.substr(0, name.size() - std::string_view(behind).size()));
@@ -89,7 +89,7 @@ bool is_journals(const std::string& name) {
   return name == kJournalFile || shard_name(name).has_value();
 }
 
-/// Whether nothing lies there but what a study that was killed at its start leaves.
+/// Checks that the folder holds only the files of a study that was killed at its start.
 bool holds_a_start(const fs::path& folder) {
   const std::vector<std::string> names = names_in(folder);
   return std::ranges::all_of(names, [&](const std::string& name) {
@@ -108,13 +108,13 @@ bool holds_a_journal(const fs::path& folder) {
   });
 }
 
-/// Whether a folder that exists and is not empty is a study's. InputError: its study.db is something else.
+/// Checks that a folder belongs to a study; false for an empty one. InputError: its study.db is something else.
 bool is_studys(const fs::path& folder) {
   std::error_code none;
   if (fs::is_empty(folder, none) || none) return false;
   if (holds_a_journal(folder) || holds_a_start(folder)) return true;
   if (!fs::exists(fs::symlink_status(folder / kJournalFile, none))) return false;
-  const Journal there(folder / kJournalFile);  // of an older program, which was killed: only its log says what it is
+  const Journal there(folder / kJournalFile);  // older programs wrote the application ID into the log alone
   return true;
 }
 

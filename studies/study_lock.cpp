@@ -21,14 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// At most 300 bytes, which a lock of this program does not have.
+/// The first 300 bytes: more than a lock of this program has.
 std::string start_of(int descriptor) {
   std::array<char, 300> bytes{};
   const ssize_t size = ::pread(descriptor, bytes.data(), bytes.size(), 0);
   return {bytes.data(), size > 0 ? static_cast<std::size_t>(size) : 0};
 }
 
-/// `process 12 on HOST` of a lock that is held; empty where it does not say so.
+/// The line `process 12 on HOST` of a lock; empty if the text is another.
 std::string holder_in(const std::string& text) {
   constexpr std::string_view kProcess = "process ";
   const std::size_t digits = text.find_first_not_of("0123456789", kProcess.size());
@@ -54,7 +54,7 @@ int open_there(const fs::path& file, int how) {
   return ::open(file.c_str(), how | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY);
 }
 
-/// New, or the one that is there.
+/// Creates the file, or opens the existing one.
 int open_lock(const fs::path& file) {
   constexpr int kPatience = 100;  // another process may remove it in between
   for (int k = 0; k < kPatience; ++k) {

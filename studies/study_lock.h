@@ -8,9 +8,9 @@ namespace gaitlab::studies {
 /// Holds the lock of a file for as long as it lives; the file says who.
 class Lock {
  public:
-  /// Makes the file, or takes one of its own kind: regular, under one name, empty or with the line `process N on HOST`.
+  /// Makes the file, or takes an existing lock: a regular file, under one name, empty or with the line `process N on HOST`.
   /// InputError: it is another; another process holds it and keeps it for a second, `PATH: error: process 12 on HOST is writing
-  /// this study`. Where the file system has no locks: as take_lock().
+  /// this study`. File systems without locks: see take_lock().
   explicit Lock(std::filesystem::path file);
   ~Lock();
   Lock(const Lock&) = delete;
@@ -24,7 +24,7 @@ class Lock {
   int descriptor_ = -1;
 };
 
-/// Whether a file is a lock of a study, which nobody need hold: regular, under one name, empty or with such a line.
+/// Checks that a file is the lock of a study, held or free: regular, under one name, empty or with such a line.
 bool is_lock(const std::filesystem::path& file);
 
 /// Name of this machine.

@@ -4,8 +4,8 @@
 
 namespace gaitlab {
 
-/// flock(2) of what is open, without waiting, until it is closed. False: another process holds it. Where the file system has no
-/// locks a note on stderr names `folder`, once, and nothing is held.
+/// flock(2) of an open file or folder, without waiting, until it is closed. False: another process holds it. On a file system
+/// without locks a note on stderr names `folder`, once, and the result is true.
 [[nodiscard]] bool take_lock(int descriptor, const std::filesystem::path& folder);
 
 /// Holds a folder for as long as it lives: flock(2) of the folder itself, which leaves no file and ends with the process.
@@ -17,7 +17,7 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// False: another process holds it. Where the file system has no locks: as take_lock().
+  /// False: another process holds it. File systems without locks: see take_lock().
   [[nodiscard]] bool take(const std::filesystem::path& folder);
 
  private:

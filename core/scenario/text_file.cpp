@@ -44,7 +44,7 @@ std::string bad_character(const std::string& text, std::size_t at) {
   return {};
 }
 
-/// Whether a file lies in a folder; false where either cannot be told.
+/// Checks that a file is within a folder; false also if either path cannot be resolved.
 bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
   std::error_code failure;
   const std::filesystem::path inner = std::filesystem::canonical(file, failure);
@@ -54,7 +54,7 @@ bool lies_in(const std::filesystem::path& file, const std::filesystem::path& fol
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
-/// Whether a line of the file begins with the key.
+/// Checks that a line of the file begins with the key.
 bool says(const NamedFile& file) {
   if (file.key.empty()) return false;
   try {

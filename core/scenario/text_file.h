@@ -15,17 +15,17 @@ struct NamedFile {
   std::string path;
   std::string folder;  ///< of the text that names it
   std::string kind;    ///< `module file`
-  std::string key;     ///< with which a line of every such file begins, as gaitlab_module; empty: none
+  std::string key;     ///< first word of a line of every such file, as gaitlab_module; may be empty
 };
 
-/// Whether messages may quote a file that a text in `folder` names: it lies there, links followed, or comes with the program. A
-/// stranger's text may name any file of this machine, and messages are read by others where they go into the log of a CI.
+/// Checks that messages may quote a file that a text in `folder` names: the file is within `folder`, links followed, or comes
+/// with the program. A text from elsewhere may name any file of this machine, and other people read the log of a CI.
 bool may_quote(const std::string& path, const std::string& folder);
-/// How a message on another file ends.
+/// End of a message on another file.
 inline constexpr const char* kNotShown = "its text is not shown, because it lies outside the folder of the file that names it";
 
-/// Adds what was found in such a file. Where messages may not quote it, and no line begins with its key, what was found there
-/// becomes one problem without a word of it: `is not a module file; ...`.
+/// Adds the problems of such a file. If messages may not quote it, and none of its lines begins with its key, all of them
+/// become one problem without a word of the file: `is not a module file; ...`.
 void add_found(const Problems& found, const NamedFile& file, Problems& problems);
 
 /// Throws InputError at the first byte that no text has: invalid UTF-8, NUL or another control character, a CR without LF.

@@ -1,4 +1,4 @@
-// Folders of studies that somebody made up, or that are somebody's: FIFOs, names of shards, locks, files that are no study's.
+// Forged folders of studies, and folders of users: FIFOs, names of shards, locks, files of other programs.
 #include <sys/stat.h>
 
 #include "app/study_figures.h"
@@ -84,9 +84,8 @@ TEST_F(StudyFolder, NoLinkIsFollowedAndNoOtherFileIsDeleted) {
   fs::rename(folder_ / "m/study.db", folder_ / "elsewhere.db");
   fs::create_symlink(folder_ / "elsewhere.db", folder_ / "m/study.db");
   ends("study show m", 2, "m/study.db: error: cannot be read: is a link; name the file that it leads to\n");
-  // SQLite plays back a -journal that it finds, and then deletes the file that the journal names as that of other databases,
-  // too.
   copy("whole");
+  // SQLite plays back a -journal, and deletes the file that the -journal names as its super-journal.
   const std::string mine = folder_.write("mine.txt", "precious");
   folder_.write("m/study.db-journal", journal_naming(mine));
   for (const char* command : {"study show m", "study merge m"})
@@ -119,7 +118,7 @@ TEST_F(StudyFolder, ThatIsNoStudysStaysAsItIs) {
   const std::string bytes = read(folder_ / "other/study.db");
   ends(kInto + "other", 2, "other/study.db: error: is a database of SQLite, and not the journal of a study\n");
   EXPECT_EQ(read(folder_ / "other/study.db"), bytes);
-  // In a study, too, a lock that is none stays.
+  // A file `lock` of the user stays in the folder of a study as well.
   made(kInto + "s");
   folder_.write("s/lock", "mine");
   ends(kInto + "s", 2, "s/lock: error: is not the lock of a study: ");
@@ -179,7 +178,7 @@ TEST_F(StudyFolder, AnArrayOfOneTaskMerges) {
   fs::copy(folder_ / "one/study.db", folder_ / "two/shards/0-of-1.db");
   EXPECT_EQ(call("study merge two").out, "two/study.db: 4 of 4 runs\n");
   studies::Database(folder_ / "one/study.db", studies::Database::Mode::write).execute("DELETE FROM run WHERE run = 2");
-  ends("study merge one", 1, "one: error: 1 of 4 runs have not ended; go on with: gaitlab sweep two.yaml ");
+  ends("study merge one", 1, "one: error: 1 of 4 runs have not ended; continue with: gaitlab sweep two.yaml ");
 }
 
 // A flock() that a file system does not have, as Lustre without -o flock.
@@ -222,8 +221,8 @@ TEST_F(StudyFolder, AnInfiniteNumberIsNoneOfAJournal) {
   }
 }
 
-// What cannot be written is a run that failed, no bad input. A limit of 50 kB for each file (of the shell, in blocks of 512
-// bytes) stands for a full disk: the trace has more.
+// Files that cannot be written are a failed run, not bad input. A limit of 50 kB for each file (of the shell, in blocks of 512
+// bytes) acts as a full disk: the trace has more.
 TEST_F(StudyFolder, ARerunThatCannotBeWrittenFails) {
   made(kInto + "s");
   ends("study rerun s 1 --out again", 1, "gaitlab: error: again/trace.h5: cannot be written: ", "ulimit -f 100;");
@@ -246,8 +245,8 @@ TEST_F(StudyFolder, MemoryThatIsNotEnoughIsToldWithARemedy) {
   } catch (const RunError& error) {
     EXPECT_EQ(std::string(error.what()),
               (folder_ / "study.db") +
-                  ": the memory is not enough for 64 threads; ask for fewer with -j, or raise the limit (ulimit -v, a "
-                  "container's); what has ended is in the journal");
+                  ": the memory is not enough for 64 threads; take fewer with -j, or raise the limit (ulimit -v, a "
+                  "container's); the runs that have ended are in the journal");
   }
 }
 

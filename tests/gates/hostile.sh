@@ -113,4 +113,33 @@ if unshare -m true 2>/dev/null && unshare -m mount -t tmpfs none "$work/disk" 2>
 else
   skip "a full file system" "needs root and mount"
 fi
+
+# Nothing in a folder is waited for: FIFOs under every name that is opened there. A command that hangs is killed after two minutes.
+sed -i 's/runs: 160/runs: 24/' "$work/study.yaml"
+# bounded CASE CODES COMMAND...: as ends, with a limit that no load reaches.
+bounded() {
+  local code=0
+  timeout -s KILL 120 "${@:3}" >"$work/log" 2>&1 || code=$?
+  [[ " $2 " == *" $code "* ]] || { show_log; bad "$1: exit code $code, expected one of $2: ${*:3}"; }
+}
+for name in study.db study.db-wal study.db-shm study.db-journal; do
+  copy
+  rm -f -- "$work/now/$name"
+  mkfifo "$work/now/$name"
+  for verb in show report best; do bounded "FIFO $name" 2 "$program" study $verb "$work/now"; done
+  said "$name: error: cannot be read: not a regular file"
+  bounded "FIFO $name" 2 "$program" study rerun "$work/now" 1
+  bounded "FIFO $name" 2 "$program" sweep "$work/study.yaml" --quiet -j 1 --out "$work/now"
+  bounded "FIFO $name" 2 "$program" sweep "$work/study.yaml" --quiet -j 1 --out "$work/fresh" --answers "$work/now/study.db"
+done
+copy
+rm -f -- "$work/now/lock"
+mkfifo "$work/now/lock"
+bounded "FIFO lock" 0 "$program" study show "$work/now"
+bounded "FIFO lock" 2 "$program" sweep "$work/study.yaml" --quiet -j 1 --out "$work/now"
+said "is not the lock of a study"
+mkdir -p "$work/parts/shards"
+mkfifo "$work/parts/shards/0-of-4.db"
+bounded "FIFO of a shard" 2 "$program" study merge "$work/parts"
+ok "FIFOs in the folder of a study are refused"
 verdict

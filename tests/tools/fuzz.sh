@@ -14,7 +14,7 @@ cmake --preset fuzz >/dev/null
 cmake --build build/fuzz --target input_fuzz --parallel "$(nproc)"
 
 declare -A shipped=([scenario]='scenarios/*.yaml' [build]='scenarios/robots/*.dat' [module]='scenarios/modules/*.yaml'
-  [study]='scenarios/studies/*.yaml')
+  [study]='scenarios/studies/*.yaml' [recipe]='scenarios/figures/*.yaml')
 mkdir -p build/fuzz/found
 for reader in "${words[@]}"; do
   corpus=build/fuzz/corpus/$reader

@@ -107,7 +107,7 @@ TEST(Value, MessagesShowNoControlCharactersAndStayShort) {
   EXPECT_EQ(clipped(std::string(500, 'x')), std::string(60, 'x') + "...");
   EXPECT_EQ(clipped(std::string(60, 'x')), std::string(60, 'x'));
   EXPECT_EQ(clipped("\xc2\x9b!"), "\\xc2\\x9b!");
-  // Marks of the bidirectional algorithm: the first and last of each group, and what is beside them.
+  // Bidirectional marks: the first and last of each group, and their neighbours.
   for (const char* mark : {"\u061c", "\u200e", "\u200f", "\u202a", "\u202e", "\u2066", "\u2069"}) {
     EXPECT_TRUE(clipped(mark).starts_with("\\x")) << clipped(mark);
     EXPECT_EQ(clipped(mark), one_line(mark));
