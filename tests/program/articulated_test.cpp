@@ -236,6 +236,7 @@ trace: {{period: {}, columns: [joint.*]}}
   }
 }
 
+// Above 5 s each: the walks in engine bullet against which those of all other tests, in engine articulated, are held.
 class WalkOfTwoEngines : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Of, WalkOfTwoEngines, testing::Values("caterpillar", "hexapod", "rubble"));
 
