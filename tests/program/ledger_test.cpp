@@ -10,7 +10,6 @@ const std::string kColumns = "trace.columns=[energy.*]";
 
 Ledger ledger(const Scenario& s) { return run(s).ledger; }
 
-// About 5 s each: the order of bullet's method shows only at its default step and at half of it.
 class LedgerOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(LedgerOf, ExplainsTheElectricalEnergy) {

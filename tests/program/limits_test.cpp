@@ -114,7 +114,6 @@ std::vector<Case> cases() {
   };
 }
 
-// Those of 22 joints take above 5 s, because the truth is engine bullet at 10 us.
 class Limits : public testing::TestWithParam<Case> {};
 
 TEST_P(Limits, AreMetAsByBulletAtAFineStep) {
