@@ -141,7 +141,7 @@ def prepare(folder):
     shutil.copytree(ROOT / "scenarios/modules", folder / "modules")
     (folder / "two.yaml").write_text(SCENARIO)
     (folder / "study.yaml").write_text(STUDY + "method: {type: random}\nbudget: {runs: 4}\n")
-    (folder / "search.yaml").write_text(STUDY + "objective: {maximize: speed}\nmethod: {type: cma, population: 8}\nbudget: {runs: 8}\n")
+    (folder / "search.yaml").write_text(STUDY + "objective: {maximize: speed}\nmethod: {type: cma, population: 5, instances: 1}\nbudget: {runs: 20}\n")
     (folder / "recipe.yaml").write_text("gaitlab: 1\nruns: {two: run}\npanels:\n  - kind: curves\n    left: {columns: [joint.0.angle]}\n")
     (folder / "state.json").write_text("{}\n")
     expect(gaitlab("run two.yaml --quiet --out run"), folder)
