@@ -16,10 +16,10 @@ const std::string kInto = "sweep two.yaml --grid cpg.phase_lag=0.5:1.5:4 --quiet
 
 class StudyFolder : public StudyFixture {
  protected:
-  /// A command that would wait for ever is killed after two minutes: a minute of a machine that is a hundred times slower.
+  /// A command that would wait for ever is killed after ten minutes.
   void ends(const std::string& arguments, int code, const std::string& message, const std::string& before = "") {
     const Folder capture;
-    const std::string command = "cd '" + folder_.path().string() + "' && " + before + " timeout -s KILL 120 '" +
+    const std::string command = "cd '" + folder_.path().string() + "' && " + before + " timeout -s KILL 600 '" +
                                 std::string(GAITLAB_BINARY_DIR) + "/bin/gaitlab' " + arguments + " >'" + (capture / "out") +
                                 "' 2>'" + (capture / "err") + "'";
     const int status = std::system(command.c_str());
