@@ -99,6 +99,7 @@ double rate(const Engine& engine, const Lane& lane, Base base) {
   return plant->stability(0, lane.command, false).rate;
 }
 
+// 5 s of CPU for `adaptive`: each rollout alone, and among others at every place of every width.
 TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
   if (engine().lanes.size() < 2) GTEST_SKIP() << "this processor has neither AVX2 nor AVX-512";
   constexpr int kSteps = 60;

@@ -144,6 +144,7 @@ TEST(Versus, MujocoInTheAirIsOurRobot) {
   EXPECT_GT(versus::torque_error(torques("mujoco", "dcmotor", 1.25e-4, 1.2), limited, 0).worst, 0.1);  // it binds
 }
 
+// 6 s of CPU: every method of three engines, and the reference of the race.
 TEST(Versus, ARaceNamesEverybodyWithFiniteErrors) {
   versus::RaceSettings settings;
   settings.scenarios = {kScenarios + "hexapod.yaml"};

@@ -1,6 +1,7 @@
 // The guards against yaml-cpp 0.7 (traps.md), and print_yaml.
 #include "core/scenario/node.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/core/scenario/fakes.h"
@@ -82,7 +83,7 @@ TEST(Node, AnAliasBombCostsNothing) {
   std::string bomb = "a0: &a0 [x, x]\n";
   for (int i = 1; i < 40; ++i) {
     const std::string before = "*a" + std::to_string(i - 1);
-    bomb += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + before + ", " + before + "]\n";
+    bomb += fmt::format("a{0}: &a{0} [{1}, {1}]\n", i, before);
   }
   EXPECT_NE(error(bomb).find("found an alias"), std::string::npos);
 }
