@@ -71,7 +71,7 @@ Values values_of(Journal& journal, const std::vector<std::size_t>& parameters, c
   Values values;
   journal.each_row(columns, [&](const std::vector<std::string>& row) {
     const auto number = [&](std::size_t at) { return row[at].empty() ? std::nan("") : studies::number_of(row[at]); };
-    values.run.push_back(static_cast<std::uint64_t>(number(0)));
+    values.run.push_back(studies::run_number_of(row[0]));
     auto& p = values.parameters.emplace_back();
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       const JournalParameter& of = journal.head().parameters[parameters[k]];

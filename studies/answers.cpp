@@ -171,7 +171,7 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
   std::vector<std::string> columns{"run", "point", "replicate", "seed"};
   if (journal_->columns().scenario) columns.emplace_back("scenario");
   journal_->each_row(columns, [&](const std::vector<std::string>& row) {
-    runs_.emplace(key_of(row[1], row[2], row[3], row.size() > 4 ? row[4] : ""), static_cast<std::uint64_t>(number_of(row[0])));
+    runs_.emplace(key_of(row[1], row[2], row[3], row.size() > 4 ? row[4] : ""), run_number_of(row[0]));
   });
 }
 

@@ -166,7 +166,7 @@ std::vector<double> means(Journal& journal, const std::string& column, std::size
   std::vector<double> sums(points, 0.0);
   std::vector<std::uint64_t> counts(points, 0);
   journal.each_row({"run", column}, [&](const std::vector<std::string>& row) {
-    const auto point = static_cast<std::size_t>(number_of(row[0])) / replicates;
+    const auto point = run_number_of(row[0]) / replicates;
     if (point >= points) return;
     sums[point] += row[1].empty() ? kNone : number_of(row[1]);
     ++counts[point];
