@@ -1,5 +1,5 @@
 // What the subcommands of the program share. Each has a file, and returns the exit code (docs/conventions.md: 0 ok, 1 failed
-// run, 2 bad input, 4 regression).
+// run, 2 bad input, 3 infeasible, 4 regression).
 #pragma once
 #include <cstdint>
 #include <map>
@@ -9,8 +9,8 @@
 
 #include "core/plugin/catalog.h"
 #include "core/scenario/scenario.h"
-#include "report/summary.h"
-#include "report/verdict.h"
+#include "report/analysis/summary.h"
+#include "report/verdict/verdict.h"
 
 namespace gaitlab::app {
 
@@ -52,7 +52,7 @@ struct SummaryOptions {
   bool verbose = false;          ///< the energy ledger and the step's limit, too
   bool joints = false;           ///< a row per joint
   bool fail_infeasible = false;  ///< exit code 3 where the verdict is so, 1 of a failed run
-  bool demand = false;           ///< also run the demand twin (report/demand.h)
+  bool demand = false;           ///< also run the demand twin (report/verdict/demand.h)
 };
 
 struct RunArguments : ScenarioArguments {

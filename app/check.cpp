@@ -9,12 +9,12 @@
 #include "app/run_time.h"
 #include "core/files/atomic_file.h"
 #include "core/plugin/robot_info.h"
-#include "core/scenario/wording.h"
+#include "core/settings/wording.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
-#include "report/page.h"
-#include "report/start_row.h"
-#include "report/trust.h"
+#include "report/analysis/start_row.h"
+#include "report/page/page.h"
+#include "report/verdict/trust.h"
 
 namespace gaitlab::app {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/scenario/wording.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab::app {
 

@@ -12,8 +12,8 @@
 #include "core/errors.h"
 #include "core/model/pattern.h"
 #include "core/recording/run_files.h"
-#include "core/scenario/wording.h"
-#include "report/numbers.h"
+#include "core/settings/wording.h"
+#include "report/verdict/numbers.h"
 
 namespace gaitlab::app {
 

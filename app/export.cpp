@@ -4,16 +4,16 @@
 
 #include "app/commands.h"
 #include "app/stored_scenario.h"
+#include "core/build_id.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/csv.h"
 #include "core/recording/run_files.h"
-#include "core/scenario/wording.h"
+#include "core/settings/wording.h"
 #include "interchange/gltf.h"
 #include "interchange/mjcf.h"
 #include "interchange/urdf.h"
-#include "report/build_id.h"
-#include "report/views.h"
+#include "report/figures/run/views.h"
 
 namespace gaitlab::app {
 
@@ -48,14 +48,15 @@ void export_robot(const ExportArguments& arguments) {
   }
   Catalog catalog = careful_catalog(arguments.plugins);
   const Scenario scenario = read(arguments.source, catalog);
-  write_file(arguments.file, arguments.format == "mjcf" ? to_mjcf(scenario) : to_urdf(scenario), Existing::refused);
+  write_file(arguments.file, arguments.format == "mjcf" ? interchange::to_mjcf(scenario) : interchange::to_urdf(scenario),
+             Existing::refused);
   fmt::print("{}: {} bodies, {} joints\n", one_line(arguments.file), scenario.robot->bodies.size(),
              scenario.robot->joints.size());
 }
 
 /// In the colours of the figures; the version without the commit, so that the bytes are those of what is shown.
-GltfLook look() {
-  const std::string build = report::build_id();
+interchange::GltfLook look() {
+  const std::string build = build_id();
   return {.generator = "gaitlab " + build.substr(0, build.find('+')),
           .body = report::body_colour,
           .ground = report::colour::kWhite,
@@ -65,11 +66,11 @@ GltfLook look() {
 }
 
 void write_gltf(const ExportArguments& arguments, const Scenario& scenario, const Recording* recording) {
-  const Gltf made = to_gltf(scenario, recording, look());
+  const interchange::Gltf made = interchange::to_gltf(scenario, recording, look());
   write_file(arguments.file, made.bytes, Existing::refused);
   fmt::print("{}: {} bodies, {} joints, {}\n", one_line(arguments.file), scenario.robot->bodies.size(),
              scenario.robot->joints.size(), made.frames > 1 ? fmt::format("{} frames", made.frames) : "standing");
-  if (const auto hidden = bodies_without_shape(*scenario.robot); !hidden.empty()) {
+  if (const auto hidden = interchange::bodies_without_shape(*scenario.robot); !hidden.empty()) {
     say(arguments.source.file, "note", "bodies without a shape, which are not drawn: " + joined(hidden));
   }
 }
@@ -93,7 +94,7 @@ void export_gltf(const ExportArguments& arguments) {
                     stored.missing.empty() ? "it has no rows" : fmt::format("{}", fmt::join(stored.missing, "; ")), source));
   }
   write_gltf(arguments, scenario, &recording);
-  for (const std::size_t box : boxes_without_way(scenario, recording)) {
+  for (const std::size_t box : interchange::boxes_without_way(scenario, recording)) {
     say(source, "note", fmt::format("ground.boxes[{0}] stands as it started: its columns box.{0}.* are not recorded", box));
   }
 }
@@ -120,7 +121,7 @@ void add_export(Commands& commands) {
                 "--to", arguments.format,
                 fmt::format("csv; gltf (a binary .glb file: the robot and its ground as they move, keyframes at rows of the "
                             "trace, at most {} a second; of a scenario the robot as it starts); mjcf (MuJoCo), urdf",
-                            kGltfRate))
+                            interchange::kGltfRate))
             ->required()
             ->check(CLI::IsMember({"csv", "gltf", "mjcf", "urdf"}));
         command.add_option("FILE", arguments.file, "file to write; must not exist")->required();

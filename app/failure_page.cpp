@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "golden/report.h"
-#include "report/page.h"
-#include "report/page_overlay.h"
-#include "report/plugin_names.h"
+#include "report/analysis/plugin_names.h"
+#include "report/page/page.h"
+#include "report/page/page_overlay.h"
 
 namespace gaitlab::app {
 

@@ -12,11 +12,11 @@
 #include "core/recording/csv.h"
 #include "core/recording/recording_file.h"
 #include "core/recording/run_files.h"
-#include "core/scenario/text_file.h"
-#include "core/scenario/wording.h"
-#include "report/paper_figure.h"
-#include "report/pdf.h"
-#include "report/svg.h"
+#include "core/settings/text_file.h"
+#include "core/settings/wording.h"
+#include "report/figures/paper/paper_figure.h"
+#include "report/plot/pdf.h"
+#include "report/plot/svg.h"
 
 namespace gaitlab::app {
 

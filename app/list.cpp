@@ -5,14 +5,14 @@
 #include <map>
 
 #include "app/commands.h"
+#include "app/module_table.h"
 #include "core/scenario/manual.h"
 #include "core/scenario/read_scenario.h"
 #include "core/scenario/schema.h"
-#include "core/scenario/text_file.h"
-#include "core/scenario/wording.h"
-#include "report/module_table.h"
-#include "report/recipe.h"
-#include "studies/study_file.h"
+#include "core/settings/text_file.h"
+#include "core/settings/wording.h"
+#include "report/figures/paper/recipe.h"
+#include "studies/study/study_file.h"
 
 namespace gaitlab::app {
 
@@ -68,7 +68,7 @@ std::string about(const std::string& kind, const std::string& name, Catalog& cat
   if (kind == "engine") return first_line(catalog.engine(name)->manual);
   if (kind == "figure") return first_line(report::about_panel(panel_kind(name)));
   const std::string file = shipped_files(kind).at(name);
-  return kind == "module" ? report::module_row(read_module(file, catalog)) : file;
+  return kind == "module" ? module_row(read_module(file, catalog)) : file;
 }
 
 int list(const ManualArguments& arguments) {
@@ -92,7 +92,7 @@ int explain_module(const std::string& name, Catalog& catalog) {
     unknown("module", name, names("module", catalog), "; one of your own goes by its file, NAME.yaml");
   }
   const std::string& file = known == shipped.end() ? name : known->second;
-  fmt::print("{}\nfile: {}\n", report::module_table(read_module(file, catalog)), file);
+  fmt::print("{}\nfile: {}\n", module_table(read_module(file, catalog)), file);
   return 0;
 }
 

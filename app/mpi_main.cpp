@@ -15,12 +15,12 @@
 #include <thread>
 
 #include "app/program.h"
-#include "app/study_run.h"
+#include "app/study/study_run.h"
+#include "core/build_id.h"
 #include "core/errors.h"
-#include "report/build_id.h"
-#include "studies/draws.h"
-#include "studies/parcel.h"
-#include "studies/study_folder.h"
+#include "studies/journal/study_folder.h"
+#include "studies/plan/draws.h"
+#include "studies/run/parcel.h"
 
 namespace {
 
@@ -63,7 +63,7 @@ std::optional<Message> received() {
 /// Host, study, scenario and build, a line each: what must be the same everywhere but for the first.
 std::string hello(const Plan& plan) {
   const JournalHead head = plan.head();
-  return host() + "\n" + digest(head.definition) + "\n" + digest(head.scenario) + "\n" + report::build_id();
+  return host() + "\n" + digest(head.definition) + "\n" + digest(head.scenario) + "\n" + build_id();
 }
 
 std::size_t pack_size(const BatchSettings& settings) {

@@ -11,7 +11,7 @@
 #include "app/commands.h"
 #include "app/skeletons.h"
 #include "core/files/atomic_file.h"
-#include "core/scenario/wording.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab::app {
 

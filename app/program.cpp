@@ -11,7 +11,7 @@
 #include "app/app.h"
 #include "app/command_line.h"
 #include "app/commands.h"
-#include "app/study_text.h"
+#include "app/study/study_text.h"
 #include "core/errors.h"
 
 namespace gaitlab::app {

@@ -2,8 +2,9 @@
 
 #include "app/commands.h"
 #include "core/scenario/read_scenario.h"
-#include "report/summary.h"
-#include "report/warnings.h"
+#include "report/analysis/summary.h"
+#include "report/verdict/summary_text.h"
+#include "report/verdict/warnings.h"
 
 namespace gaitlab::app {
 

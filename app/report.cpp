@@ -14,14 +14,15 @@
 #include "core/files/atomic_file.h"
 #include "core/recording/run_files.h"
 #include "core/recording/run_folder.h"
-#include "core/scenario/changed_lines.h"
 #include "core/scenario/resolved.h"
-#include "report/demand.h"
-#include "report/page.h"
-#include "report/page_overlay.h"
-#include "report/plugin_names.h"
-#include "report/run_figure.h"
-#include "report/summary.h"
+#include "core/settings/changed_lines.h"
+#include "report/analysis/plugin_names.h"
+#include "report/analysis/summary.h"
+#include "report/figures/run/run_figure.h"
+#include "report/page/page.h"
+#include "report/page/page_overlay.h"
+#include "report/verdict/demand.h"
+#include "report/verdict/summary_text.h"
 
 namespace gaitlab::app {
 

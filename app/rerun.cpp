@@ -9,15 +9,15 @@
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/stored_scenario.h"
+#include "core/build_id.h"
 #include "core/errors.h"
 #include "core/recording/compare.h"
 #include "core/recording/csv.h"
 #include "core/recording/h5.h"
 #include "core/recording/run_files.h"
-#include "core/scenario/changed_lines.h"
 #include "core/scenario/resolved.h"
+#include "core/settings/changed_lines.h"
 #include "core/simulation/simulation.h"
-#include "report/build_id.h"
 
 namespace gaitlab::app {
 
@@ -111,9 +111,9 @@ Again run_again(const Scenario& scenario, const Past& past, bool early) {
 std::vector<std::string> changes(const StoredScenario& stored, const Past& past, const Scenario& scenario, const Again& again) {
   std::vector<std::string> found;
   if (past.build.empty()) {
-    found.push_back(fmt::format("build: not recorded; now {}", report::build_id()));
-  } else if (past.build != report::build_id()) {
-    found.push_back(fmt::format("build: then {}, now {}", past.build, report::build_id()));
+    found.push_back(fmt::format("build: not recorded; now {}", build_id()));
+  } else if (past.build != build_id()) {
+    found.push_back(fmt::format("build: then {}, now {}", past.build, build_id()));
   }
   const std::vector<PluginChange> plugins = changed_plugins(stored);
   for (const PluginChange& plugin : plugins) {

@@ -10,17 +10,18 @@
 #include "app/progress.h"
 #include "app/run_time.h"
 #include "app/stop_on_signal.h"
+#include "core/build_id.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/recording_file.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
 #include "core/simulation/simulation.h"
-#include "report/build_id.h"
-#include "report/figure.h"
-#include "report/page.h"
-#include "report/run_figure.h"
-#include "report/summary.h"
-#include "report/trust.h"
+#include "report/analysis/summary.h"
+#include "report/figures/run/figure.h"
+#include "report/figures/run/run_figure.h"
+#include "report/page/page.h"
+#include "report/verdict/summary_text.h"
+#include "report/verdict/trust.h"
 
 namespace gaitlab::app {
 
@@ -61,8 +62,7 @@ class RunFiles {
 
 void write_run(RunFiles& files, const std::string& format, const Scenario& scenario, const Recording& recording) {
   files.write(format == "csv" ? "trace.csv" : "trace.h5", [&](const std::filesystem::path& file) {
-    write_recording(recording, {resolved(scenario), scenario.seed, report::build_id(), recording.outcome}, format,
-                    file.parent_path());
+    write_recording(recording, {resolved(scenario), scenario.seed, build_id(), recording.outcome}, format, file.parent_path());
   });
   files.write_text("scenario.resolved.yaml", [&] { return resolved(scenario); });
 }

@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "app/app.h"
-#include "core/scenario/data_folder.h"
+#include "core/settings/data_folder.h"
 
 namespace gaitlab::app {
 

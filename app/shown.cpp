@@ -7,15 +7,16 @@
 #include "app/commands.h"
 #include "app/stored_scenario.h"
 #include "core/errors.h"
-#include "core/scenario/joint_patterns.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
-#include "core/scenario/wording.h"
-#include "report/demand.h"
-#include "report/number_texts.h"
-#include "report/summary.h"
-#include "report/trust.h"
-#include "report/warnings.h"
+#include "core/settings/joint_patterns.h"
+#include "core/settings/wording.h"
+#include "report/analysis/summary.h"
+#include "report/verdict/demand.h"
+#include "report/verdict/number_texts.h"
+#include "report/verdict/summary_text.h"
+#include "report/verdict/trust.h"
+#include "report/verdict/warnings.h"
 
 namespace gaitlab::app {
 

@@ -14,11 +14,11 @@
 #include "core/files/atomic_file.h"
 #include "core/recording/h5.h"
 #include "core/recording/run_files.h"
-#include "core/scenario/node.h"
 #include "core/scenario/plugin_files.h"
 #include "core/scenario/read_scenario.h"
+#include "core/settings/node.h"
 #include "core/simulation/probes.h"
-#include "report/row_statistics.h"
+#include "report/analysis/row_statistics.h"
 
 namespace gaitlab::app {
 

@@ -7,15 +7,15 @@
 
 #include "app/commands.h"
 #include "app/stop_on_signal.h"
-#include "app/study_text.h"
+#include "app/study/study_text.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/run_folder.h"
 #include "core/simulation/batch.h"
 #include "golden/report.h"
-#include "report/coincide.h"
-#include "report/page.h"
-#include "report/swap_page.h"
+#include "report/figures/run/coincide.h"
+#include "report/page/page.h"
+#include "report/page/swap_page.h"
 
 namespace gaitlab::app {
 

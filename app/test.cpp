@@ -19,8 +19,8 @@
 #include "golden/advice.h"
 #include "golden/cases.h"
 #include "golden/report.h"
-#include "report/overlay.h"
-#include "report/svg.h"
+#include "report/figures/run/overlay.h"
+#include "report/plot/svg.h"
 
 namespace gaitlab::app {
 

@@ -1,9 +1,9 @@
 #include "app/app.h"
 #include "app/engines.h"
-#include "report/build_id.h"
+#include "core/build_id.h"
 
 namespace gaitlab::app {
 
-std::string version() { return "gaitlab " + report::build_id() + ", " + bullet_text(); }
+std::string version() { return "gaitlab " + build_id() + ", " + bullet_text(); }
 
 }  // namespace gaitlab::app

@@ -4,8 +4,8 @@
 
 #include "bench/mujoco_plant.h"
 #include "bench/results.h"
+#include "core/build_id.h"
 #include "physics_bullet/engine.h"
-#include "report/build_id.h"
 
 namespace gaitlab::versus {
 
@@ -68,7 +68,7 @@ Json to_json(const Point& p) {
 std::string json(const Results& results, const RaceSettings& settings) {
   Json out;
   out["machine"] = {{"processor", processor()}, {"cores", std::thread::hardware_concurrency()}};
-  out["versions"] = {{"gaitlab", report::build_id()}, {"bullet", bullet_version()}, {"mujoco", mujoco_version()}};
+  out["versions"] = {{"gaitlab", build_id()}, {"bullet", bullet_version()}, {"mujoco", mujoco_version()}};
   out["settings"] = {{"seconds", settings.seconds},
                      {"errors_from", settings.seconds / 2},
                      {"rounds", settings.rounds},

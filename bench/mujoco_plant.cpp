@@ -202,7 +202,7 @@ class MujocoPlant final : public Plant {
  private:
   static Model make_model(const PlantSettings& s) {
     if (s.base != Base::floating) throw RunError("engine mujoco of the benchmarks has floating bases only");
-    std::string mjcf = lean(to_mjcf(bare(s)));
+    std::string mjcf = lean(interchange::to_mjcf(bare(s)));
     if (set_up(s.integrator) == SetUp::dcmotor) mjcf.insert(mjcf.rfind("</mujoco>"), dc_motors(s));
     return load(mjcf);
   }

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "bench/results.h"
-#include "report/axes.h"
-#include "report/svg.h"
+#include "report/plot/axes.h"
+#include "report/plot/svg.h"
 
 namespace gaitlab::versus {
 

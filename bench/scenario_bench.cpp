@@ -6,7 +6,7 @@
 #include "app/app.h"
 #include "core/scenario/read_scenario.h"
 #include "core/simulation/batch.h"
-#include "report/summary.h"
+#include "report/analysis/summary.h"
 
 namespace gaitlab {
 namespace {

@@ -5,12 +5,12 @@
 #include <filesystem>
 
 #include "app/app.h"
-#include "app/study_figures.h"
+#include "app/study/study_figures.h"
 #include "core/scenario/read_scenario.h"
 #include "core/simulation/batch.h"
-#include "report/summary.h"
-#include "report/verdict.h"
-#include "studies/results.h"
+#include "report/analysis/summary.h"
+#include "report/verdict/verdict.h"
+#include "studies/journal/results.h"
 #include "tests/folder.h"
 
 namespace gaitlab {

@@ -8,9 +8,9 @@
 #include "app/app.h"
 #include "bench/mujoco_plant.h"
 #include "bench/results.h"
+#include "core/build_id.h"
 #include "core/files/atomic_file.h"
 #include "physics_bullet/engine.h"
-#include "report/build_id.h"
 
 namespace {
 
@@ -59,11 +59,11 @@ int versus_of(int argc, char** argv) {
                                          settings.rounds, settings.seconds, settings.seconds / 2);
   if (!page.empty()) {
     const std::string head =
-        fmt::format("gaitlab {}. {}. {}, one thread; {}.", report::build_id(), versions, versus::processor(), rounds);
+        fmt::format("gaitlab {}. {}. {}, one thread; {}.", build_id(), versions, versus::processor(), rounds);
     write_file(page, versus::renewed(read_file(page, kMostPage), head + "\n\n" + versus::digest(results)));
     write_file(std::filesystem::path(page).replace_extension(".svg"), versus::plot(results));
   }
-  fmt::print("gaitlab {}\n{}\n{}\n\n{}", report::build_id(), versions, rounds, versus::table(results, markdown));
+  fmt::print("gaitlab {}\n{}\n{}\n\n{}", build_id(), versions, rounds, versus::table(results, markdown));
   return 0;
 }
 

@@ -5,8 +5,8 @@ if(NOT commit)
   set(commit "unknown")
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
-#include "report/build_id.h"
-namespace gaitlab::report {
+#include "core/build_id.h"
+namespace gaitlab {
 std::string build_id() { return "@VERSION@+@commit@ (@COMPILER@; @LIBRARIES@)"; }
-}  // namespace gaitlab::report
+}  // namespace gaitlab
 ]])

@@ -17,7 +17,7 @@ if(NOT end EQUAL -1)
     "choose another delimiter in cmake/page.cmake")
 endif()
 # Not configure_file: it would look for variables in the page.
-set(code "#include \"report/page.h\"
+set(code "#include \"report/page/page.h\"
 #pragma GCC diagnostic ignored \"-Woverlength-strings\"
 namespace gaitlab::report {
 std::string_view page_template() { return R\"page(${page})page\"; }

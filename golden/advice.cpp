@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scenario/wording.h"
+#include "core/settings/wording.h"
 #include "core/simulation/step_advice.h"
 #include "golden/report.h"
 #include "golden/runs.h"

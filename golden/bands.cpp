@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace gaitlab {
+namespace gaitlab::golden {
 
 namespace {
 
@@ -19,7 +19,7 @@ struct Extent {
   double size = 0;
 };
 
-std::vector<double> scales(const std::vector<Extent>& extents) {
+std::vector<double> scales_of(const std::vector<Extent>& extents) {
   std::map<std::string, double> largest;
   for (const Extent& extent : extents) largest[extent.unit] = std::max(largest[extent.unit], extent.size);
   std::vector<double> found;
@@ -51,14 +51,14 @@ const Number& number(const GoldenRun& run, const std::string& name) {
 std::vector<double> scales(const Trace& trace) {
   std::vector<Extent> extents;
   for (std::size_t i = 0; i < trace.columns.size(); ++i) extents.push_back({trace.columns[i].unit, range_of(trace, i)});
-  return scales(extents);
+  return scales_of(extents);
 }
 
 std::vector<double> scales(const std::vector<Number>& numbers) {
   std::vector<Extent> extents;
   extents.reserve(numbers.size());
   for (const Number& number : numbers) extents.push_back({number.unit, std::abs(number.value)});
-  return scales(extents);
+  return scales_of(extents);
 }
 
 double mean_square(const Trace& a, const Trace& b, std::size_t column) {
@@ -102,4 +102,4 @@ Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, cons
   return bands;
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::golden

@@ -5,7 +5,7 @@
 
 #include "golden/golden.h"
 
-namespace gaitlab {
+namespace gaitlab::golden {
 
 /// What a golden keeps of a run: trace (`t` first) and figures.
 struct GoldenRun {
@@ -39,4 +39,4 @@ struct Bands {
 /// of `base` (and maybe others), and finite values. std::invalid_argument: one lacks a number.
 Bands calibrate(const GoldenRun& base, std::span<const GoldenRun> ensemble, const GoldenRun& halved);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::golden

@@ -7,7 +7,7 @@
 
 #include "core/recording/time_shift.h"
 
-namespace gaitlab {
+namespace gaitlab::golden {
 
 namespace {
 
@@ -161,4 +161,4 @@ GoldenDifference compare(const Golden& golden, const GoldenRun& run, bool other_
   return Comparison(golden, run, other_engine).made();
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::golden

@@ -6,11 +6,11 @@
 
 #include "golden/bands.h"
 
-namespace gaitlab {
+namespace gaitlab::golden {
 
 inline constexpr double kOutside = 3;  ///< bands; an error whose RMS is one band rarely exceeds three bands
 
-/// One column. Shares are of its scale (golden_bands.h); what the golden's own rounding explains is taken off, so that the same
+/// One column. Shares are of its scale (bands.h); what the golden's own rounding explains is taken off, so that the same
 /// run differs by 0 and one that differs by less than the precision is measured right.
 struct ColumnCheck {
   std::string name, unit;
@@ -53,4 +53,4 @@ struct GoldenDifference {
 /// motor and of which another takes the mean (10 % apart), and is left out; the others have bands of at least kOtherEngine.
 GoldenDifference compare(const Golden& golden, const GoldenRun& run, bool other_engine = false);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::golden

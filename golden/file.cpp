@@ -13,7 +13,7 @@
 
 #include "core/errors.h"
 
-namespace gaitlab {
+namespace gaitlab::golden {
 
 namespace {
 
@@ -239,4 +239,4 @@ RoundedTrace unpack(std::string_view bytes, const std::filesystem::path& path) {
   }
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::golden

@@ -7,7 +7,7 @@
 
 #include "core/recording/trace.h"
 
-namespace gaitlab {
+namespace gaitlab::golden {
 
 /// A trace rounded to a grid of its own a column: value = lowest value + whole number * precision.
 struct RoundedTrace {
@@ -25,4 +25,4 @@ std::string pack(const Trace& trace);
 /// trace, has another format version, is corrupt. Bytes whose checksum is wrong are not looked at.
 RoundedTrace unpack(std::string_view bytes, const std::filesystem::path& path);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::golden

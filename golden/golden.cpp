@@ -13,7 +13,7 @@
 #include "core/files/atomic_file.h"
 #include "core/files/folder_lock.h"
 
-namespace gaitlab {
+namespace gaitlab::golden {
 
 namespace fs = std::filesystem;
 
@@ -257,4 +257,4 @@ Golden read_golden(const fs::path& folder) {
   }
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::golden

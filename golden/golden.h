@@ -8,9 +8,9 @@
 
 #include "golden/file.h"
 
-namespace gaitlab {
+namespace gaitlab::golden {
 
-/// How far a column or number may stray, as a share of its scale (see golden_bands.h), and why that far.
+/// How far a column or number may stray, as a share of its scale (see bands.h), and why that far.
 struct Band {
   double ensemble = 0;  ///< 10 x the spread of runs whose start differs by rounding
   double halving = 0;   ///< 3 x the change from halving the step
@@ -52,7 +52,7 @@ struct Golden {
 /// `scenarios/hexapod.golden` for `scenarios/hexapod.yaml`.
 std::filesystem::path golden_folder(const std::filesystem::path& scenario);
 
-/// Makes trace.golden (see golden_file.h) and golden.json (all else) in `folder`, which is made if missing. A process that is
+/// Makes trace.golden (see file.h) and golden.json (all else) in `folder`, which is made if missing. A process that is
 /// killed at any moment leaves the golden that was there or the new one, never a mixture. RunError: cannot be written.
 /// InputError: another process is writing it.
 void write_golden(const Golden& golden, const std::filesystem::path& folder);
@@ -61,4 +61,4 @@ void write_golden(const Golden& golden, const std::filesystem::path& folder);
 /// of another format version; and where the two files are not of one approval.
 Golden read_golden(const std::filesystem::path& folder);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::golden

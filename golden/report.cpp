@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/scenario/changed_lines.h"
+#include "core/settings/changed_lines.h"
 
 namespace gaitlab::golden {
 

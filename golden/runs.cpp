@@ -8,12 +8,12 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
+#include "core/build_id.h"
 #include "core/parallel.h"
 #include "core/scenario/resolved.h"
 #include "core/simulation/simulation.h"
-#include "report/build_id.h"
-#include "report/numbers.h"
-#include "report/verdict.h"
+#include "report/verdict/numbers.h"
+#include "report/verdict/verdict.h"
 
 namespace gaitlab::golden {
 
@@ -160,7 +160,7 @@ std::vector<Number> golden_numbers(const GoldenRun& run) {
 
 GoldenProvenance golden_origin(const Scenario& scenario) {
   const Engine& engine = *scenario.physics.engine;
-  const std::string build = report::build_id();
+  const std::string build = build_id();
   // `VERSION (COMPILER; LIBRARIES)`
   const std::size_t from = std::min(build.find('('), build.size() - 1) + 1;
   std::string text = resolved(scenario);

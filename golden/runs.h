@@ -16,9 +16,10 @@ struct Outcome {
   /// row every 20 ms (the largest whole multiple of the trace period up to that, at least one of it); and the figures that a
   /// golden holds.
   GoldenRun run;
-  std::string infeasible = {};  ///< where that was asked for: why the robot cannot do it (report/verdict.h); empty: it can
-  double seconds = 0;           ///< that it took, for reports alone
-  std::exception_ptr error;     ///< InputError: the step is too long; RunError: it diverged
+  std::string infeasible =
+      {};                    ///< where that was asked for: why the robot cannot do it (report/verdict/verdict.h); empty: it can
+  double seconds = 0;        ///< that it took, for reports alone
+  std::exception_ptr error;  ///< InputError: the step is too long; RunError: it diverged
 };
 
 /// One each, in the order of `scenarios`; up to `jobs` at once. `progress(share)` is called often, one call at a time. Every

@@ -13,7 +13,7 @@
 #include "interchange/glb.h"
 #include "interchange/motion.h"
 
-namespace gaitlab {
+namespace gaitlab::interchange {
 
 namespace {
 
@@ -264,4 +264,4 @@ std::vector<std::size_t> boxes_without_way(const Scenario& scenario, const Recor
   return numbers;
 }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::interchange

@@ -9,7 +9,7 @@
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
 
-namespace gaitlab {
+namespace gaitlab::interchange {
 
 inline constexpr double kGltfRate = 60;  ///< Hz, of keyframes at most
 
@@ -47,4 +47,4 @@ std::vector<std::string> bodies_without_shape(const Robot& robot);
 /// Boxes that may move and whose way the recording does not hold, by number in `ground.boxes`.
 std::vector<std::size_t> boxes_without_way(const Scenario& scenario, const Recording& recording);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::interchange

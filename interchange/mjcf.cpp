@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "core/model/principal_axes.h"
-#include "core/scenario/wording.h"
+#include "core/settings/wording.h"
 #include "core/simulation/start.h"
 #include "interchange/robot_xml.h"
 
-namespace gaitlab {
+namespace gaitlab::interchange {
 
 namespace {
 
@@ -280,4 +280,4 @@ class Mjcf {
 
 std::string to_mjcf(const Scenario& scenario) { return Mjcf(scenario).write(); }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::interchange

@@ -4,7 +4,7 @@
 
 #include "core/scenario/scenario.h"
 
-namespace gaitlab {
+namespace gaitlab::interchange {
 
 /// MJCF (MuJoCo 2.2 and later) of the robot as the scenario starts it: one MuJoCo body for each of the robot's, docked ones
 /// without a joint between them; whole inertia tensors (by their principal axes); hinges with their ranges; a free, planar
@@ -13,4 +13,4 @@ namespace gaitlab {
 /// cannot hold is said in a comment at its top. Numbers read back to the same doubles.
 std::string to_mjcf(const Scenario& scenario);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::interchange

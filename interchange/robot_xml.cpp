@@ -7,7 +7,7 @@
 #include "core/laws/hinge_stop.h"
 #include "core/plugin/actuator.h"
 #include "core/plugin/plugin_instance.h"
-#include "core/scenario/wording.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab::interchange {
 

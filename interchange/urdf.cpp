@@ -7,7 +7,7 @@
 #include "core/simulation/start.h"
 #include "interchange/robot_xml.h"
 
-namespace gaitlab {
+namespace gaitlab::interchange {
 
 namespace {
 
@@ -184,4 +184,4 @@ class Urdf {
 
 std::string to_urdf(const Scenario& scenario) { return Urdf(scenario).write(); }
 
-}  // namespace gaitlab
+}  // namespace gaitlab::interchange

@@ -4,7 +4,7 @@
 
 #include "core/scenario/scenario.h"
 
-namespace gaitlab {
+namespace gaitlab::interchange {
 
 /// One URDF link for each of the robot's bodies, named like it; revolute joints with range, torque (of the motor at rest) and
 /// speed (at which it gives none) as limits, fixed joints `m3/dock` where bodies are docked. A link's frame is that of its
@@ -13,4 +13,4 @@ namespace gaitlab {
 /// doubles; angles (rpy) to rounding.
 std::string to_urdf(const Scenario& scenario);
 
-}  // namespace gaitlab
+}  // namespace gaitlab::interchange

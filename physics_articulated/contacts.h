@@ -35,9 +35,10 @@ struct Environment {
 /// (vn+, vt+), the depth then being p+ = depth - h vn+,
 ///     normal:   Kn p+^k - D vn+ >= 0, while p+ > 0
 ///     friction: -f Fn vt+ / max(|vt+|, v_lim)
-/// D = Cd p^d with p where the body is placed, for what touches at the start; Cd p+^d for what lands. Fn of friction: at the
-/// place and the start's velocity. All fall with the velocity, so that the step has one solution. A solve takes tangents:
-///     fn - gn (vn - vn_start), -push s - gt (1 - s s^T) vt
+/// D = Cd p^d with p where the body is placed, for what touches at the start; Cd p+^d for what lands. Friction uses the
+/// normal force at the present position and the velocity at the start of the step. All forces fall with the velocity, so that
+/// the step has one solution. A solve takes tangents, with s the direction of slip:
+///     fn - normal_damping (vn - vn_start), -sliding_force s - tangential_damping (1 - s s^T) vt
 template <class T>
 struct Contact {
   std::size_t element = 0, link = 0;

@@ -11,7 +11,7 @@
 #include "actuators/dc_motor.h"
 #include "core/math/functions.h"
 #include "core/model/kinematics.h"
-#include "core/scenario/module_file.h"
+#include "core/robot_files/module_file.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab::test {

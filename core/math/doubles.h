@@ -1,5 +1,6 @@
 // N doubles in one register: a scalar for code that is written once for one rollout and for N (core/math/lanes.h). Only for
-// translation units that are compiled for a processor with such registers; those add sqrt, any and the functions (simd.h).
+// translation units that are compiled for a processor with such registers; those add sqrt, any and the functions
+// (physics_articulated/kernel_avx2.cpp).
 #pragma once
 #include "core/math/lanes.h"
 

@@ -16,7 +16,7 @@ constexpr double kPromising = 0.3;    // e of a lag next to a period: half a gri
 constexpr std::size_t kGrid = 256;    // lags and points per period in the search
 constexpr std::size_t kFine = 4096;   // points per period when refining a lag
 constexpr std::size_t kShortest = 5;  // samples
-constexpr double kNone = 1e300;       // "no error to speak of": above every threshold
+constexpr double kNoMatch = 1e300;    // "no error to speak of": above every threshold
 using Moved = std::vector<double>;
 
 struct Columns : std::vector<Moved> {
@@ -25,7 +25,7 @@ struct Columns : std::vector<Moved> {
 };
 
 struct Range {
-  double lo = kNone, hi = -kNone;
+  double lo = kNoMatch, hi = -kNoMatch;
   void add(double x) {
     lo = std::min(lo, x);
     hi = std::max(hi, x);
@@ -75,8 +75,8 @@ Columns columns_of(std::span<const double> values, std::size_t columns) {
   return split;
 }
 
-// e at the last window for a whole number of samples, on every `stride`-th of them; kNone as soon as it is not promising or if
-// nothing moves.
+// e at the last window for a whole number of samples, on every `stride`-th of them; kNoMatch as soon as it is not promising or
+// if nothing moves.
 double rough_error(const Columns& columns, std::size_t lag, std::size_t stride) {
   const std::size_t rows = columns[0].size();
   double worst = 0;
@@ -95,9 +95,9 @@ double rough_error(const Columns& columns, std::size_t lag, std::size_t stride) 
     const double scale = std::max(range.half(), columns.floor);
     moves = moves || range.half() > kStill;
     worst = std::max(worst, std::sqrt(squares / static_cast<double>(count)) / scale);
-    if (worst >= kPromising) return kNone;
+    if (worst >= kPromising) return kNoMatch;
   }
-  return moves ? worst : kNone;
+  return moves ? worst : kNoMatch;
 }
 
 // Sum over the columns of the mean square of x(t) - x(t - lag) / s_c over a fixed window at the end: smooth in the lag, and a
@@ -115,10 +115,10 @@ class Misfit {
     }
   }
 
-  // kNone where the data do not reach back.
+  // kNoMatch where the data do not reach back.
   [[nodiscard]] double at(std::size_t lag) const {
     const std::size_t rows = columns_[0].size();
-    if (lag < 2 || window_ + lag > rows) return kNone;
+    if (lag < 2 || window_ + lag > rows) return kNoMatch;
     double sum = 0;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       const double* end = columns_[c].data() + rows - 1;
@@ -158,7 +158,7 @@ double refine(const Columns& columns, std::size_t lag, std::size_t step) {
   }
   const double below = misfit.at(lag - 1);
   const double above = misfit.at(lag + 1);
-  if (below >= kNone || above >= kNone) return 0;
+  if (below >= kNoMatch || above >= kNoMatch) return 0;
   const double bend = below - 2 * here + above;
   const double shift = bend > 0 ? 0.5 * (below - above) / bend : 0;
   return static_cast<double>(lag) + std::clamp(shift, -0.5, 0.5);
@@ -203,9 +203,9 @@ class Repetition {
     }
   }
 
-  // At the last window; kNone if there is none or nothing moves.
+  // At the last window; kNoMatch if there is none or nothing moves.
   [[nodiscard]] double error() const {
-    if (starts_ == 0 || !moves_) return kNone;
+    if (starts_ == 0 || !moves_) return kNoMatch;
     double worst = 0;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       double squares = 0;
@@ -246,7 +246,7 @@ class Repetition {
 
 struct Candidate {
   std::size_t lag = 0, step = 0;
-  double error = kNone;
+  double error = kNoMatch;
 };
 
 // The best lag of every stretch of promising ones, shortest first.

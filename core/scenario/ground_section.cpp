@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "core/scenario/grid.h"
-#include "core/scenario/text_file.h"
-#include "core/scenario/wording.h"
+#include "core/settings/grid.h"
+#include "core/settings/text_file.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab {
 namespace {

@@ -5,11 +5,11 @@
 #include <array>
 
 #include "core/plugin/plugin_instance.h"
-#include "core/scenario/explainer.h"
-#include "core/scenario/overlay.h"
 #include "core/scenario/robot_section.h"
 #include "core/scenario/sections.h"
-#include "core/scenario/wording.h"
+#include "core/settings/explainer.h"
+#include "core/settings/overlay.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "core/files/atomic_file.h"
 #include "core/files/hash.h"
-#include "core/scenario/reader.h"
-#include "core/scenario/wording.h"
+#include "core/settings/reader.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab {
 namespace {
@@ -80,10 +80,6 @@ void load(const PluginEntry& entry, const SourceLocation& place, const std::stri
 }
 
 }  // namespace
-
-std::string path_from(const std::string& folder, const std::string& path) {
-  return (fs::path(folder) / path).lexically_normal().string();
-}
 
 std::string file_hash(const std::string& path) {
   try {

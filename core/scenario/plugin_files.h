@@ -16,7 +16,4 @@ void load_plugin_file(const std::string& path, Catalog& catalog);
 /// FNV-1a, 64 bits, of a file's bytes: 16 hex digits; empty where it cannot be read.
 std::string file_hash(const std::string& path);
 
-/// `path` as seen from `folder` (an absolute path stays).
-std::string path_from(const std::string& folder, const std::string& path);
-
 }  // namespace gaitlab

@@ -9,19 +9,19 @@
 #include <filesystem>
 
 #include "core/plugin/plugin_instance.h"
+#include "core/robot_files/type_presets.h"
 #include "core/scenario/ground_section.h"
-#include "core/scenario/joint_patterns.h"
-#include "core/scenario/overlay.h"
-#include "core/scenario/periods.h"
 #include "core/scenario/plugin_files.h"
-#include "core/scenario/reader.h"
 #include "core/scenario/robot_section.h"
 #include "core/scenario/scenario_checks.h"
 #include "core/scenario/section_places.h"
 #include "core/scenario/sections.h"
-#include "core/scenario/text_file.h"
-#include "core/scenario/type_presets.h"
-#include "core/scenario/wording.h"
+#include "core/settings/joint_patterns.h"
+#include "core/settings/overlay.h"
+#include "core/settings/periods.h"
+#include "core/settings/reader.h"
+#include "core/settings/text_file.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab {
 

@@ -2,7 +2,7 @@
 
 #include "core/scenario/robot_section.h"
 #include "core/scenario/sections.h"
-#include "core/scenario/writer.h"
+#include "core/settings/writer.h"
 
 namespace gaitlab {
 namespace {

@@ -7,14 +7,14 @@
 #include <map>
 #include <set>
 
-#include "core/scenario/build_file.h"
-#include "core/scenario/data_folder.h"
+#include "core/robot_files/build_file.h"
+#include "core/robot_files/type_library.h"
 #include "core/scenario/plugin_files.h"
-#include "core/scenario/text_file.h"
-#include "core/scenario/type_library.h"
-#include "core/scenario/value.h"
-#include "core/scenario/wording.h"
-#include "core/scenario/writer.h"
+#include "core/settings/data_folder.h"
+#include "core/settings/text_file.h"
+#include "core/settings/value.h"
+#include "core/settings/wording.h"
+#include "core/settings/writer.h"
 
 namespace gaitlab {
 namespace {

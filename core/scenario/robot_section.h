@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario/reader.h"
 #include "core/scenario/scenario.h"
+#include "core/settings/reader.h"
 
 namespace gaitlab {
 

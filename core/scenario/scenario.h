@@ -11,7 +11,7 @@
 #include "core/laws/ground.h"
 #include "core/model/robot.h"
 #include "core/plugin/plugin_instance.h"
-#include "core/scenario/node.h"
+#include "core/settings/node.h"
 
 namespace gaitlab {
 
@@ -58,7 +58,7 @@ struct FigureSettings {
   void fields(Fields& f);
 };
 
-/// What the verdict on a run allows (report/verdict.h).
+/// What the verdict on a run allows (report/verdict/verdict.h).
 struct Limits {
   double margin = 0.8;               ///< of what a motor has
   double tracking_error = 0.1;       ///< rad

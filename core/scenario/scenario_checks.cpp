@@ -6,10 +6,10 @@
 #include <map>
 
 #include "core/model/pattern.h"
-#include "core/scenario/joint_patterns.h"
 #include "core/scenario/section_places.h"
 #include "core/scenario/sections.h"
-#include "core/scenario/wording.h"
+#include "core/settings/joint_patterns.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab {
 

@@ -1,8 +1,8 @@
 #include "core/scenario/schema.h"
 
-#include "core/scenario/overlay.h"
-#include "core/scenario/schema_fields.h"
 #include "core/scenario/sections.h"
+#include "core/settings/overlay.h"
+#include "core/settings/schema_fields.h"
 
 namespace gaitlab {
 namespace {

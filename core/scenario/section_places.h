@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "core/scenario/node.h"
+#include "core/settings/node.h"
 
 namespace gaitlab {
 

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "core/plugin/plugin_instance.h"
-#include "core/scenario/overlay.h"
-#include "core/scenario/wording.h"
+#include "core/settings/overlay.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab {
 namespace {

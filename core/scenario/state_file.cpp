@@ -6,10 +6,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/scenario/reader.h"
 #include "core/scenario/sections.h"
-#include "core/scenario/text_file.h"
-#include "core/scenario/wording.h"
+#include "core/settings/reader.h"
+#include "core/settings/text_file.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab {
 

@@ -7,7 +7,7 @@
 #include "core/model/pattern.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
-#include "core/scenario/wording.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab {
 

@@ -16,8 +16,8 @@ class InverseMass {
   ~InverseMass() = default;
 };
 
-/// Slope of one contact force against the velocity of its point: G = tangential T + normal n n^T, N s/m; `across` limits the
-/// tangential part to the direction at right angles to the slip (sliding).
+/// Slope of one contact force against the velocity of its point: G = tangential T + normal n n^T, N s/m; where `slip` is
+/// not 0 (sliding), the tangential part acts at right angles to it alone.
 struct ContactSlope {
   std::size_t element = 0, link = 0;
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ(), slip = Vec3::Zero();  ///< slip: unit vector, 0 while sticking

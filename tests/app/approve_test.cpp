@@ -2,6 +2,8 @@
 #include "tests/app/golden_command.h"
 
 namespace gaitlab::test {
+
+using namespace golden;
 namespace {
 
 namespace fs = std::filesystem;

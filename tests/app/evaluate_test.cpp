@@ -1,7 +1,7 @@
 // `gaitlab evaluate`: what is answered, and which lines are refused.
 #include <nlohmann/json.hpp>
 
-#include "studies/journal.h"
+#include "studies/journal/journal.h"
 #include "tests/app/study_fixture.h"
 
 namespace gaitlab::test {

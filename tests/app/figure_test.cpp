@@ -6,7 +6,7 @@
 
 #include "core/recording/csv.h"
 #include "core/recording/run_files.h"
-#include "report/recipe.h"
+#include "report/figures/paper/recipe.h"
 #include "tests/program/cart.h"
 
 namespace gaitlab::test {

@@ -1,7 +1,7 @@
 // Numbers of a study's own, which keys of the scenario follow.
-#include "studies/followers.h"
+#include "studies/study/followers.h"
 
-#include "studies/journal.h"
+#include "studies/journal/journal.h"
 #include "tests/app/study_fixture.h"
 
 namespace gaitlab::test {

@@ -6,6 +6,8 @@
 #include "tests/app/golden_command.h"
 
 namespace gaitlab::test {
+
+using namespace golden;
 namespace {
 
 /// JUnit without the times that runs took.

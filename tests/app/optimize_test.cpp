@@ -1,5 +1,5 @@
 // `gaitlab optimize`: what is verified and what is not, exit codes, words as parameters, another command for a search.
-#include "studies/journal.h"
+#include "studies/journal/journal.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {

@@ -1,5 +1,5 @@
 // Parts of a study: which of them a task of a Slurm array does, and what makes one journal of them.
-#include "studies/database.h"
+#include "studies/journal/database.h"
 #include "tests/app/study_fixture.h"
 
 namespace gaitlab::test {

@@ -1,10 +1,10 @@
 // Forged folders of studies, and folders of users: FIFOs, names of shards, locks, files of other programs.
 #include <sys/stat.h>
 
-#include "app/study_figures.h"
-#include "studies/database.h"
-#include "studies/runner.h"
-#include "studies/study_file.h"
+#include "app/study/study_figures.h"
+#include "studies/journal/database.h"
+#include "studies/run/runner.h"
+#include "studies/study/study_file.h"
 #include "tests/app/study_fixture.h"
 
 namespace gaitlab::test {

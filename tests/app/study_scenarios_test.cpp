@@ -1,7 +1,7 @@
 // Studies of several scenarios: every point runs in each.
 #include <nlohmann/json.hpp>
 
-#include "studies/journal.h"
+#include "studies/journal/journal.h"
 #include "tests/app/study_fixture.h"
 
 namespace gaitlab::test {

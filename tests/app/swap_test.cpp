@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/scenario/wording.h"
-#include "report/numbers.h"
+#include "core/settings/wording.h"
+#include "report/verdict/numbers.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {

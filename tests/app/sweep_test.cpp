@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/files/atomic_file.h"
-#include "studies/journal.h"
+#include "studies/journal/journal.h"
 #include "tests/app/study_fixture.h"
 
 namespace gaitlab::test {

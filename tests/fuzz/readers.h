@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/app.h"
-#include "app/study_figures.h"
-#include "app/study_text.h"
+#include "app/study/study_figures.h"
+#include "app/study/study_text.h"
 #include "core/errors.h"
 #include "core/files/hash.h"
 #include "core/recording/csv.h"
@@ -20,12 +20,12 @@
 #include "core/scenario/read_scenario.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/state_file.h"
-#include "report/recipe.h"
-#include "studies/plan.h"
-#include "studies/question.h"
-#include "studies/results.h"
-#include "studies/study_file.h"
-#include "studies/study_folder.h"
+#include "report/figures/paper/recipe.h"
+#include "studies/journal/results.h"
+#include "studies/journal/study_folder.h"
+#include "studies/plan/plan.h"
+#include "studies/run/question.h"
+#include "studies/study/study_file.h"
 #include "tests/folder.h"
 #include "tests/golden/golden_sample.h"
 
@@ -294,14 +294,14 @@ inline void journal(const std::string& bytes) {
 /// golden.json beside a trace, its checksum made right.
 inline void golden(const std::string& text) {
   static const bool made = [] {
-    write_golden(test::sample_golden(test::walk(21)), folder().path() / "walk.golden");
+    golden::write_golden(test::sample_golden(test::walk(21)), folder().path() / "walk.golden");
     return true;
   }();
   (void)made;
   constexpr std::string_view kChecksum = ",\n  \"checksum\": \"";
   const std::string content = text.substr(0, text.rfind(kChecksum));
   folder().write("walk.golden/golden.json", content + std::string(kChecksum) + hash(content) + "\"\n}\n");
-  const Golden read = read_golden(folder().path() / "walk.golden");
+  const golden::Golden read = golden::read_golden(folder().path() / "walk.golden");
   if (read.history.empty()) std::abort();
 }
 
@@ -315,7 +315,7 @@ inline void golden_trace(const std::string& bytes) {
     digits.insert(0, 20 - digits.size(), ' ');
     return "gaitlab-golden-1\nbytes in all: " + digits + "; FNV-1a of what follows: " + hash(rest) + "\n" + rest;
   };
-  (void)unpack(with(with(0).size()), "trace.golden");
+  (void)golden::unpack(with(with(0).size()), "trace.golden");
 }
 
 /// trace.h5, its size and checksum made right.

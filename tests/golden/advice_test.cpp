@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 namespace gaitlab::test {
+
+using namespace golden;
 namespace {
 
 const Integrator kImplicit{"implicit", 1};

@@ -14,6 +14,8 @@
 
 namespace gaitlab::test {
 
+using namespace golden;
+
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 inline constexpr double kSpacing = 0.02;  // s

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <set>
 
-#include "report/views.h"
+#include "report/figures/run/views.h"
 #include "tests/interchange/glb_file.h"
 #include "tests/program/random_scenario.h"
 
 namespace gaitlab::test {
+
+using namespace interchange;
+
 namespace {
 
 const GltfLook kLook{.generator = "a test",

@@ -12,6 +12,9 @@
 #include "tests/validation.h"
 
 namespace gaitlab::test {
+
+using namespace interchange;
+
 namespace {
 
 constexpr std::array<Base, 3> kBases{Base::floating, Base::fixed, Base::planar};

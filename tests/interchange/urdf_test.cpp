@@ -10,6 +10,9 @@
 #include "tests/validation.h"
 
 namespace gaitlab::test {
+
+using namespace interchange;
+
 namespace {
 
 // A chain of up to 30 poses, whose rotations went through roll, pitch, yaw: some 1e-16 each.

@@ -375,7 +375,7 @@ on("strayed: what left its band first, when, how far", pages.strayed, {}, async 
   assert.ok(await page.isVisible("#drift canvas"));
 });
 
-// The bytes that report/page_data.cpp writes for these values, by hand from the rule: differences, zigzag, LEB128.
+// The bytes that report/page/page_data.cpp writes for these values, by hand from the rule: differences, zigzag, LEB128.
 // 0 1 -1 64 -64 8191 -8192 1000000: differences 0 1 -2 65 -128 8255 -16383 1008192, zigzag 0 2 3 130 255 16510 32765 2016384.
 on("unpacks the bytes that C++ packs", Object.values(pages)[0], {}, async (page) => {
   const bytes = [0x00, 0x02, 0x03, 0x82, 0x01, 0xff, 0x01, 0xfe, 0x80, 0x01, 0xfd, 0xff, 0x01, 0x80, 0x89, 0x7b];

@@ -5,7 +5,7 @@
 
 #include "core/scenario/read_scenario.h"
 #include "core/scenario/resolved.h"
-#include "core/scenario/wording.h"
+#include "core/settings/wording.h"
 #include "tests/program/allocations.h"
 #include "tests/program/fixture.h"
 

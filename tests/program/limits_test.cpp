@@ -2,7 +2,7 @@
 // bullet at a step that is fine enough.
 #include <cmath>
 
-#include "report/trust.h"
+#include "report/verdict/trust.h"
 #include "tests/program/fixture.h"
 #include "tests/validation.h"
 

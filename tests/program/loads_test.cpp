@@ -1,5 +1,5 @@
 // Loads of docks and feet against closed forms, against the reaction columns, and that they change nothing else.
-#include "report/loads.h"
+#include "report/analysis/loads.h"
 
 #include <cmath>
 

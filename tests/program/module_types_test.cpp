@@ -114,7 +114,7 @@ std::vector<double> stall(const Scenario& s) {
   return torque;
 }
 
-constexpr const char* kSg92r =  // 0.245 N m and 8.73 rad/s at 4.8 V
+constexpr const char* kSmallMotor =  // 0.245 N m and 8.73 rad/s at 4.8 V
     "      actuator: {type: dc_motor, R: 7.53828336475, Kt: 0.00183346494442, Ks: 0.00183346494442, gear: 300, efficiency: "
     "0.7, "
     "u_max: 4.8, i_max: 0.636749743641, source: \"SG92R\"}\n"
@@ -125,7 +125,7 @@ const std::string kGendered = R"(
 )";
 
 TEST(ModuleTypes, EveryJointHasTheMotorAndTheGainsOfItsType) {
-  const std::string text = robot(cube("2", "small", kGendered, kSg92r), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]");
+  const std::string text = robot(cube("2", "small", kGendered, kSmallMotor), "{0: mtran, 1: small}", "[[0, 1, 4, 0, 0]]");
   const Scenario s = scenario(text);
   const std::vector<double> torques = stall(s);
   EXPECT_NEAR(torques[0], 1.97, 0.005) << "mtran: eta Kt i_max n";

@@ -261,11 +261,11 @@ TEST(PassiveHinge, HasNoMotorAmongOthersThatHave) {
 
 TEST(PassiveHinge, IsExported) {
   const Scenario s = scenario(with_castor("stiffness: 0.5, rest: 0.2, damping: 0.01, friction: 0.002"));
-  const std::string mjcf = to_mjcf(s);
+  const std::string mjcf = interchange::to_mjcf(s);
   EXPECT_TRUE(contains(mjcf, R"(limited="false" stiffness="0.5" springref="0.2" damping="0.01" frictionloss="0.002")")) << mjcf;
   EXPECT_TRUE(contains(mjcf, R"(<motor name="m0/two")"));
   EXPECT_FALSE(contains(mjcf, R"(<motor name="m0/castor")")) << mjcf;
-  const std::string urdf = to_urdf(s);
+  const std::string urdf = interchange::to_urdf(s);
   EXPECT_TRUE(contains(urdf, R"(<joint name="m0/castor" type="continuous">)")) << urdf;
   EXPECT_TRUE(contains(urdf, R"(<dynamics damping="0.01" friction="0.002"/>)")) << urdf;
   EXPECT_TRUE(contains(urdf, "Springs of hinges: 0.5 N m/rad at rest at 0.2 on m0/castor.")) << urdf;

@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "core/plugin/plugin_instance.h"
-#include "core/scenario/joint_patterns.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
-#include "report/demand.h"
-#include "report/envelope.h"
-#include "report/motors.h"
-#include "report/summary.h"
-#include "report/verdict.h"
-#include "report/warnings.h"
+#include "core/settings/joint_patterns.h"
+#include "report/analysis/envelope.h"
+#include "report/analysis/motors.h"
+#include "report/analysis/summary.h"
+#include "report/verdict/demand.h"
+#include "report/verdict/verdict.h"
+#include "report/verdict/warnings.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {

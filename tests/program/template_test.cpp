@@ -4,7 +4,7 @@
 #include "core/scenario/read_scenario.h"
 #include "core/scenario/resolved.h"
 #include "core/simulation/batch.h"
-#include "report/summary.h"
+#include "report/analysis/summary.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {

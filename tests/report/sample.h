@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/model/kinematics.h"
-#include "report/figure.h"
+#include "report/figures/run/figure.h"
 
 namespace gaitlab::sample {
 

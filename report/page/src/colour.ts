@@ -1,4 +1,4 @@
-// Colours that carry meaning; the rest is style.css. Okabe and Ito, as in the figures of report/svg.h, darkened for contrast.
+// Colours that carry meaning; the rest is style.css. Okabe and Ito, as in the figures of report/plot/svg.h, darkened for contrast.
 
 export type Theme = "light" | "dark";
 type Rgb = [number, number, number];

@@ -1,4 +1,4 @@
-// What the program writes into the page: report/page_data.cpp. SI units; what is not known is null, what does not apply is [].
+// What the program writes into the page: report/page/page_data.cpp. SI units; what is not known is null, what does not apply is [].
 
 export type Vec3 = [number, number, number];
 /** x, y, z, then the quaternion w, x, y, z. */
@@ -156,7 +156,7 @@ export interface Stray {
   from: number | null; // s: the first time beyond the tolerance
 }
 
-/** A second run, which is laid over the page's own: report/page_overlay.h. */
+/** A second run, which is laid over the page's own: report/page/page_overlay.h. */
 export interface Overlay {
   labels: [own: string, second: string];
   differs: string[]; // settings

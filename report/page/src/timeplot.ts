@@ -165,7 +165,7 @@ function gaps(values: Values): number[] {
   return (values.some(Number.isNaN) ? Array.from(values, (v) => (Number.isNaN(v) ? null : v)) : values) as unknown as number[];
 }
 
-/** Of both axes, with their zeros on one line as report/axes.h has it: the same share of each lies below zero. */
+/** Of both axes, with their zeros on one line as report/plot/axes.h has it: the same share of each lies below zero. */
 function ranges({ curves, levels = [] }: Plot): [Span, Span] {
   const reach = (side: Side): Span => {
     let low = 0, high = 0;

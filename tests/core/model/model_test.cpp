@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/model/kinematics.h"
-#include "core/scenario/module_file.h"
+#include "core/robot_files/module_file.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/model/robot.h"
-#include "core/scenario/module_file.h"
+#include "core/robot_files/module_file.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab {

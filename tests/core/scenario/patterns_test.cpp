@@ -1,7 +1,7 @@
 // Patterns in a scenario as a whole: in every value per joint, on the command line, in lists of names, written out again.
 #include <gtest/gtest.h>
 
-#include "core/scenario/joint_patterns.h"
+#include "core/settings/joint_patterns.h"
 #include "tests/core/scenario/fixture.h"
 
 namespace gaitlab {

@@ -1,0 +1,180 @@
+// Runs for another program, which asks for points and is told what came out: a line of JSON each.
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <deque>
+#include <set>
+#include <thread>
+
+#include "app/study/lines.h"
+#include "app/study/study_figures.h"
+#include "app/study/study_text.h"
+#include "app/study/sweep_arguments.h"
+#include "studies/run/asked.h"
+#include "studies/run/question.h"
+#include "studies/study/study_file.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using studies::Brief;
+using studies::Journal;
+using studies::Question;
+
+struct EvaluateArguments : StudyRunArguments {
+  std::string file;
+  bool as_completed = false, quiet = false;
+};
+
+/// Sets the flag that stops a study when nobody reads standard output any more: the program that asks has ended.
+class WatchReader {
+ public:
+  ~WatchReader() {
+    over_ = true;
+    thread_.join();
+  }
+  WatchReader() = default;
+  WatchReader(const WatchReader&) = delete;
+  WatchReader& operator=(const WatchReader&) = delete;
+  [[nodiscard]] bool gone() const { return gone_; }
+
+ private:
+  void watch() {
+    constexpr int kOften = 100;  // ms
+    while (!over_ && !gone_) {
+      pollfd output{STDOUT_FILENO, 0, 0};
+      if (::poll(&output, 1, kOften) <= 0) continue;
+      gone_ = true;
+      stopped() = true;
+    }
+  }
+  std::atomic<bool> over_ = false, gone_ = false;
+  std::thread thread_{[this] { watch(); }};
+};
+
+/// The questions of a batch, and what is answered.
+class Replies {
+ public:
+  Replies(Journal& journal, bool as_completed) : journal_(journal), as_completed_(as_completed) {}
+
+  /// Takes in a run that has a row in the journal.
+  void take(const Brief& run) {
+    runs_[run.run / journal_.head().replicates].push_back(run);
+    if (!open_.empty()) give();
+  }
+  void ask(Question&& question, std::uint64_t point) { open_.emplace_back(std::move(question), point); }
+  [[nodiscard]] bool asked() const { return !open_.empty(); }
+  /// What can be answered: all of it, or what no question before it waits for.
+  void give() {
+    for (auto one = open_.begin(); one != open_.end();) {
+      const auto runs = runs_.find(one->second);
+      const bool whole = runs != runs_.end() && runs->second.size() == journal_.head().replicates;
+      if (one->first.refused.empty() && !whole) {
+        if (!as_completed_) return;
+        ++one;
+        continue;
+      }
+      print(one->first, one->first.refused.empty() ? &runs->second : nullptr);
+      one = open_.erase(one);
+    }
+  }
+
+ private:
+  void print(const Question& question, std::vector<Brief>* runs) {
+    if (runs != nullptr) std::ranges::sort(*runs, {}, &Brief::run);
+    const std::span<const Brief> of = runs == nullptr ? std::span<const Brief>() : std::span<const Brief>(*runs);
+    std::vector<std::vector<std::string>> figures;
+    for (const Brief& run : of) figures.push_back(journal_.figures(run.run));
+    const std::string line = answer(question, journal_.head(), of, figures) + "\n";
+    if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0)
+      throw RunError("standard output cannot be written: nobody reads the answers; what has ended is in the journal");
+  }
+
+  Journal& journal_;
+  bool as_completed_;
+  std::map<std::uint64_t, std::vector<Brief>> runs_;  ///< by point
+  std::deque<std::pair<Question, std::uint64_t>> open_;
+};
+
+/// Reads the questions of the next batch, up to an empty line or the end of the input. False: the input has ended.
+bool read_batch(Lines& lines, const std::vector<studies::Parameter>& parameters, studies::Asked& asked, Replies& replies) {
+  while (const std::optional<std::string> line = lines.next(stopped())) {
+    if (line->find_first_not_of(" \t\r") == std::string::npos) return true;
+    Question question = read_question(*line, {"stdin", lines.number(), 1}, parameters);
+    const std::uint64_t point = question.refused.empty() ? asked.point(question.values) : 0;
+    replies.ask(std::move(question), point);
+  }
+  return false;
+}
+
+int evaluate_study(const EvaluateArguments& a) {
+  refuse_copies("gaitlab evaluate");
+  std::signal(SIGPIPE, SIG_IGN);  // told as what it is: nobody reads
+  Catalog catalog = standard_catalog();
+  studies::Study study = studies::read_study(a.file, studies::Purpose::evaluate);
+  study.runs = studies::kMostAsked;
+  studies::Plan plan(std::move(study), figure_offer(), catalog);
+  const studies::Executor executor = study_executor(plan, a);
+  studies::JournalHead head = study_head(plan);
+  std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
+  head.runs = 0;  // as many as are asked for
+  // Before there is a folder.
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
+  const fs::path folder = studies::study_folder(a.out, "evaluate-" + plan.study().name, holds_study(head));
+  head.command = "gaitlab evaluate " + shell_word(a.file);
+  for (const std::string& other : a.answers) head.command += " --answers " + shell_word(other);
+  head.command += " --out " + shell_word(folder.string());
+  const studies::Lock lock(folder / "lock");
+  Journal journal(folder / studies::kJournalFile, head, a.accept_build ? Journal::Build::any : Journal::Build::same);
+
+  const WatchReader reader;
+  studies::Asked asked(plan, journal);
+  Replies replies(journal, a.as_completed);
+  studies::Runner runner(
+      plan, journal,
+      {.executor = remembering(executor, answers), .shard = {}, .jobs = study_threads(a.jobs), .ended = [&](const Brief& run) {
+         replies.take(run);
+       }});
+  Lines lines;
+  for (bool more = true; more && !stopped();) {
+    more = read_batch(lines, plan.study().parameters, asked, replies);
+    if (stopped() || !replies.asked()) continue;
+    replies.give();
+    if (!replies.asked()) continue;
+    journal.expect(asked.end());
+    runner.run(asked.end(), stopped());
+    replies.give();
+  }
+  const std::uint64_t rows = journal.rows();
+  const bool finished = lines.ended() && !replies.asked();  // then it does not matter who still reads
+  if (!finished && reader.gone())
+    throw RunError(fmt::format("{}: nobody reads the answers; {} runs are in the journal", folder.string(), rows));
+  if (!finished && stopped()) {
+    say(fmt::format("{}: interrupted: {} runs are in the journal; go on with the same questions to\n{}\n", folder.string(),
+                    rows, head.command));
+    return 1;
+  }
+  if (rows > 0) write_study_files(journal, studies::results(journal), folder);
+  if (!a.quiet) say(fmt::format("{}: {} runs are in the journal\n", folder.string(), rows));
+  return 0;
+}
+
+}  // namespace
+
+void add_evaluate(Commands& commands) {
+  add_command<EvaluateArguments>(
+      commands, "evaluate", "Run the points that another program asks for, in lines of JSON.", evaluate_study,
+      [](CLI::App& command, EvaluateArguments& a) {
+        command.add_option("STUDY", a.file, "file of a study (YAML); its method and budget do not count")->required();
+        add_study_run(command, a, "runs/evaluate-NAME");
+        command.add_flag("--as-completed", a.as_completed, "answer each question as its runs end, in whatever order");
+        command.add_flag("--quiet", a.quiet, "print answers and errors alone");
+      });
+}
+
+}  // namespace gaitlab::app

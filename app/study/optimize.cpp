@@ -1,0 +1,187 @@
+// Searches the best point of a study, and tries it again with half the step and in another engine before it is believed.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/commands.h"
+#include "app/study/study_figures.h"
+#include "app/study/study_run.h"
+#include "app/study/study_text.h"
+#include "core/errors.h"
+#include "core/settings/wording.h"
+#include "studies/search/optimizer.h"
+#include "studies/search/verify.h"
+#include "studies/study/study_file.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using studies::Journal;
+using studies::Plan;
+using studies::SearchEnd;
+using studies::Study;
+
+struct OptimizeArguments : StudyRunArguments {
+  std::string file, method;
+  std::int64_t runs = 0, seed = -1;
+  bool quiet = false, dry_run = false;
+};
+
+Study searched_study(const OptimizeArguments& a) {
+  if (!studies::is_study(a.file))
+    throw InputError(SourceLocation{a.file},
+                     "is not the file of a study; expected one with gaitlab_study: 1 (gaitlab explain "
+                     "study)");
+  Study study = studies::read_study(a.file, studies::Purpose::optimize);
+  const auto method = std::ranges::find(studies::kMethods, a.method);
+  if (!a.method.empty()) study.method = static_cast<studies::Method>(method - studies::kMethods.begin());
+  if (a.runs > 0) study.runs = a.runs;
+  if (a.seed >= 0) study.seed = a.seed;
+  Problems problems;
+  check_study(study, SourceLocation{a.runs > 0 ? "--runs" : a.method.empty() ? a.file : "--method"}, problems);
+  problems.raise();
+  return study;
+}
+
+/// All but grids and designs of sensitivity.
+std::vector<std::string> known_methods() {
+  using studies::Method;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < studies::kMethods.size(); ++k) {
+    const auto method = static_cast<Method>(k);
+    if (studies::is_search(method) || method == Method::random || method == Method::sobol)
+      names.emplace_back(studies::kMethods[k]);
+  }
+  return names;
+}
+
+std::string search_goes_on(const OptimizeArguments& a, const fs::path& folder) {
+  std::string line = "gaitlab optimize " + shell_word(a.file);
+  if (!a.method.empty()) line += " --method " + a.method;
+  if (a.runs > 0) line += fmt::format(" --runs {}", a.runs);
+  if (a.seed >= 0) line += fmt::format(" --seed {}", a.seed);
+  for (const std::string& answers : a.answers) line += " --answers " + shell_word(answers);
+  return line + " --out " + shell_word(folder.string());
+}
+
+/// Does the runs of the study: those that a search asks for, or, where the method is not a search, those of its points.
+SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& executor, const OptimizeArguments& a) {
+  StudyProgress progress(a.quiet, objective_unit(journal.head()));
+  studies::RunnerSettings settings{
+      .executor = executor, .shard = {}, .jobs = study_threads(a.jobs), .told = std::ref(progress)};
+  if (studies::is_search(plan.study().method))
+    return run_searches(plan, journal, std::move(settings), std::ref(progress), stopped());
+  studies::Runner runner(plan, journal, std::move(settings));
+  return runner.run(plan.points().runs(), stopped()) ? SearchEnd::budget : SearchEnd::stopped;
+}
+
+/// How many of the runs that try the best points again have ended.
+class VerifyProgress {
+ public:
+  explicit VerifyProgress(bool quiet) : shown_(!quiet && isatty(fileno(stderr)) != 0) {}
+  void operator()(std::size_t done, std::size_t of) const {
+    if (!shown_) return;
+    fmt::print(stderr, "\r{}", done < of ? fmt::format("{} of {} runs again", done, of) : fmt::format("{:40}\r", ""));
+    (void)std::fflush(stderr);
+  }
+
+ private:
+  bool shown_;
+};
+
+/// The run folder of the best point that stood, in place of one that was there.
+void write_best(const Plan& plan, std::uint64_t run_number, const fs::path& folder, bool quiet) {
+  std::error_code none;
+  fs::remove_all(folder, none);
+  RunArguments arguments;
+  arguments.out = folder.string();
+  arguments.quiet = quiet;
+  (void)run(plan.scenario(run_number), arguments);
+}
+
+int optimize_study(const OptimizeArguments& a) {
+  refuse_copies("gaitlab optimize");
+  Catalog catalog = standard_catalog();
+  Plan plan(searched_study(a), figure_offer(), catalog);
+  if (a.dry_run) {
+    print_notes(plan, a.quiet);
+    print_plan(plan, a);
+    return 0;
+  }
+  // Before the folder, which belongs to one process.
+  const studies::Executor executor = study_executor(plan, a);
+  print_notes(plan, a.quiet);  // one process of several comes here
+  studies::JournalHead head = study_head(plan);
+  std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before there is a folder
+  const fs::path folder = studies::study_folder(a.out, "optimize-" + plan.study().name, holds_study(head));
+  head.command = search_goes_on(a, folder);
+  const studies::Lock lock(folder / "lock");
+  Journal journal(folder / studies::kJournalFile, head, taken_build(a));
+  keep_runs(plan, journal, folder, a.quiet);
+
+  const SearchEnd end = run_study(plan, journal, remembering(executor, answers), a);
+  const auto interrupted = [&] {
+    say(fmt::format("{}: interrupted: {} of {} runs are in the journal; go on with\n{}\n", folder.string(), journal.rows(),
+                    plan.most_runs(), head.command));
+    return 1;
+  };
+  if (end == SearchEnd::stopped) return interrupted();
+  const studies::Results results = studies::results(journal);
+  const std::vector<std::size_t> best = candidates(plan, results);
+  if (!a.quiet && !best.empty())
+    say(fmt::format("{}: the search has ended; its best {} tried again\n", folder.string(),
+                    best.size() == 1 ? "point is" : fmt::format("{} points are", best.size())));
+  const auto tried = verify(plan, journal, results, best, executor, VerifyProgress(a.quiet), stopped());
+  if (!tried) return interrupted();
+  journal.write(*tried);
+  const std::vector<std::uint64_t> stood = studies::verified(*tried);
+  std::vector<std::string> files = write_study_files(journal, results, folder);
+  if (!a.quiet) {
+    constexpr std::size_t kShown = 5;
+    fmt::print("{}", study_summary(journal, results, folder, kShown));
+    if (end == SearchEnd::converged) fmt::print("all searches have converged before the budget was used\n");
+  }
+  if (!stood.empty()) {
+    if (!a.quiet) fmt::print("\nrun {}, the best that stood, with its trace and page:\n", stood.front());
+    write_best(plan, stood.front(), folder / "best", a.quiet);
+    files.emplace_back("best");
+  }
+  if (!a.quiet) fmt::print("files in {}: {}, {}\n", folder.string(), studies::kJournalFile, fmt::join(files, ", "));
+  if (stopped()) return interrupted();
+  if (!stood.empty()) return 0;
+  const std::string show = "`gaitlab study show " + shell_word(folder.string()) + "`";
+  if (tried->empty()) {
+    say(fmt::format("{}: no point is feasible; {} says which limits most runs break\n", folder.string(), show));
+  } else {
+    say(fmt::format(
+        "{}: none of the best points was verified; {} says why. `verify: {{best: N}}` tries more, --seed N searches "
+        "elsewhere\n",
+        folder.string(), show));
+  }
+  return 3;
+}
+
+}  // namespace
+
+void add_optimize(Commands& commands) {
+  add_command<OptimizeArguments>(
+      commands, "optimize", "Search the best point of a study, and verify it.", optimize_study,
+      [](CLI::App& command, OptimizeArguments& a) {
+        command.add_option("STUDY", a.file, "the file of a study (YAML)")->required()->check(not_empty);
+        command.add_option("--runs", a.runs, "budget, instead of that of the file")->check(CLI::Range(1, 1000000000));
+        command.add_option("--seed", a.seed, "seed, instead of that of the file")
+            ->check(CLI::Range(std::int64_t{0}, std::int64_t{999999999999999}));
+        command.add_option("--method", a.method, "method, instead of that of the file: random search beside a search")
+            ->check(CLI::IsMember(known_methods()));
+        command.add_flag("--dry-run", a.dry_run, "tell what would be run and how long it takes, and write nothing");
+        add_study_run(command, a, "runs/optimize-NAME");
+        command.add_flag("--quiet", a.quiet, "print no progress and no summary");
+      });
+}
+
+}  // namespace gaitlab::app

@@ -1,0 +1,325 @@
+// What is done with the folder of a study: show, best, export, merge, rerun.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/commands.h"
+#include "app/stored_scenario.h"
+#include "app/study/study_figures.h"
+#include "app/study/study_text.h"
+#include "core/settings/wording.h"
+#include "studies/journal/study_folder.h"
+#include "studies/study/followers.h"
+#include "studies/study/number.h"
+#include "studies/study/scenarios.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using studies::Journal;
+
+struct StudyArguments {
+  std::string folder;
+  std::int64_t most = 10;          ///< best
+  std::string format, file;        ///< export
+  std::int64_t run = 0;            ///< rerun
+  std::optional<std::string> out;  ///< rerun
+  PluginArguments plugins;         ///< rerun
+};
+
+/// The journal of a folder, to be read.
+Journal opened(const std::string& folder) {
+  const fs::path file = fs::path(folder) / studies::kJournalFile;
+  std::error_code none;
+  if (!fs::exists(file, none)) {
+    const bool shards = studies::shards_in(folder).count > 0;
+    throw InputError(SourceLocation{folder},
+                     std::string("holds no study: there is no ") + studies::kJournalFile +
+                         (shards ? "; its shards become one with gaitlab study merge " + shell_word(folder) : ""));
+  }
+  return Journal(file);
+}
+
+int show_study(const StudyArguments& a) {
+  Journal journal = opened(a.folder);
+  const studies::Results results = studies::results(journal);
+  constexpr std::size_t kShown = 5;
+  fmt::print("{}", study_summary(journal, results, a.folder, kShown));
+  if (const studies::Effort effort = journal.effort(); effort.runs > 0 && effort.wall > 0)
+    fmt::print("{:.3g} runs per s and thread\n", static_cast<double>(effort.runs) / effort.wall);
+  const std::string who = studies::Lock::holder(fs::path(a.folder) / "lock");
+  if (!who.empty()) {
+    fmt::print("{} is writing it\n", who);
+  } else if (results.runs < journal.head().runs) {
+    fmt::print("go on with: {}\n", one_line(journal.head().command));
+  }
+  return 0;
+}
+
+int report_study(const StudyArguments& a) {
+  Journal journal = opened(a.folder);
+  const std::vector<std::string> files = write_study_files(journal, studies::results(journal), a.folder);
+  fmt::print("files in {}: {}\n", a.folder, fmt::join(files, ", "));
+  return 0;
+}
+
+int best_of_study(const StudyArguments& a) {
+  Journal journal = opened(a.folder);
+  const studies::Results results = studies::results(journal);
+  const std::vector<studies::JournalObjective>& objectives = journal.head().objectives;
+  std::vector<std::size_t> order = objectives.size() > 1 ? studies::front(results.points, objectives)
+                                                         : studies::ranked(results.points, objectives.front().maximize);
+  std::erase_if(order, [&](std::size_t k) { return !results.points[k].feasible(); });
+  if (order.empty()) {
+    say(a.folder + ": no point is feasible\n");
+    return 3;
+  }
+  fmt::print("{}", points_table(journal, results, order, static_cast<std::size_t>(a.most)));
+  return 0;
+}
+
+int export_study(const StudyArguments& a) {
+  Journal journal = opened(a.folder);
+  check_new(a.file);
+  write_table(journal, a.file, Existing::refused);
+  return 0;
+}
+
+/// A set of very many numbers, added in ascending order.
+class Ranges {
+ public:
+  /// Adds `first` to `last`, both included and above all earlier numbers.
+  void add(std::uint64_t first, std::uint64_t last) {
+    count_ += last - first + 1;
+    if (!ranges_.empty() && ranges_.back().second + 1 == first) {
+      ranges_.back().second = last;
+    } else {
+      ranges_.emplace_back(first, last);
+    }
+  }
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  /// As Slurm's --array takes them: 3,17,20-99; at most 200 of them.
+  [[nodiscard]] std::string text() const {
+    constexpr std::size_t kMost = 200;
+    std::string all;
+    for (std::size_t k = 0; k < std::min(kMost, ranges_.size()); ++k) {
+      const auto& [first, last] = ranges_[k];
+      all += (k > 0 ? "," : "") + (first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last));
+    }
+    if (ranges_.size() > kMost)
+      all += fmt::format(" (and {}; merge again for them)", counted(ranges_.size() - kMost, "more range"));
+    return all;
+  }
+
+ private:
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges_;
+  std::uint64_t count_ = 0;
+};
+
+/// Takes the rows of all shards that are there. Returns which are missing or not whole.
+Ranges take_shards(std::optional<Journal>& all, const fs::path& folder, const studies::Shards& shards) {
+  std::vector<std::uint64_t> rows;
+  for (const std::uint64_t index : shards.indices) {
+    Journal part(studies::shard_file(folder, {index, shards.count}));
+    if (!all) all.emplace(folder / studies::kJournalFile, part.head(), Journal::Build::same);
+    all->take(part);
+    all->expect(part.head().runs);  // a budget may have grown since
+    rows.push_back(part.rows());
+  }
+  const std::uint64_t runs = all->head().runs;
+  Ranges missing;
+  std::uint64_t next = 0;  // the first that has not been looked at
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::uint64_t index = shards.indices[k];
+    if (next < index) missing.add(next, index - 1);
+    if (rows[k] < runs / shards.count + (index < runs % shards.count ? 1 : 0)) missing.add(index, index);
+    next = index + 1;
+  }
+  if (next < shards.count) missing.add(next, shards.count - 1);
+  return missing;
+}
+
+int merge_study(const StudyArguments& a) {
+  const fs::path folder = a.folder;
+  const fs::path file = folder / studies::kJournalFile;
+  const studies::Shards shards = studies::shards_in(folder);
+  std::error_code none;
+  if (shards.count == 0 && !fs::exists(file, none))
+    throw InputError(SourceLocation{a.folder},
+                     "holds no shards; expected files shards/I-of-N.db, as gaitlab sweep --shard I/N writes them");
+  const studies::Lock lock(folder / "lock");
+  std::optional<Journal> all;
+  Ranges missing;
+  if (shards.count > 0) {
+    missing = take_shards(all, folder, shards);
+  } else {
+    all.emplace(file);  // of an array of one task
+  }
+  const std::uint64_t rows = all->rows();
+  fmt::print("{}: {} of {} runs\n", file.string(), rows, all->head().runs);
+  write_study_files(*all, studies::results(*all), folder);
+  if (missing.count() > 0)
+    say(a.folder, "error",
+        fmt::format("{} of {} shards are missing or not whole; run them again: --array={}", missing.count(), shards.count,
+                    missing.text()));
+  const std::uint64_t lacking = shards.count == 0 && rows < all->head().runs ? all->head().runs - rows : 0;
+  if (lacking > 0)
+    say(a.folder, "error",
+        fmt::format("{} of {} runs have not ended; continue with: {}", lacking, all->head().runs, all->head().command));
+  return missing.count() > 0 || lacking > 0 ? 1 : 0;
+}
+
+/// What of the row is not what the run gave, a line each.
+std::vector<std::string> differences(const std::vector<std::string>& names, const std::vector<std::string>& row,
+                                     const studies::RunColumns& columns, const std::vector<double>& figures,
+                                     const std::string& outcome) {
+  std::vector<std::string> found;
+  const auto cell = [&](const std::string& name) {
+    return row[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())];
+  };
+  const bool done = cell("outcome") == "done";
+  if (done != (outcome == "done") || (!done && cell("message") != outcome))
+    found.push_back(fmt::format("outcome: then {}, now {}", clipped(done ? "done" : cell("message")), clipped(outcome)));
+  if (!done || outcome != "done") return found;
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    const std::string then = cell(columns.figures[k]);
+    const std::string now = std::isfinite(figures[k]) ? number_text(figures[k] + 0.0) : "";
+    const bool same = then.empty() ? now.empty() : !now.empty() && studies::number_of(then) == figures[k];
+    if (!same)
+      found.push_back(
+          fmt::format("{}: then {}, now {}", columns.figures[k], then.empty() ? "none" : then, now.empty() ? "none" : now));
+  }
+  return found;
+}
+
+/// The resolved scenario of a row: the study's only one, or that of its name.
+std::string scenario_of_row(const studies::JournalHead& head, const std::vector<std::string>& names,
+                            const std::vector<std::string>& row) {
+  if (head.scenarios.empty()) return head.scenario;
+  const std::string& name = row[static_cast<std::size_t>(std::ranges::find(names, "scenario") - names.begin())];
+  for (studies::ScenarioText& one : studies::scenario_texts(head.scenario)) {
+    if (one.name == name) return std::move(one.text);
+  }
+  throw InputError(SourceLocation{studies::kJournalFile},
+                   "is not a journal that this program wrote: it lacks the scenario " + in_quotes(name) + " of a run");
+}
+
+/// The settings of a row over the scenario as the journal holds it: the folder is enough.
+std::vector<std::string> settings_of_row(const Journal& journal, const std::vector<std::string>& names,
+                                         const std::vector<std::string>& row) {
+  const studies::JournalHead& head = journal.head();
+  std::vector<studies::Parameter> parameters;
+  std::vector<std::string> values;
+  std::vector<std::string> drawn;
+  for (std::size_t k = 0; k < head.parameters.size(); ++k) {
+    const studies::JournalParameter& p = head.parameters[k];
+    const std::string& value =
+        row[static_cast<std::size_t>(std::ranges::find(names, journal.columns().parameters[k]) - names.begin())];
+    if (p.drawn) {
+      drawn.push_back(p.key + "=" + value);
+      continue;
+    }
+    parameters.emplace_back().key = p.key;
+    parameters.back().words = p.words;
+    values.push_back(value);
+  }
+  studies::read_followers(parameters, head.definition);
+  Problems problems;
+  const studies::Followers followers(parameters, problems);
+  if (!problems.empty())
+    throw InputError(SourceLocation{studies::kJournalFile},
+                     "is not a journal that this program wrote: " + problems.list().front().text);
+  std::vector<std::string> sets;
+  for (const auto& [key, value] : followers.settings(values)) sets.push_back(key + "=" + value);
+  sets.insert(sets.end(), drawn.begin(), drawn.end());
+  sets.push_back("seed=" + row[3]);
+  return sets;
+}
+
+int rerun_study(const StudyArguments& a) {
+  Journal journal = opened(a.folder);
+  const studies::JournalHead& head = journal.head();
+  const std::vector<std::string> row = journal.row(static_cast<std::uint64_t>(a.run));
+  if (row.empty())
+    throw InputError(SourceLocation{"RUN"},
+                     fmt::format("{} is not in the journal; it has {} of {} runs", a.run, journal.rows(), head.runs));
+  const std::vector<std::string> names = journal.columns().all();
+  Catalog catalog = careful_catalog(a.plugins);
+  const std::vector<std::string> sets = settings_of_row(journal, names, row);
+  const Scenario scenario =
+      read_stored({"", (fs::path(a.folder) / studies::kJournalFile).string(), scenario_of_row(head, names, row)}, catalog,
+                  OtherPlugins::refused, sets);
+  RunArguments run_arguments;
+  run_arguments.out = a.out.value_or((fs::path(a.folder) / fmt::format("run-{}", a.run)).string());
+  const int code = run(scenario, run_arguments);
+  std::optional<StoredRun> written;
+  try {
+    written = read_run(*run_arguments.out, catalog);
+  } catch (const InputError&) {
+    if (code != 1) throw;
+    return 1;  // the run could not be written, and has said so
+  }
+  const StoredRun& again = *written;
+  if (const auto cell =
+          [&](const char* name) { return row[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())]; };
+      cell("outcome") == "stopped") {
+    fmt::print("the study ended this run early: {}; here it ran on\n", one_line(cell("message")));
+    return code == 2 ? 2 : 0;
+  }
+  const studies::Judged judged = figure_measure(head.figures, scenario)(scenario, again.stored.recording);
+  const std::vector<std::string> found =
+      differences(names, row, journal.columns(), judged.figures, again.stored.recording.outcome);
+  if (found.empty()) {
+    fmt::print("the figures are those of the journal\n");
+    const bool lost = code == 1 && again.stored.recording.outcome == "done";  // some of its files
+    return code == 2 ? 2 : lost ? 1 : 0;
+  }
+  for (const std::string& difference : found) say(a.folder, "error", difference);
+  return 4;
+}
+
+}  // namespace
+
+void add_study(Commands& commands) {
+  CLI::App* study = commands.app.add_subcommand("study", "Look at a study, merge its shards, repeat one of its runs.");
+  study->require_subcommand(1);
+  const auto folder = [](CLI::App& command, StudyArguments& a) {
+    command.add_option("DIR", a.folder, "folder of the study")->required()->check(not_empty);
+  };
+  add_command<StudyArguments>(commands, "show", "How far it is, its best and worst points, what failed; also while it runs.",
+                              show_study, folder, study);
+  add_command<StudyArguments>(commands, "report", "Write its table and figures anew, of what the journal holds.", report_study,
+                              folder, study);
+  add_command<StudyArguments>(
+      commands, "best", "Its best feasible points.", best_of_study,
+      [&](CLI::App& command, StudyArguments& a) {
+        folder(command, a);
+        command.add_option("-n,--number", a.most, "how many (default 10)")->check(CLI::Range(1, 1000000));
+      },
+      study);
+  add_command<StudyArguments>(
+      commands, "export", "All runs as one table.", export_study,
+      [&](CLI::App& command, StudyArguments& a) {
+        folder(command, a);
+        command.add_option("--to", a.format, "format of the file")->required()->check(CLI::IsMember({"csv"}));
+        command.add_option("FILE", a.file, "file to write; must not exist")->required();
+      },
+      study);
+  add_command<StudyArguments>(commands, "merge", "Make one journal of those of all shards.", merge_study, folder, study);
+  add_command<StudyArguments>(
+      commands, "rerun", "Run one of its runs again, with its trace, and compare.", rerun_study,
+      [&](CLI::App& command, StudyArguments& a) {
+        folder(command, a);
+        command.add_option("RUN", a.run, "number of the run")
+            ->required()
+            ->check(CLI::Range(std::int64_t{0}, std::int64_t{1000000000}));
+        add_trust(command, a.plugins);
+        command.add_option("--out", a.out, "run folder (default DIR/run-RUN); new or empty");
+      },
+      study);
+}
+
+}  // namespace gaitlab::app

@@ -1,0 +1,80 @@
+// What a study would run, and how long that would take: of --dry-run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "app/study/study_figures.h"
+#include "app/study/study_run.h"
+#include "core/errors.h"
+#include "core/settings/wording.h"
+
+namespace gaitlab::app {
+
+void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
+  const studies::Points& points = plan.points();
+  const bool searched = studies::is_search(plan.study().method);  // then its points are not known yet
+  const auto shown = [&](std::uint64_t run) {
+    const std::string& name = plan.scenarios()[points.scenario(run)].name;
+    return fmt::format("{}{}", name.empty() ? "" : "scenario " + name + ": ", fmt::join(plan.sets(run), " "));
+  };
+  double simulated = 0;
+  for (const studies::StudyScenario& one : plan.scenarios())
+    simulated += one.nominal.duration * static_cast<double>(points.points() * points.replicates());
+  fmt::print("{} runs: {} points, {} each\n", points.runs(), points.points(), counted(points.runs_of_point(), "run"));
+  if (searched) {
+    fmt::print("method {} chooses them, and the best {} are run again\n",
+               studies::kMethods[static_cast<std::size_t>(plan.study().method)], plan.study().verify.best);
+  } else {
+    fmt::print("first  {}\nlast   {}\n", shown(0), shown(points.runs() - 1));
+  }
+  fmt::print("{:.6g} s simulated in all\n", simulated);
+  // One pack tells how long all take: by the clock, for the terminal alone.
+  std::uint64_t next = 0;
+  std::uint64_t ended = 0;
+  std::atomic<bool> stop = false;
+  const auto start = std::chrono::steady_clock::now();
+  const studies::Measure measure = figure_measure(plan.columns(), plan.scenario());
+  // Of all scenarios, where there are several.
+  const std::uint64_t pack = std::min<std::uint64_t>(points.runs(), 8);
+  const auto timed = [&](std::uint64_t k) {
+    return searched ? plan.scenarios()[k % plan.scenarios().size()].nominal : plan.scenario(k * points.runs() / pack);
+  };
+  const BatchStream stream{.next = [&]() -> std::optional<Rollout> {
+                             while (next < pack) {
+                               const std::uint64_t run = next++;
+                               try {
+                                 return Rollout{run, timed(run)};
+                               } catch (const InputError&) {  // it will be a row of the study
+                               }
+                             }
+                             return {};
+                           },
+                           .end =
+                               [&](std::vector<RolloutEnd>&& pack) {
+                                 for (const RolloutEnd& one : pack) {
+                                   if (one.refused.empty()) (void)measure(one.rollout.scenario, one.recording);
+                                   ++ended;
+                                 }
+                               }};
+  run_pulled(stream, {1, static_cast<std::size_t>(a.lanes)}, Loads::recorded, stop);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  const double each = ended == 0 ? 0 : took.count() / static_cast<double>(ended);
+  const double all = each * static_cast<double>(points.runs());
+  const double bytes = static_cast<double>(points.runs()) *
+                       (120 + 9.0 * static_cast<double>(plan.columns().size() + plan.study().parameters.size()));
+  fmt::print("takes about {:.3g} s on {} ({:.3g} s a run on one)\n", all / study_threads(a.jobs),
+             counted(static_cast<std::size_t>(study_threads(a.jobs)), "thread"), each);
+  fmt::print("journal about {:.3g} MB\n", bytes / 1e6);
+  if (searched) return;            // each generation waits for the one before
+  constexpr double kShard = 1800;  // s
+  fmt::print("shards of 30 min on one thread: {}\n", static_cast<std::uint64_t>(std::max(1.0, std::ceil(all / kShard))));
+}
+
+void print_notes(const studies::Plan& plan, bool quiet) {
+  if (quiet) return;
+  for (const Problem& note : plan.refused_ends()) say(to_string(note.place), "note", note.text);
+}
+
+}  // namespace gaitlab::app

@@ -1,0 +1,96 @@
+#include "app/study/study_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <thread>
+
+#include "app/study/study_figures.h"
+#include "core/build_id.h"
+#include "core/errors.h"
+#include "core/settings/wording.h"
+
+namespace gaitlab::app {
+
+void add_study_run(CLI::App& command, StudyRunArguments& a, const char* folder) {
+  command.add_option("--out", a.out, std::string("folder of the study (default ") + folder + "); one that holds it goes on");
+  command
+      .add_option("--answers", a.answers,
+                  "study.db of another study: what it has of these runs is not run again; may be repeated")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("-j,--jobs", a.jobs, "threads (default: one per processor)")->check(CLI::Range(1, 1024));
+  command.add_option("--lanes", a.lanes, "runs side by side in a thread (default: what engine and processor allow)")
+      ->check(CLI::Range(1, 64));
+  command.add_flag("--accept-build", a.accept_build, "go on with a study that another build of the program began");
+}
+
+Team& team() {
+  static Team made;
+  return made;
+}
+
+studies::Executor study_executor(const studies::Plan& plan, const StudyRunArguments& a) {
+  const BatchSettings settings{study_threads(a.jobs), static_cast<std::size_t>(a.lanes)};
+  studies::Measure measure = figure_measure(plan.columns(), plan.scenario());
+  return team() ? team()(plan, settings, std::move(measure)) : local_executor(plan, settings, std::move(measure));
+}
+
+studies::JournalHead study_head(const studies::Plan& plan) {
+  studies::JournalHead head = plan.head();
+  head.build = build_id();
+  return head;
+}
+
+studies::Journal::Build taken_build(const StudyRunArguments& a) {
+  return a.accept_build ? studies::Journal::Build::any : studies::Journal::Build::same;
+}
+
+std::vector<studies::Answers> other_answers(const studies::Plan& plan, const StudyRunArguments& a, const std::string& build) {
+  std::vector<studies::Answers> answers;
+  for (const std::string& other : a.answers) answers.emplace_back(plan, other, build, taken_build(a));
+  return answers;
+}
+
+void keep_runs(studies::Plan& plan, studies::Journal& journal, const std::filesystem::path& folder, bool quiet) {
+  const std::uint64_t there = journal.end();
+  const std::uint64_t wanted = plan.most_runs();
+  if (there <= wanted || !plan.raise_budget(there)) return;
+  journal.expect(plan.most_runs());
+  if (!quiet)
+    say(folder.string(), "note",
+        fmt::format("has runs up to number {}, beyond the budget of {}; all of them count", there - 1, wanted));
+}
+
+void refuse_copies(const char* command) {
+  if (team()) return;
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
+    const char* text = std::getenv(name);
+    if (text != nullptr && std::strtoll(text, nullptr, 10) > 1)
+      throw InputError(
+          SourceLocation{command},
+          fmt::format("was started {} times side by side ({}); expected once, as gaitlab-mpi under mpirun, or once "
+                      "per shard with sweep --shard",
+                      clipped(text), name));
+  }
+}
+
+int study_threads(int jobs) {
+  if (jobs > 0) return jobs;
+  return team() ? 1 : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::function<bool(const std::filesystem::path&)> holds_study(const studies::JournalHead& head) {
+  return [&head](const std::filesystem::path& folder) {
+    try {
+      const studies::Journal there(folder / studies::kJournalFile);
+      return there.head().definition == head.definition && there.head().scenario == head.scenario;
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+}
+
+}  // namespace gaitlab::app

@@ -1,0 +1,130 @@
+#include "app/study/study_sensitivity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "app/study/study_text.h"
+#include "core/files/atomic_file.h"
+#include "core/settings/wording.h"
+#include "report/figures/study/bar_figure.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+using studies::Estimate;
+using studies::Sensitivity;
+
+/// The parameter that matters most first; of those that matter alike, and are not known, in the order of the study.
+std::vector<std::size_t> by_weight(const Sensitivity& s) {
+  std::vector<std::size_t> order(s.parameters.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto weight = [&](std::size_t k) {
+    const double value = s.measures.front().of[k].value;
+    return std::isfinite(value) ? value : -1.0;
+  };
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return weight(a) > weight(b); });
+  return order;
+}
+
+bool of_trajectories(const Sensitivity& s) { return s.measures.front().name == "mu_star"; }
+
+/// `12 of 20 trajectories (8 hold points that failed ...)`.
+std::string basis(const Sensitivity& s) {
+  std::string text = fmt::format("{} of {} {}", s.used, s.blocks, of_trajectories(s) ? "trajectories" : "samples");
+  if (s.unusable > 0) text += fmt::format("; left out for {} without a value", counted(s.unusable, "point"));
+  if (s.infeasible > 0) text += fmt::format("; {} count all the same", counted(s.infeasible, "infeasible point"));
+  return text;
+}
+
+std::string number_cell(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-"; }
+
+std::string band_cell(const Estimate& e) { return std::isfinite(e.low) ? fmt::format("{:.3g} to {:.3g}", e.low, e.high) : "-"; }
+
+std::string table_of(const Sensitivity& s) {
+  std::vector<std::vector<std::string>> rows{{"parameter"}};
+  for (const studies::Measure95& measure : s.measures) {
+    rows[0].push_back(measure.name);
+    rows[0].emplace_back("95 %");
+  }
+  for (const std::size_t k : by_weight(s)) {
+    auto& row = rows.emplace_back(std::vector<std::string>{clipped(s.parameters[k])});
+    for (const studies::Measure95& measure : s.measures) {
+      row.push_back(number_cell(measure.of[k].value));
+      row.push_back(band_cell(measure.of[k]));
+    }
+  }
+  std::vector<std::size_t> widths(rows[0].size(), 0);
+  for (const auto& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c)
+      text += c == 0 ? fmt::format("  {:<{}}", row[c], widths[c]) : fmt::format("  {:>{}}", row[c], widths[c]);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string csv_of(const std::vector<Sensitivity>& all) {
+  std::string text = "output,parameter,measure,value,low,high\n";
+  const auto cell = [](double value) { return std::isfinite(value) ? number_text(value) : ""; };
+  for (const Sensitivity& s : all) {
+    for (std::size_t k = 0; k < s.parameters.size(); ++k) {
+      for (const studies::Measure95& measure : s.measures) {
+        const Estimate& e = measure.of[k];
+        text += csv_cell(s.output) + "," + csv_cell(s.parameters[k]) + "," + measure.name + "," + cell(e.value) + "," +
+                cell(e.low) + "," + cell(e.high) + "\n";
+      }
+    }
+  }
+  return text;
+}
+
+report::BarFigure figure_of_bars(const Sensitivity& s, const std::string& study, const std::string& note) {
+  report::BarFigure figure;
+  const std::string unit = s.unit.empty() ? "" : clipped(s.unit) + " ";
+  figure.title = study + ": what changes " + clipped(s.output);
+  figure.note = basis(s) + "; " + note;
+  figure.axis = of_trajectories(s) ? "change (" + unit + "per range of the parameter)" : "share of the variance";
+  figure.kinds = of_trajectories(s) ? std::vector<std::string>{"mean magnitude, mu*", "mean, mu", "deviation, sigma"}
+                                    : std::vector<std::string>{"total, with what it does beside others", "first order, alone"};
+  for (const std::size_t k : by_weight(s)) {
+    report::BarRow row{clipped(s.parameters[k]), {}};
+    for (const studies::Measure95& measure : s.measures)
+      row.bars.push_back({measure.of[k].value, measure.of[k].low, measure.of[k].high});
+    figure.rows.push_back(std::move(row));
+  }
+  return figure;
+}
+
+}  // namespace
+
+std::string sensitivity_text(studies::Journal& journal, const studies::Results& results) {
+  std::string text;
+  for (const Sensitivity& s : studies::sensitivities(journal, results)) {
+    const std::string unit =
+        of_trajectories(s) && !s.unit.empty() ? ", " + clipped(s.unit) + " per range of the parameter" : "";
+    text += fmt::format("what changes {}{}: {}\n{}", clipped(s.output), unit, basis(s), table_of(s));
+  }
+  return text;
+}
+
+std::vector<std::string> write_sensitivity(studies::Journal& journal, const studies::Results& results, const std::string& note,
+                                           const std::filesystem::path& folder) {
+  const std::vector<Sensitivity> all = studies::sensitivities(journal, results);
+  if (all.empty()) return {};
+  std::vector<std::string> files{"sensitivity.csv"};
+  write_file(folder / files[0], csv_of(all));
+  for (const Sensitivity& s : all) {
+    files.push_back("sensitivity-" + file_name(s.output) + ".svg");
+    write_file(folder / files.back(), report::bar_svg(figure_of_bars(s, clipped(journal.head().name), note)));
+  }
+  return files;
+}
+
+}  // namespace gaitlab::app

@@ -1,0 +1,312 @@
+#include "app/study/study_text.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "app/study/study_sensitivity.h"
+#include "core/files/atomic_file.h"
+#include "core/settings/wording.h"
+#include "studies/study/number.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+using studies::Journal;
+using studies::JournalHead;
+
+/// A number of the journal as a table shows it.
+std::string short_number(const std::string& text) {
+  if (text.empty()) return "-";
+  double number = 0;
+  const char* end = text.data() + text.size();
+  return std::from_chars(text.data(), end, number).ptr == end ? fmt::format("{:.4g}", number) : clipped(text);
+}
+
+struct ColumnOfTable {
+  std::string head, under;
+  std::vector<std::string> cells;
+};
+
+std::string laid_out(const std::vector<ColumnOfTable>& columns) {
+  std::string text;
+  const std::size_t rows = columns.empty() ? 0 : columns.front().cells.size();
+  for (std::size_t line = 0; line < rows + 2; ++line) {
+    std::string row;
+    for (const ColumnOfTable& column : columns) {
+      std::size_t width = std::max(column.head.size(), column.under.size());
+      for (const std::string& cell : column.cells) width = std::max(width, cell.size());
+      row += fmt::format("  {:>{}}", line == 0 ? column.head : line == 1 ? column.under : column.cells[line - 2], width);
+    }
+    while (row.ends_with(' ')) row.pop_back();
+    text += row + "\n";
+  }
+  return text;
+}
+
+std::size_t place_in(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+}
+
+/// A point in one of the study's scenarios: its first objective there, or what became of a run that failed.
+std::string in_one_scenario(Journal& journal, const studies::PointResult& point, std::size_t scenario) {
+  const JournalHead& head = journal.head();
+  const std::vector<std::string> names = journal.columns().all();
+  const std::uint64_t runs = point.runs / head.scenarios.size();
+  std::vector<double> bad;  // more is worse
+  for (std::uint64_t r = 0; r < runs; ++r) {
+    const std::vector<std::string> row = journal.row(point.first_run + scenario * runs + r);
+    if (row.size() != names.size()) return "-";
+    const std::string& outcome = row[place_in(names, "outcome")];
+    if (outcome != "done") return clipped(outcome);
+    const std::string& value = row[place_in(names, studies::objective_column(0))];
+    if (value.empty()) return "-";
+    bad.push_back((head.objectives.front().maximize ? -1 : 1) * studies::number_of(value));
+  }
+  if (bad.empty()) return "-";
+  const double worse = studies::combined(bad, head.combine, head.quantile);
+  return fmt::format("{:.4g}", head.objectives.front().maximize ? -worse : worse);
+}
+
+/// The word of the verdict on a point: of the run in the table, the first; of several scenarios of the first run that fails.
+std::string verdict_on(Journal& journal, const studies::PointResult& point, std::size_t place) {
+  const std::string first = journal.row(point.first_run)[place];
+  for (std::uint64_t r = 0; !journal.head().scenarios.empty() && r < point.runs; ++r) {
+    const std::string word = journal.row(point.first_run + r)[place];
+    if (word == "infeasible" || word == "failed") return word;
+  }
+  return first;
+}
+
+/// ` in rubble`, of a run of a study with several scenarios.
+std::string in_which_scenario(const JournalHead& head, std::uint64_t run) {
+  if (head.scenarios.empty()) return "";
+  const std::uint64_t runs = std::max<std::uint64_t>(1, head.replicates / head.scenarios.size());
+  const std::size_t scenario = run % head.replicates / runs;
+  return scenario < head.scenarios.size() ? " in " + clipped(head.scenarios[scenario]) : "";
+}
+
+std::string share(std::uint64_t part, std::uint64_t of) {
+  return of == 0 ? "" : fmt::format(" ({:.0f} %)", 100 * static_cast<double>(part) / static_cast<double>(of));
+}
+
+}  // namespace
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string file_name(const std::string& figure) {
+  std::string name;
+  for (const char c : figure) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
+    name += plain ? c : '-';
+  }
+  constexpr std::size_t kLongest = 100;  // of an expression
+  return name.substr(0, kLongest);
+}
+
+std::string shell_word(const std::string& word) {
+  constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,+-@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string objective_unit(const JournalHead& head) {
+  const auto figure = std::ranges::find(head.figures, head.objectives.front().expression, &studies::FigureName::name);
+  return figure == head.figures.end() || figure->unit.empty() ? "" : " " + clipped(figure->unit);
+}
+
+std::string objective_text(const JournalHead& head) {
+  const std::string unit = objective_unit(head);
+  return clipped(head.objectives.front().expression) + (unit.empty() ? "" : "," + unit);
+}
+
+std::string points_table(Journal& journal, const studies::Results& results, const std::vector<std::size_t>& order,
+                         std::size_t most) {
+  const JournalHead& head = journal.head();
+  const std::vector<std::string> names = journal.columns().all();
+  std::vector<ColumnOfTable> columns{{"run", "", {}}};
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < head.parameters.size(); ++k) {
+    if (head.parameters[k].drawn) continue;
+    columns.push_back({clipped(head.parameters[k].key), "", {}});
+    places.push_back(place_in(names, journal.columns().parameters[k]));
+  }
+  constexpr std::size_t kFigures = 5;
+  for (std::size_t k = 0; k < head.figures.size(); ++k) {
+    const studies::FigureName& figure = head.figures[k];
+    const std::size_t rank = place_in(head.shown, figure.name);
+    const auto is_objective = [&](const studies::JournalObjective& o) { return o.expression == figure.name; };
+    if (rank >= std::min(kFigures, head.shown.size()) || std::ranges::any_of(head.objectives, is_objective)) continue;
+    columns.push_back({clipped(figure.name), clipped(figure.unit), {}});
+    places.push_back(place_in(names, journal.columns().figures[k]));
+  }
+  const std::size_t objective = columns.size();
+  const std::string together = head.replicates > 1 ? " (" + clipped(head.combine) + ")" : "";
+  for (const studies::JournalObjective& o : head.objectives) {
+    const auto unit = std::ranges::find(head.figures, o.expression, &studies::FigureName::name);
+    columns.push_back({clipped(o.expression) + together, unit == head.figures.end() ? "" : clipped(unit->unit), {}});
+  }
+  for (const std::string& scenario : head.scenarios)
+    columns.push_back({"in " + clipped(scenario), columns[objective].under, {}});
+  columns.push_back({"violation", "", {}});
+  columns.push_back({"verdict", "", {}});
+  const std::size_t verdict = place_in(names, "verdict");
+  const std::size_t outcome = place_in(names, "outcome");
+  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
+    const studies::PointResult& point = results.points[order[k]];
+    const std::vector<std::string> row = journal.row(point.first_run);
+    if (row.size() != names.size()) continue;
+    columns[0].cells.push_back(std::to_string(point.first_run));
+    for (std::size_t c = 0; c < places.size(); ++c) columns[c + 1].cells.push_back(short_number(row[places[c]]));
+    const bool failed = point.failed > 0;
+    for (std::size_t o = 0; o < head.objectives.size(); ++o)
+      columns[objective + o].cells.push_back(failed ? clipped(row[outcome]) : fmt::format("{:.4g}", point.score.objectives[o]));
+    std::size_t behind = objective + head.objectives.size();
+    for (std::size_t s = 0; s < head.scenarios.size(); ++s)
+      columns[behind++].cells.push_back(in_one_scenario(journal, point, s));
+    columns[behind].cells.push_back(failed ? "-" : fmt::format("{:.3g}", point.score.violation));
+    columns[behind + 1].cells.push_back(clipped(verdict_on(journal, point, verdict)));
+  }
+  return laid_out(columns);
+}
+
+std::string study_summary(Journal& journal, const studies::Results& results, const std::filesystem::path& folder,
+                          std::size_t most) {
+  const JournalHead& head = journal.head();
+  std::uint64_t failed = 0;
+  for (const auto& [outcome, one] : results.failures.by_outcome) failed += one.count;
+  std::string text = fmt::format("{}: {} of {} runs ended, {} feasible{}, {} failed\n", clipped(head.name), results.runs,
+                                 head.runs, results.feasible_runs, share(results.feasible_runs, results.runs), failed);
+  if (!head.guarded) text += "without guards: results may exploit the simulation\n";
+  if (head.objectives.size() > 1) {
+    const std::vector<std::size_t> best = studies::front(results.points, head.objectives);
+    text += fmt::format("{} that no other is better than in all objectives\n", counted(best.size(), "point"));
+    if (!best.empty()) text += points_table(journal, results, best, 2 * most);
+  } else if (!results.points.empty()) {
+    const std::vector<std::size_t> order = studies::ranked(results.points, head.objectives.front().maximize);
+    text += fmt::format("best by {} ({}), feasible points first:\n{}", objective_text(head),
+                        head.objectives.front().maximize ? "most" : "least", points_table(journal, results, order, most));
+    if (order.size() > most) {
+      std::vector<std::size_t> last(order.end() - static_cast<std::ptrdiff_t>(std::min(most, order.size() - most)),
+                                    order.end());
+      text += fmt::format("worst:\n{}", points_table(journal, results, last, most));
+    }
+  }
+  text += sensitivity_text(journal, results);
+  constexpr std::size_t kLimits = 4;
+  const std::vector<studies::BrokenLimit> limits = studies::broken_limits(journal);
+  for (std::size_t k = 0; k < std::min(kLimits, limits.size()); ++k)
+    text += fmt::format("{}{} ({})", k == 0 ? "what most runs break: " : ", ", clipped(limits[k].text),
+                        counted(limits[k].runs, "run"));
+  if (!limits.empty()) text += "\n";
+  for (const auto& [outcome, one] : results.failures.by_outcome)
+    text += fmt::format("{} {}, first: run {}{}: {}\n", one.count, clipped(outcome), one.first_run,
+                        in_which_scenario(head, one.first_run), one_line(one.message));
+  text += verification_text(journal);
+  if (results.runs > 0)
+    text += fmt::format("one of them again, with its trace: gaitlab study rerun {} RUN\n", shell_word(folder.string()));
+  return text;
+}
+
+std::string verification_text(Journal& journal) {
+  const std::vector<studies::Verification> all = journal.verifications();
+  std::string text;
+  std::uint64_t run = 0;
+  for (std::size_t k = 0; k < all.size();) {
+    run = all[k].run;
+    std::string ways;
+    std::string reasons;
+    for (; k < all.size() && all[k].run == run; ++k) {
+      const studies::Verification& v = all[k];
+      const double objective = v.objectives.front();
+      ways += fmt::format("{}{} {}", ways.empty() ? "" : ", ", clipped(v.what),
+                          std::isnan(objective) ? "-" : fmt::format("{:.4g}", objective));
+      if (!v.reason.empty())
+        reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what), one_line(v.reason));
+    }
+    text += fmt::format("run {} {} ({}){}\n", run, reasons.empty() ? "stood" : "did not stand", ways,
+                        reasons.empty() ? "" : "\n  " + reasons);
+  }
+  return text.empty() ? "" : "the best, tried again (" + objective_text(journal.head()) + "):\n" + text;
+}
+
+void write_table(Journal& journal, const std::filesystem::path& file, Existing existing) {
+  AtomicFile out(file, existing);
+  std::string text;
+  const auto add = [&](const std::vector<std::string>& cells) {
+    for (std::size_t k = 0; k < cells.size(); ++k) text += (k > 0 ? "," : "") + csv_cell(cells[k]);
+    text += '\n';
+    constexpr std::size_t kPiece = 1 << 20;
+    if (text.size() < kPiece) return;
+    out.write(text);
+    text.clear();
+  };
+  const std::vector<std::string> names = journal.columns().all();
+  add(names);
+  journal.each_row(names, add);
+  out.write(text);
+  out.commit();
+}
+
+StudyProgress::StudyProgress(bool quiet, std::string unit)
+    : shown_(!quiet), terminal_(isatty(fileno(stderr)) != 0), unit_(std::move(unit)) {}
+
+StudyProgress::~StudyProgress() {
+  if (shown_ && terminal_) fmt::print(stderr, "\r{:110}\r", "");
+}
+
+void StudyProgress::operator()(const studies::SearchPlace& place) {
+  place_ = place.searches > 1 ? fmt::format("  {} searches", place.searches) : "";
+  place_ += fmt::format("  generation {}", place.generation);
+  if (place.restart > 0) place_ += fmt::format(" restart {}", place.restart);
+}
+
+double StudyProgress::rate(Time now, std::uint64_t ended) {
+  constexpr std::chrono::seconds kMinute{60};
+  constexpr std::chrono::milliseconds kApart{100};
+  if (minute_.empty() || now - minute_.back().first > kApart) minute_.emplace_back(now, ended);
+  while (minute_.size() > 2 && now - minute_[1].first > kMinute) minute_.pop_front();
+  const std::chrono::duration<double> since = now - minute_.front().first;
+  return since.count() > 0 ? static_cast<double>(ended - minute_.front().second) / since.count() : 0;
+}
+
+void StudyProgress::operator()(const studies::Standing& s) {
+  if (!shown_) return;
+  const Time now = std::chrono::steady_clock::now();
+  const double runs_per_s = rate(now, s.ended);
+  const std::chrono::duration<double> last = now - last_;
+  constexpr double kOften = 0.1;  // s, on a terminal
+  constexpr double kSeldom = 30;  // s, elsewhere
+  const bool first = last_ == Time{};
+  if (first && !terminal_) last_ = now;  // the first line after 30 s
+  if ((first && !terminal_) || (!first && last.count() < (terminal_ ? kOften : kSeldom))) return;
+  last_ = now;
+  std::string text = fmt::format("{}/{} runs", s.ended, s.wanted) + place_;
+  if (s.best) text += fmt::format("  best {:.4g}{} (run {})", s.best->objective(), unit_, s.best_run);
+  text += fmt::format("  {} feasible  {} failed", s.feasible, s.failed);
+  if (runs_per_s > 0)
+    text += fmt::format("  {:.3g} runs/s  {:.0f} s left", runs_per_s, static_cast<double>(s.wanted - s.ended) / runs_per_s);
+  if (terminal_) {
+    const auto filled =
+        s.wanted == 0 ? 20 : static_cast<std::size_t>(20 * static_cast<double>(s.ended) / static_cast<double>(s.wanted));
+    fmt::print(stderr, "\r[{:<20}] {:<86}", std::string(filled, '#'), text);
+    (void)std::fflush(stderr);
+  } else {
+    fmt::print(stderr, "{}\n", text);
+  }
+}
+
+}  // namespace gaitlab::app

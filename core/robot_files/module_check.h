@@ -1,0 +1,21 @@
+// Whether the parts of a module type make one body of hinges, with a physical inertia and faces that can dock.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/model/module_type.h"
+#include "core/settings/node.h"
+
+namespace gaitlab {
+
+/// Where the parts of a module type stand in its text, in the type's order.
+struct ModulePlaces {
+  std::vector<SourceLocation> bodies;  ///< of their names
+  std::vector<Node> hinges, faces;     ///< their maps
+  std::int64_t format = 1;             ///< of the text
+};
+
+/// Checks, normalises directions and sets `type.root`.
+void check_module(ModuleType& type, const ModulePlaces& places, Problems& problems);
+
+}  // namespace gaitlab

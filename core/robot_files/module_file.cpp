@@ -1,0 +1,378 @@
+// From a module type's YAML to a ModuleType: keys and their types. Whether it makes sense is checked in module_check.cpp.
+#include "core/robot_files/module_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/model/docking.h"
+#include "core/robot_files/module_check.h"
+#include "core/settings/reader.h"
+#include "core/settings/wording.h"
+
+namespace gaitlab {
+namespace {
+
+constexpr double kAny = std::numeric_limits<double>::infinity();
+constexpr std::int64_t kNewest = 2;  ///< format
+
+void length(Fields& f, const char* key, Vec3& value, const char* about) {
+  f.vector(key, span_of(value), {"m", -kAny, kAny, about});
+}
+
+void direction(Fields& f, const char* key, Vec3& value, const char* about) {
+  f.vector(key, span_of(value), {"", -kAny, kAny, about});
+}
+
+/// `origin` and `rpy` of a frame.
+struct FrameFields {
+  Vec3 origin = Vec3::Zero(), turn = Vec3::Zero();
+
+  void fields(Fields& f) {
+    length(f, "origin", origin, "Origin in the body's frame.");
+    f.vector("rpy", span_of(turn), {"rad", -kAny, kAny, "Roll, pitch, yaw."});
+  }
+  [[nodiscard]] Pose pose() const { return {rpy(turn), origin}; }
+};
+
+struct BodyFields {
+  double mass = 0;
+  Vec3 com = Vec3::Zero();
+  std::array<double, 6> inertia = {};
+
+  void fields(Fields& f) {
+    f.number("mass", mass, {"kg", 0, kAny, "Mass; 0 only for a body between two hinges."});
+    length(f, "com", com, "Centre of mass, body frame.");
+    f.vector("inertia", inertia, {"kg m^2", -kAny, kAny, "xx, yy, zz, xy, xz, yz about the COM, body axes."});
+  }
+  [[nodiscard]] Mat3 matrix() const {
+    const auto& [xx, yy, zz, xy, xz, yz] = inertia;
+    return (Mat3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
+  }
+};
+
+/// Reads a module type's parts one by one; bodies are referred to by name.
+class ModuleReader {
+ public:
+  ModuleReader(const Node& document, Problems& problems) : document_(document), problems_(problems) {}
+
+  ModuleType read(bool versioned) {
+    Reader reader = open(document_, "the module type");
+    places_.format = reader.version("gaitlab_module", kNewest);
+    if (versioned) reader.require({"gaitlab_module"});
+    reader.require({"name", "bodies"});
+    reader.text("name", type_.name, "Name of the type.");
+    if (const Node* name = reader.take("name")) check_name(type_.name, *name);
+    reader.flag("lattice", type_.lattice, "Bodies with faces fill cells of a cubic lattice.");
+    read_bodies(reader.take("bodies"));
+    each(reader.take("hinges"), "hinges", [this](const Node& node) { read_hinge(node); });
+    each(reader.take("faces"), "faces", [this](const Node& node) { read_face(node); });
+    if (const Node* node = reader.take("contacts")) read_contacts(*node);
+    reader.take("actuator");  // its keys are known once its type's plugin is
+    if (newer(reader, document_, {"connectors", "controller"})) read_connectors(reader.take("connectors"));
+    reader.finish();
+    return std::move(type_);
+  }
+
+  [[nodiscard]] const ModulePlaces& places() const { return places_; }
+
+ private:
+  /// Every map of a module type may say where its values come from.
+  Reader open(const Node& node, const std::string& name) {
+    Reader reader(node, name, problems_, nullptr);
+    std::string source;
+    reader.text("source", source, "Where the values come from.");
+    return reader;
+  }
+
+  /// Whether the keys of format 2 may be read; in a text of format 1 every one of them is a problem.
+  bool newer(Reader& reader, const Node& map, std::initializer_list<const char*> keys) {
+    for (const char* key : keys) {
+      const Node* value = reader.take(key);
+      if (value != nullptr && places_.format < 2) need_format_2(in_quotes(key) + " is a key", value->place);
+    }
+    return places_.format >= 2 && map.kind == Node::Kind::map;
+  }
+
+  void need_format_2(const std::string& what, const SourceLocation& place) {
+    if (places_.format == 0) return;  // the version itself is wrong
+    problems_.add(place, what + " of module format 2, and this is format 1; write gaitlab_module: 2");
+  }
+
+  void read_connectors(const Node* connectors) {
+    if (connectors == nullptr) return;
+    if (connectors->kind != Node::Kind::map) {
+      problems_.add(connectors->place,
+                    fmt::format("connectors is {}; expected a map NAME: {{tension: ..., shear: ...}}", found(*connectors)));
+      return;
+    }
+    for (std::size_t i = 0; i < connectors->items.size(); ++i) {
+      const auto& [name, place] = connectors->keys[i];
+      check_name(name, Node{Node::Kind::scalar, place});
+      Reader reader(connectors->items[i], in_quotes(name), problems_, nullptr);
+      Connector limits;
+      reader.number("tension", limits.tension, {"N", kPositive, kAny, "Largest pull along the normal."});
+      reader.number("shear", limits.shear, {"N", kPositive, kAny, "Largest force in the plane of the face."});
+      reader.number("bending", limits.bending, {"N m", kPositive, kAny, "Largest moment about axes in that plane."});
+      reader.number("torsion", limits.torsion, {"N m", kPositive, kAny, "Largest moment about the normal."});
+      reader.text("source", limits.source, "Where the values come from.");
+      reader.finish();
+      type_.connectors[name] = limits;
+    }
+  }
+
+  void check_name(const std::string& name, const Node& node) {
+    if (node.kind == Node::Kind::scalar && !is_name(name, "_-")) {
+      problems_.add(node.place, "name " + in_quotes(name) + " is not allowed; expected letters, digits, _ and -");
+    }
+  }
+
+  template <class Read>
+  void each(const Node* list, const char* key, Read read) {
+    if (list == nullptr) return;
+    if (list->kind != Node::Kind::list) {
+      problems_.add(list->place, fmt::format("{} is {}; expected a list of maps", key, found(*list)));
+      return;
+    }
+    for (const Node& item : list->items) read(item);
+  }
+
+  void read_bodies(const Node* bodies) {
+    if (bodies == nullptr) return;
+    if (bodies->kind != Node::Kind::map || bodies->items.empty()) {
+      const std::string what = bodies->kind == Node::Kind::map ? "an empty map" : found(*bodies);
+      problems_.add(bodies->place, fmt::format("bodies is {}; expected a map with at least one NAME: {{mass: ...}}", what));
+      return;
+    }
+    for (std::size_t i = 0; i < bodies->items.size(); ++i) {
+      const auto& [name, place] = bodies->keys[i];
+      Node key{Node::Kind::scalar, place};
+      check_name(name, key);
+      names_.push_back(name);
+      places_.bodies.push_back(place);
+      type_.bodies.push_back({name});
+      read_body(bodies->items[i], type_.bodies.back());
+    }
+  }
+
+  void read_body(const Node& node, BodyType& body) {
+    BodyFields values;
+    Reader reader = open(node, in_quotes(body.name));
+    values.fields(reader);
+    body.mass = values.mass;
+    body.com = values.com;
+    body.inertia = values.matrix();
+    each(reader.take("shape"), "shape", [&](const Node& item) { read_shape(item, body); });
+    reader.finish();
+  }
+
+  void read_shape(const Node& node, BodyType& body) {
+    Reader reader = open(node, "shape");
+    FrameFields frame;
+    frame.fields(reader);
+    Shape shape;
+    const Spec size{"m", kPositive, kAny, "Size."};
+    const std::size_t kinds = static_cast<std::size_t>(reader.has("box")) + static_cast<std::size_t>(reader.has("cylinder")) +
+                              static_cast<std::size_t>(reader.has("half_cylinder")) +
+                              static_cast<std::size_t>(reader.has("sphere"));
+    if (reader.has("cylinder")) shape.kind = Shape::Kind::cylinder;
+    if (reader.has("half_cylinder")) shape.kind = Shape::Kind::half_cylinder;
+    if (reader.has("sphere")) shape.kind = Shape::Kind::sphere;
+    reader.vector("box", span_of(shape.size), size);
+    reader.vector("cylinder", span_of(shape.size).first(2), size);
+    reader.vector("half_cylinder", span_of(shape.size).first(2), size);
+    reader.number("sphere", shape.size.x(), size);
+    if (kinds != 1 && node.kind == Node::Kind::map) {
+      problems_.add(node.place,
+                    fmt::format("the shape has {} of box, cylinder, half_cylinder and sphere; expected one", kinds));
+    }
+    shape.in_body = frame.pose();
+    body.shapes.push_back(shape);
+    reader.finish();
+  }
+
+  /// Index of the body that `key` names; a problem where there is none.
+  std::size_t body_of(Reader& reader, const char* key) {
+    reader.require({key});
+    std::string name;
+    reader.text(key, name, "A body's name.");
+    const Node* node = reader.take(key);
+    const auto it = std::find(names_.begin(), names_.end(), name);
+    if (node != nullptr && node->kind == Node::Kind::scalar && it == names_.end()) {
+      problems_.add(node->place, "no body " + in_quotes(name) + offer(name, names_, "bodies"));
+    }
+    return it == names_.end() ? 0 : static_cast<std::size_t>(it - names_.begin());
+  }
+
+  void read_hinge(const Node& node) {
+    Reader reader = open(node, "hinge");
+    HingeType hinge;
+    FrameFields frame;
+    reader.require({"name", "axis", "range"});
+    reader.text("name", hinge.name, "Name of the hinge and of its joint.");
+    if (const Node* name = reader.take("name")) {
+      check_name(hinge.name, *name);
+      if (hinge.name == "dock") problems_.add(name->place, "a hinge cannot be named dock: that is where the module is docked");
+    }
+    hinge.parent = body_of(reader, "parent");
+    hinge.child = body_of(reader, "child");
+    frame.fields(reader);
+    direction(reader, "axis", hinge.axis, "Axis, hinge frame.");
+    read_range(reader, hinge);
+    hinge.in_parent = frame.pose();
+    if (newer(reader, node,
+              {"drive", "stiffness", "rest", "damping", "friction", "friction_speed", "actuator", "controller"})) {
+      read_drive(reader, hinge);
+    }
+    type_.hinges.push_back(hinge);
+    places_.hinges.push_back(node);
+    reader.finish();
+  }
+
+  void read_range(Reader& reader, HingeType& hinge) {
+    const Node* node = reader.take("range");
+    if (node != nullptr && node->kind == Node::Kind::scalar && node->text == "free") {
+      if (places_.format < 2) need_format_2("range: free is", node->place);
+      hinge.lo = -kNoStop;
+      hinge.hi = kNoStop;
+      return;
+    }
+    if (node != nullptr && node->kind != Node::Kind::list && places_.format >= 2) {
+      problems_.add(node->place, fmt::format("range is {}; expected a list of 2 numbers in rad, or free", found(*node)));
+      return;
+    }
+    std::array<double, 2> range{};
+    reader.vector("range", range, {"rad", -kAny, kAny, "Smallest and largest angle."});
+    hinge.lo = range[0];
+    hinge.hi = range[1];
+  }
+
+  /// A motor, or what a hinge has without one. The keys of `actuator` and `controller` are known once their types' plugins are.
+  void read_drive(Reader& reader, HingeType& hinge) {
+    enum class Drive { motor, none };
+    constexpr std::array<const char*, 2> kDrives{"motor", "none"};
+    Drive drive = Drive::motor;
+    reader.choice("drive", drive, kDrives, "Whether a motor drives the hinge.");
+    for (const char* key : {"actuator", "controller"}) {
+      const Node* own = reader.take(key);
+      if (own == nullptr) continue;
+      if (own->kind != Node::Kind::map) {
+        problems_.add(own->place, fmt::format("{} is {}; expected a map", key, found(*own)));
+      } else if (drive == Drive::none) {
+        problems_.add(own->place, fmt::format("hinge '{}' has {} and drive: none; expected one of them", hinge.name, key));
+      }
+    }
+    Passive passive;
+    reader.number("stiffness", passive.stiffness, {"N m/rad", 0, 1e6, "Of a spring."});
+    reader.number("rest", passive.rest, {"rad", -1000, 1000, "Angle at which the spring is at rest."});
+    reader.number("damping", passive.damping, {"N m s/rad", 0, 1e6, "Of a viscous damper."});
+    reader.number("friction", passive.friction, {"N m", 0, 1e6, "Dry friction."});
+    reader.number("friction_speed", passive.friction_speed, {"rad/s", 1e-6, 1e3, "Speed below which dry friction is viscous."});
+    if (drive == Drive::none) {
+      hinge.passive = passive;
+      return;
+    }
+    for (const char* key : {"stiffness", "rest", "damping", "friction", "friction_speed"}) {
+      if (const Node* own = reader.take(key)) {
+        problems_.add(own->place, fmt::format("{} is of a hinge without a motor; add drive: none, or remove it", key));
+      }
+    }
+  }
+
+  void read_face(const Node& node) {
+    Reader reader = open(node, "face");
+    FaceType face;
+    std::int64_t id = 0;
+    reader.require({"id", "gender", "origin", "normal", "reference"});
+    reader.integer("id", id, {"", 0, 1000, "Number of the face in build files."});
+    face.body = body_of(reader, "body");
+    const Node* gender = reader.take("gender");
+    if (places_.format < 2 && gender != nullptr && gender->text == "none") {
+      need_format_2("gender: none is", gender->place);
+    } else {
+      reader.choice("gender", face.gender, std::span(kGenders).first(places_.format < 2 ? 2 : 3),
+                    "An active face docks on a passive one, none on none.");
+    }
+    if (newer(reader, node, {"connector", "turns"})) read_docking(reader, face);
+    length(reader, "origin", face.origin, "Middle of the face, body frame.");
+    direction(reader, "normal", face.normal, "Outward normal, body frame.");
+    direction(reader, "reference", face.reference, "In-plane reference direction, body frame.");
+    face.id = static_cast<int>(id);
+    type_.faces.push_back(face);
+    places_.faces.push_back(node);
+    reader.finish();
+  }
+
+  void read_docking(Reader& reader, FaceType& face) {
+    reader.text("connector", face.connector, "Name of its connector; faces dock where these are the same.");
+    if (const Node* name = reader.take("connector")) check_name(face.connector, *name);
+    std::vector<double> turns{0, 1, 2, 3};
+    reader.numbers("turns", turns, {"", 0, 3, "Orientations in which it docks."});
+    const Node* list = reader.take("turns");
+    if (list == nullptr || list->kind != Node::Kind::list) return;
+    face.turns = {};
+    for (const double turn : turns) {
+      const auto number = static_cast<std::size_t>(turn);
+      if (turn != static_cast<double>(number)) {
+        problems_.add(list->place, fmt::format("turns has {}; expected some of 0, 1, 2, 3 (times pi/2)", number_text(turn)));
+        return;
+      }
+      face.turns[number] = true;
+    }
+    if (turns.empty()) problems_.add(list->place, "turns is empty; expected some of 0, 1, 2, 3 (times pi/2)");
+  }
+
+  void read_contacts(const Node& node) {
+    Reader reader = open(node, "contacts");
+    each(reader.take("feet"), "feet", [this](const Node& item) { type_.feet.push_back(read_contact(item)); });
+    each(reader.take("all"), "all", [this](const Node& item) { type_.all.push_back(read_contact(item)); });
+    reader.finish();
+  }
+
+  ContactType read_contact(const Node& node) {
+    Reader reader = open(node, "contact");
+    ContactType contact;
+    contact.body = body_of(reader, "body");
+    const bool point = reader.has("point");
+    const bool sphere = reader.has("sphere");
+    length(reader, "point", contact.centre, "A point, body frame.");
+    length(reader, "sphere", contact.centre, "Centre of a sphere, body frame.");
+    reader.number("radius", contact.radius, {"m", kPositive, kAny, "Radius of the sphere."});
+    if (sphere) reader.require({"radius"});
+    if (node.kind == Node::Kind::map && (point == sphere || (point && reader.has("radius")))) {
+      problems_.add(node.place, "expected {body, point: [x, y, z]} or {body, sphere: [x, y, z], radius: r}");
+    }
+    reader.finish();
+    return contact;
+  }
+
+  const Node& document_;
+  Problems& problems_;
+  ModuleType type_;
+  ModulePlaces places_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+ModuleType read_module(const Node& document, bool versioned, Problems& problems) {
+  const std::size_t before = problems.size();
+  ModuleReader reader(document, problems);
+  ModuleType type = reader.read(versioned);
+  // Whether the parts fit together is a question only for parts that are there.
+  if (problems.size() == before) check_module(type, reader.places(), problems);
+  return type;
+}
+
+ModuleFile read_module_file(const std::string& path) {
+  ModuleFile file;
+  file.document = read_yaml(path);
+  Problems problems;
+  file.type = read_module(file.document, true, problems);
+  problems.raise();
+  return file;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,118 @@
+#include "core/robot_files/type_library.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/robot_files/module_file.h"
+#include "core/settings/data_folder.h"
+#include "core/settings/text_file.h"
+#include "core/settings/wording.h"
+
+namespace gaitlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_path(const std::string& text) {
+  return text.find('/') != std::string::npos || text.ends_with(".yaml") || text.ends_with(".yml");
+}
+
+/// Names of the module type files in a folder.
+void add_names(const std::string& folder, std::vector<std::string>& names) {
+  std::error_code failure;
+  for (const auto& file : fs::directory_iterator(folder, failure)) {
+    if (file.path().extension() == ".yaml") names.push_back(file.path().stem().string());
+  }
+}
+
+std::string file_key(const std::string& path) {
+  std::error_code failure;
+  const fs::path canonical = fs::canonical(path, failure);
+  return "file " + (failure ? path : canonical.string());
+}
+
+}  // namespace
+
+bool TypeLibrary::is_inline(const Node& map) {
+  return map.find("name") != nullptr || map.find("bodies") != nullptr || map.find("gaitlab_module") != nullptr;
+}
+
+void TypeLibrary::define(const Node& types) {
+  if (types.kind != Node::Kind::map) {
+    problems_.add(types.place, fmt::format("types is {}; expected a map NAME: {{name: ..., bodies: ...}}", found(types)));
+    return;
+  }
+  for (std::size_t i = 0; i < types.keys.size(); ++i) {
+    const auto& [name, place] = types.keys[i];
+    if (!is_name(name, "_-")) {
+      problems_.add(place, "type name " + in_quotes(name) + " is not allowed; expected letters, digits, _ and -");
+    }
+    defined_[name] = &types.items[i];
+  }
+}
+
+std::optional<std::size_t> TypeLibrary::find(const Node& node) {
+  if (node.kind == Node::Kind::map) {
+    const auto [seen, fresh] = inline_.emplace(&node, Index{});
+    return fresh ? seen->second = read(node, false, problems_) : seen->second;
+  }
+  if (node.kind != Node::Kind::scalar) {
+    problems_.add(node.place, fmt::format("the module type is {}; expected a name, a file or a map", found(node)));
+    return {};
+  }
+  return is_path(node.text) ? read_file(path_from(folder_, node.text), node.place) : find_name(node);
+}
+
+std::optional<std::size_t> TypeLibrary::find_name(const Node& node) {
+  const auto [seen, fresh] = seen_.emplace("name " + node.text, Index{});
+  if (!fresh) return seen->second;
+  if (const auto defined = defined_.find(node.text); defined != defined_.end()) {
+    return seen->second = read(*defined->second, false, problems_);
+  }
+  std::vector<std::string> known;
+  for (const auto& [name, type] : defined_) known.push_back(name);
+  for (const std::string& folder : search_folders()) {
+    const std::string path = folder + "/" + node.text + ".yaml";
+    std::error_code failure;
+    if (is_name(node.text, "_-") && fs::exists(path, failure)) return seen->second = read_file(path, node.place);
+    add_names(folder, known);
+  }
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  Problem& problem = problems_.add(node.place, "no module type " + in_quotes(node.text) + offer(node.text, known, "types"));
+  problem.notes.emplace_back(node.place, "looked in " + joined(search_folders()));
+  return {};
+}
+
+std::optional<std::size_t> TypeLibrary::read_file(const std::string& path, const SourceLocation& asked_at) {
+  const auto [seen, fresh] = seen_.emplace(file_key(path), Index{});
+  if (!fresh) return seen->second;
+  Problems found;
+  try {
+    const std::optional<Node> document = parse_yaml(read_text(path, asked_at), path, found);
+    if (document) seen->second = read(*document, true, found);
+  } catch (const InputError& e) {
+    add_all(e, found);
+  }
+  add_found(found, {path, folder_, "module file", "gaitlab_module"}, problems_);
+  return seen->second;
+}
+
+std::optional<std::size_t> TypeLibrary::read(const Node& document, bool versioned, Problems& problems) {
+  const std::size_t before = problems.size();
+  ModuleType type = read_module(document, versioned, problems);
+  if (problems.size() != before) return {};
+  types.push_back(std::move(type));
+  documents.push_back(document);
+  return types.size() - 1;
+}
+
+std::vector<std::string> TypeLibrary::search_folders() const {
+  std::vector<std::string> folders{path_from(folder_, "modules"), path_from(folder_, "../modules")};
+  folders.push_back(data_folder() + "/modules");
+  return folders;
+}
+
+}  // namespace gaitlab

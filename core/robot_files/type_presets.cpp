@@ -1,0 +1,203 @@
+#include "core/robot_files/type_presets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/plugin/plugin_instance.h"
+#include "core/settings/value.h"
+#include "core/settings/wording.h"
+#include "core/settings/writer.h"
+
+namespace gaitlab {
+namespace {
+
+const Node* map_of(const Node& of, Kind kind) {
+  const Node* map = of.find(word(kind));
+  return map != nullptr && map->kind == Node::Kind::map ? map : nullptr;
+}
+
+std::string type_of(const Node* map, Kind kind) {
+  const Node* type = map == nullptr ? nullptr : map->find("type");
+  return type == nullptr ? describe(kind).default_type : type->text;
+}
+
+bool of_format_2(const Node& document) {
+  const Node* format = document.find("gaitlab_module");
+  return format != nullptr && read_integer(*format).value >= 2;
+}
+
+bool alike(const Node* a, const Node* b) {
+  if (a == nullptr || b == nullptr) return a == b;
+  return print_yaml(*a) == print_yaml(*b);
+}
+
+/// Every field of some settings: its value per joint, or what it says as a text.
+class Seen final : public Fields {
+ public:
+  struct Value {
+    PerJoint each;
+    std::string text;
+  };
+  void visit(const Field& field) override {
+    if (const auto* each = std::get_if<field::EachJoint>(&field.value)) {
+      values[field.key] = {each->value, {}};
+      return;
+    }
+    const std::vector<std::string> no_names;
+    Writer writer(no_names);
+    writer.visit(field);
+    values[field.key] = {{}, print_yaml(writer.take())};
+  }
+  void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
+
+  std::map<std::string, Value> values;
+};
+
+/// Gives each joint its own of several settings; what is one for all joints must be the same in all of them.
+class PerJointMerge final : public Fields {
+ public:
+  PerJointMerge(const std::vector<Seen>& kinds, const std::vector<std::size_t>& of_joint)
+      : kinds_(kinds), of_joint_(of_joint) {}
+
+  void visit(const Field& field) override {
+    const auto* each = std::get_if<field::EachJoint>(&field.value);
+    if (each == nullptr) {
+      for (const Seen& kind : kinds_) {
+        if (value(kind, field.key).text != value(kinds_.front(), field.key).text) differing.emplace_back(field.key);
+      }
+      return;
+    }
+    std::vector<double> values;
+    for (std::size_t j = 0; j < of_joint_.size(); ++j) values.push_back(value(kinds_[of_joint_[j]], field.key).each[j]);
+    if (std::ranges::all_of(values, [&](double one) { return one == values.front(); })) {
+      each->value = PerJoint{values.front()};
+    } else {
+      each->value.each = std::move(values);
+    }
+  }
+  void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
+
+  std::vector<std::string> differing;  ///< keys
+
+ private:
+  static const Seen::Value& value(const Seen& of, const char* key) {
+    static const Seen::Value kNone;
+    const auto at = of.values.find(key);
+    return at == of.values.end() ? kNone : at->second;
+  }
+  const std::vector<Seen>& kinds_;
+  const std::vector<std::size_t>& of_joint_;
+};
+
+}  // namespace
+
+std::vector<const Node*> preset_maps(const Node& document, Kind kind) {
+  std::vector<const Node*> maps;
+  const auto add = [&](const Node& of) {
+    if (const Node* map = map_of(of, kind)) maps.push_back(map);
+  };
+  add(document);
+  if (const Node* hinges = document.find("hinges")) std::ranges::for_each(hinges->items, add);
+  return maps;
+}
+
+TypePresets::TypePresets(Kind kind, const Robot* robot, const std::vector<Node>& documents)
+    : kind_(kind), type_(describe(kind).default_type) {
+  std::vector<const Node*> maps;
+  for (const Node& document : documents) {
+    if (const Node* map = map_of(document, kind)) maps.push_back(map);
+  }
+  if (robot == nullptr || std::ranges::none_of(documents, of_format_2)) {
+    choose_common(maps);
+  } else {
+    choose_each(*robot, documents);
+  }
+}
+
+void TypePresets::choose_common(const std::vector<const Node*>& maps) {
+  if (maps.empty()) return;
+  kinds_.push_back({maps.front(), nullptr});
+  if (maps.front()->find("type") != nullptr) type_ = maps.front()->find("type")->text;
+  if (std::ranges::all_of(maps, [&](const Node* map) { return alike(map, maps.front()); })) return;
+  said_ = maps;
+  why_ = fmt::format("the module types have different {}s", word(kind_));
+}
+
+void TypePresets::choose_each(const Robot& robot, const std::vector<Node>& documents) {
+  std::vector<const Node*> maps;  // of the types that have a hinge with a motor
+  for (const Joint& joint : robot.joints) {
+    const std::size_t type = robot.modules[joint.module].type;
+    const std::vector<HingeType>& hinges = robot.types[type].hinges;
+    const std::string name = joint.name.substr(joint.name.find('/') + 1);
+    const auto number = static_cast<std::size_t>(std::ranges::find(hinges, name, &HingeType::name) - hinges.begin());
+    const Maps of{map_of(documents[type], kind_), map_of(documents[type].find("hinges")->items[number], kind_)};
+    if (joint.driven()) maps.push_back(of.of_type);
+    // What a hinge without a motor would have is never used: that of any other.
+    const auto known = joint.driven() ? std::ranges::find(kinds_, of) : kinds_.begin();
+    of_joint_.push_back(static_cast<std::size_t>(known - kinds_.begin()));
+    if (joint.driven() && known == kinds_.end()) kinds_.push_back(of);
+  }
+  if (kinds_.empty()) of_joint_.clear();
+  if (maps.empty()) return;
+  type_ = type_of(maps.front(), kind_);
+  const bool one_type = std::ranges::all_of(maps, [&](const Node* map) { return type_of(map, kind_) == type_; });
+  const bool some_alone = kind_ == Kind::actuator && std::ranges::count(maps, nullptr) > 0 &&
+                          std::ranges::any_of(maps, [](const Node* map) { return map != nullptr; });
+  if (one_type && !some_alone) return;
+  why_ = one_type ? "some of the module types with a motor state none"
+                  : fmt::format("the module types have different {}s", word(kind_));
+  for (const Node* map : maps) {
+    if (map != nullptr && std::ranges::find(said_, map) == said_.end()) said_.push_back(map);
+  }
+}
+
+void TypePresets::refuse(const SourceLocation& place, Problems& problems) const {
+  Problem& problem = problems.add(place, fmt::format("{}; say which one holds: add {}: {{type: ...}}", why_, word(kind_)));
+  for (const Node* map : said_) problem.notes.emplace_back(map->place, "one is here");
+}
+
+void TypePresets::read(const Entry& entry, const Maps& maps, void* settings, JointNames joints, Problems& of_type,
+                       Problems& of_hinge) const {
+  const auto apply = [&](const Node& map, Problems& problems, bool whole) {
+    Reader preset(map, word(kind_), problems, joints);
+    if (whole) preset.take("type");
+    preset.take("source");
+    visit_settings(entry, settings, preset);
+    preset.finish();
+  };
+  if (maps.of_type != nullptr) apply(*maps.of_type, of_type, true);
+  if (maps.of_hinge != nullptr) apply(*maps.of_hinge, of_hinge, false);
+}
+
+void TypePresets::fill(const Entry& entry, void* settings, JointNames joints, Problems& problems) const {
+  if (kinds_.empty() || !agreed() || entry.name != type_) return;
+  read(entry, kinds_.front(), settings, joints, problems, problems);
+  if (kinds_.size() == 1) return;
+  std::vector<const Node*> told{kinds_.front().of_type};
+  std::vector<Seen> seen;
+  for (const Maps& maps : kinds_) {
+    Problems known;  // those of a map that was read before
+    const bool fresh = std::ranges::find(told, maps.of_type) == told.end();
+    const std::shared_ptr<void> own = default_settings(entry);
+    read(entry, maps, own.get(), joints, fresh ? problems : known, &maps == &kinds_.front() ? known : problems);
+    told.push_back(maps.of_type);
+    seen.emplace_back();
+    visit_settings(entry, own.get(), seen.back());
+  }
+  PerJointMerge merge(seen, of_joint_);
+  visit_settings(entry, settings, merge);
+  for (const std::string& key : merge.differing) {
+    for (const Maps& maps : kinds_) {
+      const Node* by = maps.of_hinge != nullptr && maps.of_hinge->find(key) != nullptr ? maps.of_hinge->find(key)
+                       : maps.of_type != nullptr                                       ? maps.of_type->find(key)
+                                                                                       : nullptr;
+      if (by == nullptr) continue;
+      problems.add(by->place, fmt::format("{} is one for all joints of a robot, and other hinges have another one", key));
+      break;
+    }
+  }
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,125 @@
+#include "core/settings/periods.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/settings/wording.h"
+
+namespace gaitlab {
+namespace {
+
+constexpr double kTolerance = 1e-9;  // relative, of a ratio to its nearest whole number
+
+/// The largest period of which both are whole multiples, by Euclid's algorithm; 0 where they have none above b * 1e-7.
+double common_divisor(double a, double b) {
+  const double smallest = std::min(a, b) * 1e-7;
+  while (b > smallest) {
+    const double rest = a - b * std::round(a / b);
+    a = b;
+    b = std::abs(rest);
+    if (b <= a * 1e-7) return a;
+  }
+  return 0;
+}
+
+/// To 12 digits, far within the tolerance: 0.015 is offered rather than 0.015000000000000001.
+double rounded(double value) {
+  const std::string text = fmt::format("{:.12g}", value);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+std::size_t digits(double value) {
+  const std::string text = number_text(value);
+  const std::size_t exponent = text.find('e');
+  std::size_t count = 0;
+  bool leading = true;
+  for (const char c : text.substr(0, exponent)) {
+    leading = leading && (c == '0' || c == '.');
+    if (!leading && c != '.') ++count;
+  }
+  return count;
+}
+
+/// The candidate divisor/k nearest to `start` in the direction of `towards` (+1 or -1 for k) that is a short decimal; without
+/// one near enough, the nearest of all.
+double fitting(const std::vector<double>& periods, double divisor, double first, double towards) {
+  const auto fits = [&](double step) {
+    return std::all_of(periods.begin(), periods.end(), [&](double period) { return whole_multiple(period, step) > 0; });
+  };
+  const double last = towards > 0 ? first * 2 : std::max(1.0, std::floor(first / 2));
+  double nearest = 0;
+  for (double k = first; (last - k) * towards >= 0 && std::abs(k - first) < 5000; k += towards) {
+    const double step = rounded(divisor / k);
+    if (!fits(step)) continue;
+    if (digits(step) <= 4) return step;
+    if (nearest == 0) nearest = step;
+  }
+  return nearest;
+}
+
+std::string values(const std::string& heading, const std::vector<double>& list) {
+  std::string out;
+  for (const double value : list) out += (out.empty() ? heading : ", ") + number_text(value);
+  return out;
+}
+
+}  // namespace
+
+double longest_step(double control_period) {
+  return control_period / std::max(1.0, std::ceil(control_period / kLongestStep - kTolerance));
+}
+
+double whole_multiple(double period, double step) {
+  const double ratio = period / step;
+  const double whole = std::round(ratio);
+  return whole >= 1 && std::isfinite(ratio) && std::abs(ratio - whole) <= kTolerance * ratio ? whole : 0;
+}
+
+std::vector<double> fitting_steps(const std::vector<double>& periods, double step) {
+  double divisor = periods.front();
+  for (const double period : periods) divisor = divisor > 0 ? common_divisor(divisor, period) : 0;
+  if (!(divisor > 0)) return {};
+  const double ratio = divisor / step;
+  std::vector<double> out;
+  if (const double smaller = fitting(periods, divisor, std::max(1.0, std::ceil(ratio)), 1); smaller > 0) out.push_back(smaller);
+  if (std::floor(ratio) >= 1) {
+    if (const double larger = fitting(periods, divisor, std::floor(ratio), -1); larger > 0) out.push_back(larger);
+  }
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+std::vector<double> fitting_periods(double period, double step) {
+  std::vector<double> out;
+  for (const double count : {std::floor(period / step), std::ceil(period / step)}) {
+    if (count >= 1) out.push_back(rounded(count * step));
+  }
+  out.erase(std::remove_if(out.begin(), out.end(), [&](double p) { return whole_multiple(p, step) == 0; }), out.end());
+  return out;
+}
+
+void check_periods(const std::vector<Period>& periods, const Period& step, const SourceLocation& otherwise,
+                   Problems& problems) {
+  std::vector<double> all;
+  all.reserve(periods.size());
+  for (const Period& period : periods) all.push_back(period.value);
+  for (const Period& period : periods) {
+    if (whole_multiple(period.value, step.value) > 0) continue;
+    std::string text =
+        fmt::format("{} {} s is not a whole multiple of the {} {} s ({} steps)", period.name, number_text(period.value),
+                    step.name, number_text(step.value), fmt::format("{:.12g}", period.value / step.value));
+    if (step.given || !period.given) {
+      std::vector<double> steps = fitting_steps(all, step.value);
+      if (steps.empty()) steps = fitting_steps({period.value}, step.value);
+      text += values("; steps that fit: ", steps);
+    }
+    if (period.given) text += values("; periods that fit: ", fitting_periods(period.value, step.value));
+    problems.add(period.given ? *period.given : step.given ? *step.given : otherwise, std::move(text));
+  }
+}
+
+}  // namespace gaitlab

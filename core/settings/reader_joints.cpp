@@ -1,0 +1,155 @@
+// The values of a Reader that name joints: a value per joint, and a joint itself.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/model/pattern.h"
+#include "core/settings/joint_patterns.h"
+#include "core/settings/reader.h"
+#include "core/settings/value.h"
+#include "core/settings/wording.h"
+
+namespace gaitlab {
+
+void Reader::on(const char* key, const field::EachJoint& field) {
+  const Node* node = take(key);
+  const std::size_t before = problems_.size();
+  if (node != nullptr) read_each_joint(*node, key, field);
+  if (field.role == field::Role::required && problems_.size() == before) require_each(key, node, field.value);
+}
+
+void Reader::require_each(const char* key, const Node* node, const PerJoint& value) {
+  std::size_t joint = 0;
+  while (joint < value.each.size() && value.each[joint] > 0) ++joint;
+  if (value.each.empty() ? value.common > 0 : joint == value.each.size()) return;
+  if (node == nullptr) {
+    problems_.add(map_->place, "missing key " + in_quotes(key));
+  } else if (joints_ != nullptr && joint < joints_->size()) {
+    problems_.add(node->place,
+                  fmt::format("{} is missing for joint {}; add it, or default:", key, in_quotes((*joints_)[joint])));
+  }
+}
+
+void Reader::read_each_joint(const Node& node, const char* key, const field::EachJoint& field) {
+  if (node.kind == Node::Kind::list) {
+    read_joint_list(node, key, field.spec, field.value);
+  } else if (node.kind == Node::Kind::map) {
+    read_joint_map(node, key, field.spec, field.value);
+  } else if (node.kind == Node::Kind::scalar) {
+    if (read_one(node, key, field.spec, field.value.common)) field.value.each.clear();
+  } else {
+    problems_.add(node.place, fmt::format("{} is {}; expected a number{}, a list, or a map of joints", key, found(node),
+                                          in_unit(field.spec)));
+  }
+}
+
+void Reader::read_joint_list(const Node& node, const std::string& key, const Spec& spec, PerJoint& value) {
+  if (joints_ != nullptr && node.items.size() != joints_->size()) {
+    problems_.add(node.place, fmt::format("{} has {}; expected one for each of the robot's {}", key,
+                                          counted(node.items.size(), "number"), counted(joints_->size(), "joint")));
+    return;
+  }
+  std::vector<double> each(node.items.size());
+  read_each(node, key, spec, each);
+  value.each = std::move(each);
+}
+
+namespace {
+
+using Key = std::pair<std::string, SourceLocation>;
+
+/// What a map says of a joint.
+struct Said {
+  const Key* key = nullptr;  ///< nullptr: nothing
+  double number = 0;
+};
+
+/// Two patterns that disagree on a joint; `more`: on how many others.
+void report_clash(const std::string& joint, std::size_t more, const Said& first, const Key& key, double number,
+                  Problems& problems) {
+  problems
+      .add(key.second,
+           fmt::format("joint {} is given {} by {} and {} by {}{}; give it by its name, which beats patterns", in_quotes(joint),
+                       number_text(first.number), in_quotes(first.key->first), number_text(number), in_quotes(key.first),
+                       more == 0 ? "" : fmt::format(" (and so {} more)", counted(more, "joint"))))
+      .notes.emplace_back(first.key->second, in_quotes(first.key->first) + " is here");
+}
+
+}  // namespace
+
+bool Reader::read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value) {
+  PerJoint read = value;
+  const Node* common = node.find("default");
+  if (common != nullptr && read_one(*common, key + ".default", spec, read.common)) read.each.clear();
+  if (node.keys.size() > (common != nullptr ? 1U : 0U) && read.each.empty() && joints_ != nullptr) {
+    read.each.assign(joints_->size(), read.common);
+  }
+  std::vector<Said> said(joints_ == nullptr ? 0 : joints_->size());  // by name; then by pattern, where no name did
+  std::vector<std::pair<const Key*, double>> patterns;
+  for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    const auto& [name, place] = node.keys[i];
+    if (name == "default") continue;
+    double number = 0;
+    const bool good = read_one(node.items[i], fmt::format("{} of {}", key, in_quotes(name)), spec, number);
+    if (is_pattern(name)) {
+      if (const std::string wrong = joints_ == nullptr ? "" : no_joint(name, *joints_); !wrong.empty())
+        problems_.add(place, wrong);
+      if (good) patterns.emplace_back(&node.keys[i], number);
+      continue;
+    }
+    const std::int64_t joint = joint_number(name, place);
+    if (joint >= 0)
+      said[static_cast<std::size_t>(joint)] = {&node.keys[i], good ? number : read.each[static_cast<std::size_t>(joint)]};
+  }
+  for (const auto& [pattern, number] : patterns) {
+    std::size_t clashes = 0;
+    const std::string* joint = nullptr;
+    const Said* other = nullptr;
+    for (const std::size_t j : joints_ == nullptr ? std::vector<std::size_t>() : joints_of(pattern->first, *joints_)) {
+      if (said[j].key == nullptr) said[j] = {pattern, number};
+      if (!is_pattern(said[j].key->first) || said[j].number == number || clashes++ > 0) continue;
+      joint = &(*joints_)[j];
+      other = &said[j];
+    }
+    if (clashes > 0) report_clash(*joint, clashes - 1, *other, *pattern, number, problems_);
+  }
+  for (std::size_t j = 0; j < said.size(); ++j) {
+    if (said[j].key != nullptr) read.each[j] = said[j].number;
+  }
+  value = std::move(read);
+  return common != nullptr || std::ranges::all_of(said, [](const Said& one) { return one.key != nullptr; });
+}
+
+std::int64_t Reader::joint_number(const std::string& name, const SourceLocation& place) {
+  if (joints_ == nullptr) return -1;
+  const auto it = std::find(joints_->begin(), joints_->end(), name);
+  if (it != joints_->end()) return it - joints_->begin();
+  problems_.add(place, not_one_joint(name, *joints_));
+  return -1;
+}
+
+void Reader::on(const char* key, const field::Joint& field) {
+  const Node* node = take(key);
+  if (node == nullptr) {
+    // A plugin's default joint may be one that this robot has not; -1 means none.
+    const bool beyond = joints_ != nullptr && field.value >= 0 && static_cast<std::size_t>(field.value) >= joints_->size();
+    if (beyond && !tolerant_) problems_.add(map_->place, "missing key " + in_quotes(key));
+    return;
+  }
+  if (node->kind != Node::Kind::scalar) {
+    problems_.add(node->place, fmt::format("{} is {}; expected a joint's name or number", key, found(*node)));
+    return;
+  }
+  const Reading<std::int64_t> number = read_integer(*node);
+  if (!number.ok()) {
+    const std::int64_t named = joint_number(node->text, node->place);
+    if (named >= 0) field.value = named;
+  } else if (joints_ == nullptr || (number.value >= 0 && static_cast<std::size_t>(number.value) < joints_->size())) {
+    field.value = number.value;
+  } else {
+    problems_.add(node->place, fmt::format("{} is {}; the robot has {}, numbered from 0", key, number.value,
+                                           counted(joints_->size(), "joint")));
+  }
+}
+
+}  // namespace gaitlab

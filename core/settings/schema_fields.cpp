@@ -1,0 +1,164 @@
+#include "core/settings/schema_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gaitlab {
+namespace {
+
+/// Any scalar: a text need not be quoted, so that 8 and true are texts, too.
+Json scalar() { return {{"type", {"string", "number", "boolean"}}}; }
+
+Json bounded(const char* type, const Spec& spec) {
+  Json json{{"type", type}};
+  // The smallest number above 0 stands for "more than 0".
+  if (spec.min == kPositive) {
+    json["exclusiveMinimum"] = 0;
+  } else if (std::isfinite(spec.min)) {
+    json["minimum"] = spec.min;
+  }
+  if (std::isfinite(spec.max)) json["maximum"] = spec.max;
+  return json;
+}
+
+/// The first line of what an editor shows: the sentence and the unit.
+Json described(Json json, const char* about, const char* unit = "") {
+  std::string text = about;
+  if (*unit != '\0') text += (text.empty() ? "[" : " [") + std::string(unit) + "]";
+  if (!text.empty()) json["description"] = text;
+  return json;
+}
+
+Json preset(Json json, Json value) {
+  json["default"] = std::move(value);
+  return json;
+}
+
+Json names_of(std::span<const char* const> names) {
+  Json json = Json::array();
+  for (const char* name : names) json.push_back(name);
+  return json;
+}
+
+}  // namespace
+
+Json object_schema(Json properties) {
+  return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+}
+
+void SchemaFields::visit(const Field& field) {
+  std::visit([&](const auto& value) { on(field.key, field.about, value); }, field.value);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Number& field) {
+  properties_[key] = preset(described(bounded("number", field.spec), about, field.spec.unit), field.value);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::NumberOr& field) {
+  const Json either{{"anyOf", {bounded("number", field.spec), {{"const", field.word}}}}};
+  properties_[key] = preset(described(either, about, field.spec.unit), field.value > 0 ? Json(field.value) : Json(field.word));
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Integer& field) {
+  properties_[key] = preset(described(bounded("integer", field.spec), about, field.spec.unit), field.value);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Flag& field) {
+  properties_[key] = preset(described({{"type", "boolean"}}, about), field.value);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Text& field) {
+  properties_[key] = described(field.value.empty() ? scalar() : preset(scalar(), field.value), about);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::File&) {
+  properties_[key] = described(scalar(), (std::string(about) + " A file, or its text.").c_str());
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::OneOf& field) {
+  Json json = described({{"enum", names_of(field.names)}}, about);
+  if (std::find(field.names.begin(), field.names.end(), field.value) != field.names.end()) json["default"] = field.value;
+  properties_[key] = std::move(json);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::EachJoint& field) {
+  const Json one = bounded("number", field.spec);
+  Json json = one;  // each rule below holds for values of its own type only
+  json["type"] = {"number", "array", "object"};
+  json["items"] = one;
+  json["additionalProperties"] = one;
+  const std::string text =
+      std::string(about) + " One number, a list, or {default: x, JOINT: y}; JOINT may be a pattern: \"*/active\".";
+  properties_[key] = described(std::move(json), text.c_str(), field.spec.unit);
+  if (field.role == field::Role::required) return;
+  properties_[key] =
+      preset(std::move(properties_[key]), field.value.each.empty() ? Json(field.value.common) : Json(field.value.each));
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Joint&) {
+  properties_[key] = described({{"type", {"string", "integer"}}}, (std::string(about) + " A joint's name or number.").c_str());
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Vector& field) {
+  Json json{{"type", "array"},
+            {"items", bounded("number", field.spec)},
+            {"minItems", field.value.size()},
+            {"maxItems", field.value.size()}};
+  properties_[key] =
+      preset(described(std::move(json), about, field.spec.unit), std::vector<double>(field.value.begin(), field.value.end()));
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Numbers& field) {
+  properties_[key] =
+      preset(described({{"type", "array"}, {"items", bounded("number", field.spec)}}, about, field.spec.unit), field.value);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Rows& field) {
+  const Json row{{"type", "array"}, {"items", bounded("number", field.spec)}};
+  properties_[key] = described({{"type", "array"}, {"items", row}}, about, field.spec.unit);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Texts& field) {
+  properties_[key] = preset(described({{"type", "array"}, {"items", scalar()}}, about), field.value);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Map& field) {
+  Json one = scalar();
+  if (field.kind == NamedValues::texts_or_numbers) {  // a number may be one per joint
+    one["type"] = {"string", "number", "boolean", "array", "object"};
+    one["items"] = {{"type", "number"}};
+    one["additionalProperties"] = {{"type", "number"}};
+  }
+  Json map = Json::object();
+  for (const Named& value : field.value) map[value.name] = value.text.empty() ? Json(value.number.common) : Json(value.text);
+  properties_[key] = preset(described({{"type", "object"},
+                                       {"propertyNames", {{"pattern", "^[A-Za-z][A-Za-z0-9_]*$"}}},
+                                       {"additionalProperties", std::move(one)}},
+                                      about),
+                            std::move(map));
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::List& field) {
+  const std::size_t size = field.size(field.self);
+  if (size == 0) field.resize(field.self, 1);  // an element with its defaults, to look at
+  SchemaFields element;
+  field.visit(field.self, 0, element);
+  if (size == 0) field.resize(field.self, 0);
+  properties_[key] = described({{"type", "array"}, {"items", object_schema(std::move(element.properties_))}}, about);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::RuleOrList& field) {
+  on(key, "", field.list);
+  Json json{{"anyOf", {{{"enum", names_of(field.names)}}, properties_[key]}}};
+  if (!field.rule.empty()) json["default"] = field.rule;
+  properties_[key] = described(std::move(json), about);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Group& field) {
+  SchemaFields inner;
+  field.visit(field.self, inner);
+  properties_[key] = described(object_schema(std::move(inner.properties_)), about);
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,74 @@
+#include "core/settings/value.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "core/settings/number_syntax.h"
+#include "core/settings/wording.h"
+
+namespace gaitlab {
+namespace {
+
+/// "is FOUND; expected a KIND in UNIT": `kind` like "number", `how` an adjective or an afterthought.
+std::string expected(const Node& node, const std::string& before, const std::string& kind, const std::string& unit,
+                     const std::string& after = {}) {
+  return fmt::format("is {}; expected a {}{}{}{}", found(node), before, kind, unit.empty() ? "" : " in " + unit, after);
+}
+
+/// Why a plain scalar that is not a decimal number is refused.
+std::string refuse_number(const Node& node, const std::string& kind, const std::string& unit) {
+  if (node.kind != Node::Kind::scalar) return expected(node, "", kind, unit);
+  if (node.quoted) return expected(node, "", kind, unit, ", without quotes");
+  const std::string text = without_sign(node.text);
+  if (is_not_finite(text)) return expected(node, "finite ", kind, unit);
+  if (is_other_base(text)) return expected(node, "decimal ", kind, unit);
+  if (has_separator(text)) return expected(node, "", kind, unit, " without '_'");
+  if (has_leading_zero(text)) return expected(node, "", kind, unit, " without a leading zero");
+  return expected(node, "", kind, unit);
+}
+
+}  // namespace
+
+Reading<double> read_number(const Node& node, const std::string& unit) {
+  const std::string text = without_sign(node.text);
+  if (node.kind != Node::Kind::scalar || node.quoted || !is_decimal(text) || has_leading_zero(text)) {
+    return {0, refuse_number(node, "number", unit)};
+  }
+  double value = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool zero = text.find_first_of("123456789") >= std::min(text.find_first_of("eE"), text.size());
+  // Both are checked: whether from_chars reports an underflow differs between library versions.
+  if (failure == std::errc::result_out_of_range || !std::isfinite(value) || (value == 0 && !zero)) {
+    return {0, fmt::format("is {}; expected a number that fits a double (0, or 5e-324 to 1.8e+308)", clipped(node.text))};
+  }
+  if (failure != std::errc() || end != text.data() + text.size()) return {0, refuse_number(node, "number", unit)};
+  return {node.text[0] == '-' ? -value : value};
+}
+
+Reading<std::int64_t> read_integer(const Node& node) {
+  const std::string text = without_sign(node.text);
+  const bool whole = !text.empty() && skip_digits(text, 0) == text.size();
+  if (node.kind != Node::Kind::scalar || node.quoted || !whole || has_leading_zero(text)) {
+    return {0, refuse_number(node, "whole number", "")};
+  }
+  std::int64_t value = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc()) return {0, fmt::format("is {}; expected a whole number that fits 64 bits", clipped(node.text))};
+  return {node.text[0] == '-' ? -value : value};
+}
+
+Reading<bool> read_flag(const Node& node) {
+  if (node.kind == Node::Kind::scalar && !node.quoted && (node.text == "true" || node.text == "false")) {
+    return {node.text == "true"};
+  }
+  return {false, fmt::format("is {}; expected true or false", found(node))};
+}
+
+Reading<std::string> read_scalar(const Node& node) {
+  if (node.kind == Node::Kind::scalar) return {node.text};
+  return {{}, fmt::format("is {}; expected a text", found(node))};
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,52 @@
+// Writes Settings structs as maps, every default in full: the resolved scenario.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/plugin/fields.h"
+#include "core/settings/node.h"
+
+namespace gaitlab {
+
+Node scalar_node(std::string text, bool quoted = false);
+/// A text: quoted where a reader could take it for something else.
+Node text_node(const std::string& text);
+/// A list in one line.
+Node numbers_node(std::span<const double> values);
+
+/// One map, filled by visiting fields.
+class Writer final : public Fields {
+ public:
+  /// Joints are written by name.
+  explicit Writer(const std::vector<std::string>& joints) : joints_(joints) { map_.kind = Node::Kind::map; }
+
+  void visit(const Field& field) override;
+  void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
+
+  void add(const std::string& key, Node value);
+  Node take() { return std::move(map_); }
+
+ private:
+  void on(const char* key, const field::Number& field);
+  void on(const char* key, const field::NumberOr& field);
+  void on(const char* key, const field::Integer& field);
+  void on(const char* key, const field::Flag& field);
+  void on(const char* key, const field::Text& field);
+  void on(const char* key, const field::File& field);
+  void on(const char* key, const field::OneOf& field);
+  void on(const char* key, const field::EachJoint& field);
+  void on(const char* key, const field::Joint& field);
+  void on(const char* key, const field::Vector& field);
+  void on(const char* key, const field::Numbers& field);
+  void on(const char* key, const field::Rows& field);
+  void on(const char* key, const field::Texts& field);
+  void on(const char* key, const field::Map& field);
+  void on(const char* key, const field::List& field);
+  void on(const char* key, const field::RuleOrList& field);
+  void on(const char* key, const field::Group& field);
+
+  const std::vector<std::string>& joints_;
+  Node map_;
+};
+
+}  // namespace gaitlab

@@ -1,0 +1,157 @@
+#include "report/analysis/convex.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "core/math/functions.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr int kRoundSegments = 24;  // of a full circle: a half cylinder has 12
+constexpr double kNoAxis = 1e-9;    // length of a product of edges that are parallel
+
+Convex block(const Vec3& size) {
+  Convex made;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5, (corner & 4) != 0 ? 0.5 : -0.5);
+    made.vertices.push_back(sign.cwiseProduct(size));
+  }
+  made.normals = made.directions = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  return made;
+}
+
+/// Axis y; the half one goes through +x.
+Convex prism(double radius, double length, bool half) {
+  Convex made;
+  const int sides = half ? kRoundSegments / 2 : kRoundSegments;
+  std::vector<Vec3> round;
+  for (int k = 0; k <= sides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kRoundSegments - std::numbers::pi / 2;
+    round.emplace_back(radius * math::cos(angle), 0, radius * math::sin(angle));
+    for (const double side : {-0.5, 0.5}) made.vertices.push_back(round.back() + side * length * Vec3::UnitY());
+  }
+  made.normals = made.directions = {Vec3::UnitY()};
+  if (half) round.push_back(round.front());
+  // Of a full circle the second half is parallel to the first.
+  const std::size_t edges = half ? round.size() - 1 : kRoundSegments / 2;
+  for (std::size_t k = 0; k < edges; ++k) {
+    made.directions.push_back((round[k + 1] - round[k]).normalized());
+    made.normals.push_back(made.directions.back().cross(Vec3::UnitY()));
+  }
+  return made;
+}
+
+/// Of a convex's points along a unit axis.
+std::pair<double, double> range(const Convex& of, const Vec3& axis) {
+  double lo = std::numeric_limits<double>::infinity();
+  double hi = -lo;
+  for (const Vec3& vertex : of.vertices) {
+    const double at = axis.dot(vertex);
+    lo = std::min(lo, at);
+    hi = std::max(hi, at);
+  }
+  return {lo - of.radius, hi + of.radius};
+}
+
+/// Smallest overlap so far; 0 from the first axis on that separates, or nearly.
+class Overlap {
+ public:
+  Overlap(const Convex& a, const Convex& b, double ignored) : a_(a), b_(b), ignored_(ignored) {}
+
+  /// False: no axis is needed any more.
+  bool along(const Vec3& direction) {
+    const double length = direction.norm();
+    if (length < kNoAxis) return true;
+    axis_ = direction / length;
+    const auto [a_lo, a_hi] = range(a_, axis_);
+    const auto [b_lo, b_hi] = range(b_, axis_);
+    least_ = std::min({least_, a_hi - b_lo, b_hi - a_lo});
+    return least_ > ignored_;
+  }
+  [[nodiscard]] double depth() const { return least_ > ignored_ ? least_ : 0; }
+  [[nodiscard]] const Vec3& axis() const { return axis_; }  ///< the last
+
+ private:
+  const Convex& a_;
+  const Convex& b_;
+  double ignored_, least_ = std::numeric_limits<double>::infinity();
+  Vec3 axis_ = Vec3::Zero();
+};
+
+bool apart_from_sphere(Overlap& overlap, const Convex& sphere, const Convex& other) {
+  for (const Vec3& vertex : other.vertices) {
+    Vec3 way = vertex - sphere.vertices.front();
+    if (way.norm() < kNoAxis) way = Vec3::UnitX();  // one around the other: any way is as long
+    if (!overlap.along(way)) return true;
+    for (const Vec3& edge : other.directions) {
+      if (!overlap.along(way - edge * edge.dot(way))) return true;
+    }
+  }
+  return false;
+}
+
+/// False from the first axis on that shows them apart.
+bool overlap_everywhere(Overlap& overlap, const Convex& a, const Convex& b) {
+  for (const Convex* of : {&a, &b}) {
+    for (const Vec3& normal : of->normals) {
+      if (!overlap.along(normal)) return false;
+    }
+  }
+  if (a.radius > 0 && apart_from_sphere(overlap, a, b)) return false;
+  if (b.radius > 0 && apart_from_sphere(overlap, b, a)) return false;
+  for (const Vec3& first : a.directions) {
+    for (const Vec3& second : b.directions) {
+      if (!overlap.along(first.cross(second))) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+Convex convex(const Shape& shape) {
+  switch (shape.kind) {
+    case Shape::Kind::box:
+      return moved(block(shape.size), shape.in_body);
+    case Shape::Kind::sphere:
+      return {{shape.in_body.p}, {}, {}, shape.size.x()};
+    default:
+      return moved(prism(shape.size.x(), shape.size.y(), shape.kind == Shape::Kind::half_cylinder), shape.in_body);
+  }
+}
+
+void move(const Convex& local, const Pose& pose, Convex& there) {
+  for (std::size_t i = 0; i < local.vertices.size(); ++i) there.vertices[i] = pose * local.vertices[i];
+  for (std::size_t i = 0; i < local.normals.size(); ++i) there.normals[i] = pose.R * local.normals[i];
+  for (std::size_t i = 0; i < local.directions.size(); ++i) there.directions[i] = pose.R * local.directions[i];
+}
+
+Convex moved(const Convex& local, const Pose& pose) {
+  Convex there = local;
+  move(local, pose, there);
+  return there;
+}
+
+double penetration(const Convex& a, const Convex& b, double ignored) {
+  Vec3 apart;
+  return penetration(a, b, ignored, apart);
+}
+
+double penetration(const Convex& a, const Convex& b, double ignored, Vec3& apart) {
+  Overlap overlap(a, b, ignored);
+  if (overlap_everywhere(overlap, a, b)) return overlap.depth();
+  apart = overlap.axis();
+  return 0;
+}
+
+bool are_apart(const Convex& a, const Pose& a_place, const Convex& b, const Pose& b_place, const Vec3& axis, double ignored) {
+  const auto [a_lo, a_hi] = range(a, a_place.R.transpose() * axis);
+  const auto [b_lo, b_hi] = range(b, b_place.R.transpose() * axis);
+  const double way = axis.dot(b_place.p - a_place.p);
+  return std::min(a_hi - b_lo - way, b_hi - a_lo + way) <= ignored;
+}
+
+}  // namespace gaitlab::report

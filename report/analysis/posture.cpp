@@ -1,0 +1,77 @@
+#include "report/analysis/posture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
+
+/// Of the normal forces of the ground; empty: nothing is known of them.
+std::vector<Series> ground_loads(const Scenario& scenario, const Recording& r) {
+  std::vector<Series> loads;
+  if (scenario.base != Base::floating) return loads;
+  for (std::size_t m = 0; m < scenario.robot->modules.size(); ++m) {
+    if (const Series one = r.series(fmt::format("load.{}", m)); !one.empty()) loads.push_back(one);
+  }
+  return loads;
+}
+
+/// Linear between rows; at the ends theirs.
+double at_time(const Series& time, const Series& value, double t) {
+  std::size_t next = 0;
+  while (next + 1 < time.size() && time[next] < t) ++next;
+  if (next == 0 || !(t < time[next])) return value[next];
+  const double share = (t - time[next - 1]) / (time[next] - time[next - 1]);
+  return value[next - 1] + share * (value[next] - value[next - 1]);
+}
+
+}  // namespace
+
+Posture posture(const Scenario& scenario, const Recording& r, const Judged& judged) {
+  Posture found;
+  const Series time = r.series("t");
+  const Series z = r.series("com.z");
+  const Series qx = r.series("base.qx");
+  const Series qy = r.series("base.qy");
+  if (time.empty() || z.empty() || qx.empty() || qy.empty()) return found;
+  const std::vector<Series> loads = ground_loads(scenario, r);
+  const double weight = scenario.robot->mass * scenario.physics.gravity.norm();
+  std::size_t rows = 0;
+  std::size_t airborne = 0;
+  double upright = 1;  // least cosine of the tilt
+  for (std::size_t row = 0; row < time.size(); ++row) {
+    if (!(time[row] > judged.from) || time[row] > judged.to) continue;
+    double load = 0;
+    for (const Series& one : loads) load += one[row];
+    airborne += load < kAirborne * weight ? 1 : 0;
+    found.height_min = rows == 0 ? z[row] : std::min(found.height_min, z[row]);
+    found.height_max = rows == 0 ? z[row] : std::max(found.height_max, z[row]);
+    // Of the turned z axis, the part along world z.
+    upright = std::min(upright, 1 - 2 * (qx[row] * qx[row] + qy[row] * qy[row]));
+    ++rows;
+  }
+  if (rows == 0) return found;
+  found.tilt_max = std::acos(std::clamp(upright, -1.0, 1.0));
+  if (!loads.empty() && weight > 0) found.airborne_share = static_cast<double>(airborne) / static_cast<double>(rows);
+  return found;
+}
+
+double cycle_speed(const Recording& r, const Judged& judged) {
+  const Series time = r.series("t");
+  const Series x = r.series("com.x");
+  const Series y = r.series("com.y");
+  if (judged.periods == 0 || time.empty() || x.empty() || y.empty() || !(judged.to > judged.from)) return kNoFigure;
+  const auto way = [&](const Series& s) { return at_time(time, s, judged.to) - at_time(time, s, judged.from); };
+  const double dx = way(x);
+  const double dy = way(y);
+  return std::sqrt(dx * dx + dy * dy) / (judged.to - judged.from);
+}
+
+}  // namespace gaitlab::report

@@ -1,0 +1,29 @@
+#include "report/analysis/settings_numbers.h"
+
+#include <algorithm>
+
+namespace gaitlab::report {
+
+SettingsNumbers::SettingsNumbers(const PluginSelection& plugin) {
+  if (plugin.entry != nullptr) visit_settings(*plugin.entry, plugin.settings.get(), *this);
+}
+
+void SettingsNumbers::visit(const Field& field) {
+  if (const auto* number = std::get_if<field::Number>(&field.value)) {
+    found_.push_back({prefix_ + field.key, number->spec.unit, PerJoint{number->value}});
+  } else if (const auto* each = std::get_if<field::EachJoint>(&field.value)) {
+    found_.push_back({prefix_ + field.key, each->spec.unit, each->value});
+  } else if (const auto* group = std::get_if<field::Group>(&field.value)) {
+    const std::string before = prefix_;
+    prefix_ += std::string(field.key) + ".";
+    group->visit(group->self, *this);
+    prefix_ = before;
+  }
+}
+
+const SettingsNumbers::Found* SettingsNumbers::find(const std::string& key) const {
+  const auto at = std::find_if(found_.begin(), found_.end(), [&](const Found& one) { return one.key == key; });
+  return at == found_.end() ? nullptr : &*at;
+}
+
+}  // namespace gaitlab::report

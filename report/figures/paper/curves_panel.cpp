@@ -1,0 +1,304 @@
+// Kind `curves`: columns of the trace over time.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/model/pattern.h"
+#include "core/scenario/sections.h"
+#include "core/settings/wording.h"
+#include "report/figures/paper/paper_panel.h"
+#include "report/figures/run/run_footfalls.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kCurvesHeight = 45;  // mm
+constexpr double kTitleAway = 8;      // px, between tick labels and the title of the axis
+constexpr double kAscent = 10;        // px, of 13 px text
+
+/// A column of a recording, with what it is of.
+struct FoundColumn {
+  std::string name, alias;      ///< joint.7.torque, joint.m3/passive.torque
+  std::string quantity, joint;  ///< torque, m3/passive; com.x and nothing
+  std::string unit;
+};
+
+std::vector<FoundColumn> columns_of(const PaperRun& run) {
+  const std::vector<std::string> joints = joint_names(*run.scenario.robot);
+  std::vector<FoundColumn> all;
+  for (const Trace* table : {&run.recording.trace, &run.recording.rest}) {
+    for (const Column& column : table->columns) {
+      if (column.name == "t") continue;
+      FoundColumn found{column.name, column.name, column.name, "", column.unit};
+      const std::size_t dot = column.name.rfind('.');
+      if (column.name.starts_with("joint.") && dot > 6) {
+        const auto number = static_cast<std::size_t>(std::atoi(column.name.c_str() + 6));
+        found.joint = number < joints.size() ? joints[number] : column.name.substr(6, dot - 6);
+        found.quantity = column.name.substr(dot + 1);
+        found.alias = "joint." + found.joint + "." + found.quantity;
+        std::ranges::replace(found.quantity, '_', ' ');
+        if (found.quantity == "setpoint") found.quantity = "set point";
+      }
+      if (std::ranges::find(all, found.name, &FoundColumn::name) == all.end()) all.push_back(std::move(found));
+    }
+  }
+  return all;
+}
+
+struct PaperCurve {
+  const PaperRun* run;
+  FoundColumn column;
+  Side side;
+  std::string name = {};                       ///< in the legend
+  std::vector<double> time = {}, values = {};  ///< within the panel
+  Style style = {};
+};
+
+class CurvesOfPanel final : public PaperPanel {
+ public:
+  explicit CurvesOfPanel(const PanelSource& source)
+      : panel_(source.panel()), height_(source.height(kCurvesHeight)), from_(panel_.from), to_(panel_.to) {
+    std::vector<const PaperRun*> runs;
+    for (const PaperRun& run : source.runs) {
+      if (panel_.runs.empty() || std::ranges::find(panel_.runs, run.name) != panel_.runs.end()) runs.push_back(&run);
+    }
+    several_runs_ = runs.size() > 1;
+    end_ = 0;
+    for (const PaperRun* run : runs) end_ = std::max(end_, run->recording.simulated);
+    if (to_ <= 0) to_ = end_;
+    if (panel_.to > end_ + 1e-9) {
+      source.problem({"to"},
+                     fmt::format("to is {}, beyond the end of the run at {}", with_unit(panel_.to, "s"), with_unit(end_, "s")));
+    } else if (from_ >= end_) {
+      source.problem({"from"}, fmt::format("from is {}, not before the end of the run at {}", with_unit(from_, "s"),
+                                           with_unit(end_, "s")));
+    }
+    find(source, runs, panel_.left, Side::left, "left");
+    find(source, runs, panel_.right, Side::right, "right");
+    if (!panel_.stance.empty()) find_stance(source, runs);
+    if (!source.problems.empty()) return;
+    name_curves();
+    set_ticks();
+  }
+
+  [[nodiscard]] Margins margins() const override {
+    const auto margin = [](const Ticks& ticks, const std::string& title) {
+      return 8 + label_width(ticks) + (title.empty() ? 0 : kTitleAway + kAscent + 2);
+    };
+    const double half_label = 0.5 * paper_width(time().label(time().values().back()), 13) + 1;
+    return {margin(ticks_.a, title(Side::left)),
+            has(Side::right) ? margin(ticks_.b, title(Side::right)) + 2 : std::max(8.0, half_label)};
+  }
+  [[nodiscard]] double head(const Edges& edges) const override {
+    const std::vector<LegendEntry> entries = legend();
+    return entries.empty() ? 8 : draw_legend(nullptr, entries, edges.left, edges.right, 13, kPrintLegend) + 11;
+  }
+  [[nodiscard]] double body(const Edges&) const override { return height_; }
+
+  void draw(Canvas& canvas, const PlotArea& area) const override {
+    const Scale x{from_, to_, area.left, area.right};
+    for (const Stance& stance : stances_) {
+      const double begin = x(std::max(stance.from, from_));
+      const double end = x(std::min(stance.to, to_));
+      if (end > begin) canvas.rectangle({begin, area.top}, end - begin, area.bottom - area.top, {.fill = kStanceFill});
+    }
+    const Ticks& main = has(Side::left) ? ticks_.a : ticks_.b;
+    Panel panel(canvas, area, time(), has(Side::left) ? main : Ticks{main.lo, main.hi, 10 * (main.hi - main.lo)}, kPrint);
+    if (has(Side::right)) panel.right_axis(ticks_.b);
+    for (const PaperCurve& curve : curves_) panel.curve(curve.time, curve.values, curve.style, curve.side);
+    panel.time_axis();
+    for (const Side side : {Side::left, Side::right}) {
+      const double labels = 8 + label_width(side == Side::left ? ticks_.a : ticks_.b) + kTitleAway;
+      if (has(side)) panel.side_title(title(side), side, side == Side::left ? labels : labels + kAscent);
+    }
+    const std::vector<LegendEntry> entries = legend();
+    draw_legend(&canvas, entries, area.left, area.right, area.top - head({area.left, area.right}) + 13, kPrintLegend);
+  }
+
+  [[nodiscard]] Trace data() const override {
+    std::vector<DataColumn> columns;
+    const std::vector<double>* last = nullptr;
+    for (const PaperCurve& curve : curves_) {
+      const std::string run = several_runs_ ? curve.run->name + " " : "";
+      if (last == nullptr || *last != curve.time || several_runs_) {
+        const std::string name = run + "t [s]";
+        if (std::ranges::find(columns, name, &DataColumn::name) == columns.end()) columns.push_back({name, curve.time});
+        last = &curve.time;
+      }
+      columns.push_back({with_unit_after(run + curve.column.name, curve.column.unit), curve.values});
+    }
+    return data_table(columns);
+  }
+
+ private:
+  static constexpr std::string_view kStanceFill = "#E4E4E4";
+
+  void find(const PanelSource& source, const std::vector<const PaperRun*>& runs, const AxisRecipe& axis, Side side,
+            const std::string& key) {
+    const std::size_t first = curves_.size();
+    for (const PaperRun* run : runs) {
+      const std::vector<FoundColumn> all = columns_of(*run);
+      const std::vector<double> time = row_times(run->recording);
+      const Rows rows = rows_within(time, from_, to_);
+      for (std::size_t k = 0; k < axis.columns.size(); ++k) {
+        const std::string& pattern = axis.columns[k];
+        bool any = false;
+        for (const FoundColumn& column : all) {
+          if (!glob(pattern, column.name) && !glob(pattern, column.alias)) continue;
+          any = true;
+          const auto same = [&](const PaperCurve& c) { return c.run == run && c.side == side && c.column.name == column.name; };
+          if (std::ranges::any_of(curves_, same)) continue;
+          PaperCurve curve{run, column, side};
+          const Series series = run->recording.series(column.name);
+          for (std::size_t row = rows.first; row < rows.last && row < series.size(); ++row) {
+            curve.time.push_back(time[row]);
+            curve.values.push_back(series[row]);
+          }
+          curves_.push_back(std::move(curve));
+        }
+        if (!any) refuse(source, *run, all, pattern, {key, "columns", std::to_string(k)});
+      }
+    }
+    for (std::size_t k = first + 1; k < curves_.size(); ++k) {
+      const FoundColumn& a = curves_[first].column;
+      const FoundColumn& b = curves_[k].column;
+      if (a.unit == b.unit) continue;
+      source.problem({key, "columns"},
+                     fmt::format("{} is in {}, {} in {}: an axis has one unit; draw one of them on the other axis", a.name,
+                                 a.unit.empty() ? "no unit" : a.unit, b.name, b.unit.empty() ? "no unit" : b.unit));
+      break;
+    }
+    if (!axis.names.empty() && axis.names.size() != curves_.size() - first) {
+      source.problem(
+          {key, "names"},
+          fmt::format("names has {}, but {} drawn", counted(axis.names.size(), "name"),
+                      curves_.size() - first == 1 ? "1 curve is" : counted(curves_.size() - first, "curve") + " are"));
+      return;
+    }
+    for (std::size_t k = 0; k < axis.names.size(); ++k) curves_[first + k].name = axis.names[k];
+  }
+
+  static void refuse(const PanelSource& source, const PaperRun& run, const std::vector<FoundColumn>& all,
+                     const std::string& pattern, const std::vector<std::string>& path) {
+    std::vector<std::string> names;
+    for (const FoundColumn& column : all) names.push_back(column.name);
+    if (nearest(pattern, names).empty()) {
+      std::vector<std::string> aliases;
+      for (const FoundColumn& column : all) aliases.push_back(column.alias);
+      if (!nearest(pattern, aliases).empty()) names = aliases;
+    }
+    source.problem(path, fmt::format("no column {} in run {}{}", in_quotes(pattern), in_quotes(run.name),
+                                     offer(pattern, names, "columns")));
+  }
+
+  void find_stance(const PanelSource& source, const std::vector<const PaperRun*>& runs) {
+    if (runs.size() != 1) {
+      source.problem({"stance"}, "stance shades the panel of one run; expected runs: [NAME]");
+      return;
+    }
+    const PaperRun& run = *runs.front();
+    const std::vector<Leg> legs = legs_that_walk(run.scenario);
+    const std::vector<std::string> names = leg_names(legs);
+    const auto leg = std::ranges::find(names, panel_.stance);
+    if (leg == names.end()) {
+      source.problem({"stance"}, names.empty() ? "stance needs a robot that walks on four legs or more"
+                                               : "no leg " + in_quotes(panel_.stance) + offer(panel_.stance, names, "legs"));
+      return;
+    }
+    const std::size_t number = static_cast<std::size_t>(leg - names.begin());
+    if (const std::string lacks = lacking_load(run.scenario, run.recording, {legs[number]}); !lacks.empty()) {
+      source.problem({"stance"},
+                     fmt::format("run {} has no column {}, by which a leg is known to stand", in_quotes(run.name), lacks));
+      return;
+    }
+    const std::vector<double> time = row_times(run.recording);
+    stances_ = footfalls(run.scenario, run.recording, {legs[number]}, time, 0).front().stances;
+  }
+
+  /// What distinguishes the curves: run, joint, quantity.
+  void name_curves() {
+    const auto differs = [&](const auto& part) {
+      return std::ranges::any_of(curves_, [&](const PaperCurve& c) { return part(c) != part(curves_.front()); });
+    };
+    const bool runs = differs([](const PaperCurve& c) { return c.run->name; });
+    const bool joints = differs([](const PaperCurve& c) { return c.column.joint; });
+    const bool quantities = differs([](const PaperCurve& c) { return c.column.quantity; });
+    for (std::size_t k = 0; k < curves_.size(); ++k) {
+      PaperCurve& curve = curves_[k];
+      curve.style = curve_style(k);
+      if (!curve.name.empty()) continue;
+      const auto add = [&](const std::string& part) {
+        if (!part.empty()) curve.name += (curve.name.empty() ? "" : " ") + part;
+      };
+      if (runs) add(curve.run->name);
+      if (joints) add(curve.column.joint);
+      if (quantities || curve.name.empty()) add(curve.column.quantity);
+      if (curve.side == Side::right && has(Side::left)) curve.name += " (right)";
+    }
+  }
+
+  [[nodiscard]] bool has(Side side) const {
+    return std::ranges::any_of(curves_, [side](const PaperCurve& c) { return c.side == side; });
+  }
+
+  [[nodiscard]] Bounds bounds(Side side) const {
+    Bounds bounds;
+    for (const PaperCurve& curve : curves_) {
+      if (curve.side == side) bounds.add(curve.values);
+    }
+    return bounds;
+  }
+
+  void set_ticks() {
+    const Bounds a = bounds(Side::left);
+    const Bounds b = bounds(Side::right);
+    const auto given = [](const std::vector<double>& range, Ticks& ticks) {
+      if (!range.empty()) ticks = ticks_within(range[0], range[1], 5);
+    };
+    const bool both = has(Side::left) && has(Side::right) && panel_.left.range.empty() && panel_.right.range.empty();
+    ticks_ = both ? twin_ticks(a.lo, a.hi, b.lo, b.hi) : TwinTicks{a.ticks(5), b.ticks(5)};
+    given(panel_.left.range, ticks_.a);
+    given(panel_.right.range, ticks_.b);
+  }
+
+  [[nodiscard]] Ticks time() const { return time_ticks(from_, to_); }
+
+  /// Of an axis: the quantities where there are one or two, and the unit.
+  [[nodiscard]] std::string title(Side side) const {
+    const AxisRecipe& axis = side == Side::left ? panel_.left : panel_.right;
+    if (!axis.label.empty() || !has(side)) return axis.label;
+    std::vector<std::string> quantities;
+    std::string unit;
+    for (const PaperCurve& curve : curves_) {
+      if (curve.side != side) continue;
+      unit = curve.column.unit;
+      if (std::ranges::find(quantities, curve.column.quantity) == quantities.end()) quantities.push_back(curve.column.quantity);
+    }
+    const std::string names = quantities.size() > 2 ? "" : fmt::format("{}", fmt::join(quantities, ", "));
+    return unit.empty() ? names : names + (names.empty() ? "(" : " (") + unit + ")";
+  }
+
+  [[nodiscard]] std::vector<LegendEntry> legend() const {
+    std::vector<LegendEntry> entries;
+    if (curves_.size() > 1) {
+      for (const PaperCurve& curve : curves_) entries.push_back({curve.name, curve.style});
+    }
+    if (!panel_.stance.empty()) entries.push_back({"stance of " + panel_.stance, {.stroke = kStanceFill, .width = 11}});
+    return entries;
+  }
+
+  const PanelRecipe& panel_;
+  double height_, from_, to_;
+  double end_ = 0;
+  bool several_runs_ = false;
+  std::vector<PaperCurve> curves_;
+  std::vector<Stance> stances_;
+  TwinTicks ticks_;
+};
+
+}  // namespace
+
+std::unique_ptr<PaperPanel> curves_panel(const PanelSource& source) { return std::make_unique<CurvesOfPanel>(source); }
+
+}  // namespace gaitlab::report

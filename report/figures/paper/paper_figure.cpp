@@ -1,0 +1,116 @@
+#include "report/figures/paper/paper_figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/settings/wording.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kTextSize = 13;         // px, of all text
+constexpr double kPointMm = 25.4 / 72;   // mm
+constexpr double kTopMargin = 4;         // px
+constexpr double kBetweenPanels = 10;    // px
+constexpr double kLetterHeight = 18;     // px, least head of a panel with a letter
+constexpr double kLeastFrame = 10;       // mm
+constexpr double kLeastFrameWidth = 25;  // mm
+
+std::unique_ptr<PaperPanel> made(const PanelSource& source) {
+  switch (source.panel().kind) {
+    case PanelKind::curves:
+      return curves_panel(source);
+    case PanelKind::envelope:
+      return envelope_panel(source);
+    case PanelKind::heat:
+      return heat_panel(source);
+    case PanelKind::footfalls:
+      return footfall_panel(source);
+    case PanelKind::views:
+      return views_panel(source);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+PaperFigure::PaperFigure(const Recipe& recipe, std::span<const PaperRun> runs)
+    : letters_(recipe.letters && recipe.panels.size() > 1) {
+  paper_.mm = recipe.font * kPointMm / kTextSize;
+  paper_.width = recipe.width / paper_.mm;
+  Problems problems;
+  for (std::size_t i = 0; i < recipe.panels.size(); ++i) panels_.push_back({made({recipe, i, runs, 1 / paper_.mm, problems})});
+  problems.raise();
+  place(recipe);
+}
+
+void PaperFigure::place(const Recipe& recipe) {
+  Edges edges{0, paper_.width};
+  double right = 0;
+  for (const Placed& placed : panels_) {
+    edges.left = std::max(edges.left, placed.panel->margins().left);
+    right = std::max(right, placed.panel->margins().right);
+  }
+  edges.right -= right;
+  if ((edges.right - edges.left) * paper_.mm < kLeastFrameWidth) {
+    throw InputError(
+        recipe.place({"size"}),
+        fmt::format("a width of {} leaves {:.1f} mm for the frames beside their labels; at least {:g} mm are needed",
+                    with_unit(recipe.width, "mm"), (edges.right - edges.left) * paper_.mm, kLeastFrameWidth));
+  }
+  double fixed = kTopMargin + kBetweenPanels * static_cast<double>(panels_.size() - 1);
+  double stretching = 0;
+  const auto head = [&](const Placed& placed) { return std::max(placed.panel->head(edges), letters_ ? kLetterHeight : 0.0); };
+  for (const Placed& placed : panels_) {
+    fixed += head(placed) + placed.panel->foot();
+    (placed.panel->stretches() ? stretching : fixed) += placed.panel->body(edges);
+  }
+  double factor = 1;
+  if (recipe.height > 0) {
+    paper_.height = recipe.height / paper_.mm;
+    if (stretching > 0) factor = (paper_.height - fixed) / stretching;
+    double least = fixed;
+    for (const Placed& placed : panels_) least += placed.panel->stretches() ? kLeastFrame / paper_.mm : 0;
+    if (least > paper_.height) {
+      throw InputError(recipe.place({"size", "1"}), fmt::format("a height of {} is too small: the panels need {:.0f} mm",
+                                                                with_unit(recipe.height, "mm"), least * paper_.mm + 0.5));
+    }
+  } else {
+    paper_.height = fixed + stretching;
+  }
+  double y = kTopMargin;
+  for (Placed& placed : panels_) {
+    placed.top = y;
+    y += head(placed);
+    const double body = placed.panel->body(edges) * (placed.panel->stretches() ? factor : 1);
+    placed.area = {edges.left, edges.right, y, y + body};
+    y += body + placed.panel->foot() + kBetweenPanels;
+  }
+}
+
+void PaperFigure::draw(Canvas& canvas) const {
+  char letter = 'a';
+  for (const Placed& placed : panels_) {
+    placed.panel->draw(canvas, placed.area);
+    if (letters_) canvas.text({2, placed.top + 13}, fmt::format("({})", letter), {.bold = true});
+    ++letter;
+  }
+}
+
+std::vector<Trace> PaperFigure::data() const {
+  std::vector<Trace> tables;
+  for (const Placed& placed : panels_) tables.push_back(placed.panel->data());
+  return tables;
+}
+
+std::vector<std::string> PaperFigure::notes() const {
+  std::vector<std::string> notes;
+  for (const Placed& placed : panels_) {
+    for (const std::string& note : placed.panel->notes()) notes.push_back(note);
+  }
+  return notes;
+}
+
+}  // namespace gaitlab::report

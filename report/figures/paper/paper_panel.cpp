@@ -1,0 +1,108 @@
+#include "report/figures/paper/paper_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/model/pattern.h"
+#include "core/scenario/sections.h"
+#include "core/settings/wording.h"
+#include "report/plot/helvetica.h"
+
+namespace gaitlab::report {
+
+void PanelSource::problem(std::vector<std::string> path, const std::string& text) const {
+  path.insert(path.begin(), {"panels", std::to_string(number)});
+  problems.add(recipe.place(path), text);
+}
+
+const PaperRun& PanelSource::run() const {
+  const auto found = std::ranges::find(runs, panel().run, &PaperRun::name);
+  return found == runs.end() ? runs.front() : *found;
+}
+
+std::vector<std::size_t> PanelSource::joints() const {
+  const Robot& robot = *run().scenario.robot;
+  const std::vector<std::string> names = joint_names(robot);
+  std::vector<bool> chosen(names.size(), false);
+  for (std::size_t k = 0; k < panel().joints.size(); ++k) {
+    const std::string& pattern = panel().joints[k];
+    bool any = false;
+    std::string passive;
+    for (std::size_t j = 0; j < names.size(); ++j) {
+      if (!glob(pattern, names[j]) && !glob(pattern, std::to_string(j))) continue;
+      if (robot.joints[j].driven()) {
+        chosen[j] = any = true;
+      } else {
+        passive = names[j];
+      }
+    }
+    if (any) continue;
+    problem({"joints", std::to_string(k)}, passive.empty() ? "no joint " + in_quotes(pattern) + offer(pattern, names, "joints")
+                                                           : "joint " + passive + " has no motor");
+  }
+  std::vector<std::size_t> numbers;
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    if (chosen[j]) numbers.push_back(j);
+  }
+  return numbers;
+}
+
+Style curve_style(std::size_t n) {
+  struct Line {
+    std::string_view colour, dash;
+  };
+  constexpr Line kLines[] = {{colour::kBlue, ""},         {colour::kVermillion, "8 3"},    {colour::kBlack, "2 2.5"},
+                             {colour::kGreen, "9 3 2 3"}, {colour::kPurple, "5 2"},        {colour::kSky, "14 3"},
+                             {colour::kOrange, ""},       {colour::kBlue, "2 2"},          {colour::kVermillion, ""},
+                             {colour::kBlack, "8 3"},     {colour::kGreen, "14 3 2 3"},    {colour::kPurple, "2 3"},
+                             {colour::kSky, ""},          {colour::kOrange, "9 3 2 3 2 3"}};
+  const Line& line = kLines[n % std::size(kLines)];
+  return {.stroke = line.colour, .width = 1.6, .dash = line.dash};
+}
+
+Rows rows_within(std::span<const double> time, double from, double to) {
+  constexpr double kSlack = 1e-9;  // s: a row's time is a number of steps times the step
+  Rows rows;
+  while (rows.first < time.size() && time[rows.first] < from - kSlack) ++rows.first;
+  rows.last = rows.first;
+  while (rows.last < time.size() && (to <= 0 || time[rows.last] <= to + kSlack)) ++rows.last;
+  return rows;
+}
+
+std::vector<double> row_times(const Recording& recording) {
+  std::vector<double> time(recording.rows());
+  for (std::size_t row = 0; row < time.size(); ++row) time[row] = recording.trace.at(row, 0);
+  return time;
+}
+
+Trace data_table(const std::vector<DataColumn>& columns) {
+  Trace table;
+  std::size_t rows = 0;
+  for (const DataColumn& column : columns) {
+    table.columns.push_back({column.name, {}, {}});
+    rows = std::max(rows, column.values.size());
+  }
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (const DataColumn& column : columns)
+      table.values.push_back(row < column.values.size() ? column.values[row] : std::numeric_limits<double>::quiet_NaN());
+  }
+  return table;
+}
+
+std::string with_unit_after(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " [" + unit + "]";
+}
+
+double paper_width(std::string_view text, double size) { return helvetica_width(text, size); }
+
+double label_width(const Ticks& ticks) {
+  double width = 0;
+  for (const double value : ticks.values()) width = std::max(width, helvetica_width(with_minus(ticks.label(value)), 13));
+  return width;
+}
+
+Ticks time_ticks(double from, double to) { return ticks_within(from, to, 8); }
+
+}  // namespace gaitlab::report

@@ -1,0 +1,177 @@
+// Kinds `footfalls` and `views`: how the robot walks.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/scenario/sections.h"
+#include "core/settings/joint_patterns.h"
+#include "core/settings/wording.h"
+#include "report/figures/paper/paper_panel.h"
+#include "report/figures/run/run_footfalls.h"
+#include "report/figures/run/run_views.h"
+#include "report/plot/helvetica.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+class FootfallsOfPanel final : public PaperPanel {
+ public:
+  explicit FootfallsOfPanel(const PanelSource& source) {
+    const PaperRun& run = source.run();
+    const PanelRecipe& panel = source.panel();
+    const std::vector<Leg> legs = legs_that_walk(run.scenario);
+    const std::vector<double> time = row_times(run.recording);
+    if (legs.empty() || time.empty()) {
+      source.problem({"kind"}, "footfalls need a robot that walks on four legs or more");
+      return;
+    }
+    if (const std::string lacks = lacking_load(run.scenario, run.recording, legs); !lacks.empty()) {
+      source.problem({"kind"},
+                     fmt::format("run {} has no column {}, by which a leg is known to stand", in_quotes(run.name), lacks));
+      return;
+    }
+    from_ = panel.from;
+    to_ = panel.to > 0 ? std::min(panel.to, time.back()) : time.back();
+    if (from_ >= to_) {
+      source.problem({"from"}, fmt::format("from is {}, not before the end at {}", with_unit(from_, "s"), with_unit(to_, "s")));
+      return;
+    }
+    rows_ = footfalls(run.scenario, run.recording, legs, time, from_);
+    for (Footfall& row : rows_) {
+      row.duty_factor = duty_factor(row.stances, from_, to_);
+      std::erase_if(row.stances, [&](const Stance& s) { return s.to <= from_ || s.from >= to_; });
+    }
+  }
+
+  [[nodiscard]] Margins margins() const override {
+    double names = 0;
+    for (const Footfall& row : rows_) names = std::max(names, helvetica_width(row.name, 13));
+    return {11 + names, 8 + text_width("0.00", 13) + 1};  // as draw_footfalls measures it
+  }
+  [[nodiscard]] double head(const Edges&) const override { return kFootfallHead; }
+  [[nodiscard]] double body(const Edges&) const override {
+    return footfall_height(rows_.size()) - kFootfallHead - kFootfallFoot;
+  }
+  [[nodiscard]] bool stretches() const override { return false; }
+
+  void draw(Canvas& canvas, const PlotArea& area) const override {
+    const Ticks time = time_ticks(from_, to_);
+    draw_footfalls(canvas, {rows_, "", "duty factor", 13}, time, {from_, to_, area.left, area.right}, area.top - kFootfallHead);
+    draw_axis_below(canvas, area, time, "time (s)", true);
+  }
+
+  [[nodiscard]] Trace data() const override {
+    std::vector<DataColumn> columns;
+    for (const Footfall& row : rows_) {
+      DataColumn from{row.name + " from [s]", {}};
+      DataColumn to{row.name + " to [s]", {}};
+      for (const Stance& stance : row.stances) {
+        from.values.push_back(stance.from);
+        to.values.push_back(stance.to);
+      }
+      columns.push_back(std::move(from));
+      columns.push_back(std::move(to));
+      columns.push_back({row.name + " duty factor", {row.duty_factor}});
+    }
+    return data_table(columns);
+  }
+
+ private:
+  std::vector<Footfall> rows_;
+  double from_ = 0, to_ = 0;
+};
+
+/// Of two rows equally far away the earlier one; there is a row.
+std::size_t nearest_row(const std::vector<double>& time, double at) {
+  std::size_t nearest = 0;
+  for (std::size_t row = 1; row < time.size(); ++row) {
+    if (std::abs(time[row] - at) < std::abs(time[nearest] - at) - 1e-9) nearest = row;
+  }
+  return nearest;
+}
+
+class ViewsOfPanel final : public PaperPanel {
+ public:
+  explicit ViewsOfPanel(const PanelSource& source) {
+    const PaperRun& run = source.run();
+    const PanelRecipe& panel = source.panel();
+    const Robot& robot = *run.scenario.robot;
+    const std::vector<double> time = row_times(run.recording);
+    if (!run.recording.has_states(robot)) {
+      source.problem({"kind"}, fmt::format("run {} has no poses of the robot", in_quotes(run.name)));
+      return;
+    }
+    std::size_t joint = 0;
+    if (!panel.joint.empty()) {
+      const std::vector<std::string> names = joint_names(robot);
+      joint = static_cast<std::size_t>(std::ranges::find(names, panel.joint) - names.begin());
+      if (const std::string wrong = not_one_joint(panel.joint, names); !wrong.empty()) {
+        source.problem({"joint"}, wrong);
+        return;
+      }
+    }
+    const Sight from = sight(run.scenario, run.recording);
+    input_ = views_input(run.scenario, run.recording, from);
+    input_.views_title = from.view;
+    input_.views_legend = panel.legend;
+    input_.minus = true;
+    for (std::size_t k = 0; k < panel.times.size(); ++k) {
+      if (panel.times[k] > run.recording.simulated + 1e-9) {
+        source.problem({"times", std::to_string(k)},
+                       fmt::format("{} is beyond the end of the run at {}", with_unit(panel.times[k], "s"),
+                                   with_unit(run.recording.simulated, "s")));
+        continue;
+      }
+      const std::size_t row = nearest_row(time, panel.times[k]);
+      View view = view_at(run.scenario, run.recording, from, row, joint);
+      if (panel.joint.empty()) view.joint.reset();
+      input_.views.push_back(std::move(view));
+      states_.push_back(run.recording.state(robot, row));
+    }
+    names_ = joint_names(robot);
+  }
+
+  [[nodiscard]] Margins margins() const override {
+    double times = 0;
+    for (const View& view : input_.views)
+      times = std::max(times, helvetica_width(fmt::format("{:.6g} s", view.time), 13, true));
+    return {10 + times, 4};
+  }
+  [[nodiscard]] double head(const Edges&) const override { return 0; }
+  [[nodiscard]] double body(const Edges& edges) const override { return views_height(input_, edges); }
+  [[nodiscard]] bool stretches() const override { return false; }
+  [[nodiscard]] double foot() const override { return 0; }
+  void draw(Canvas& canvas, const PlotArea& area) const override {
+    draw_views(canvas, input_, {area.left, area.right}, area.top);
+  }
+
+  /// What the pictures are drawn from.
+  [[nodiscard]] Trace data() const override {
+    std::vector<DataColumn> columns{{"t [s]", {}},   {"base.x [m]", {}}, {"base.y [m]", {}}, {"base.z [m]", {}},
+                                    {"base.qw", {}}, {"base.qx", {}},    {"base.qy", {}},    {"base.qz", {}}};
+    for (const std::string& name : names_) columns.push_back({name + " angle [rad]", {}});
+    for (std::size_t k = 0; k < states_.size(); ++k) {
+      const RobotState& s = states_[k];
+      std::vector<double> row{input_.views[k].time, s.position.x(),    s.position.y(),    s.position.z(),
+                              s.orientation.w(),    s.orientation.x(), s.orientation.y(), s.orientation.z()};
+      row.insert(row.end(), s.q.begin(), s.q.end());
+      for (std::size_t c = 0; c < columns.size(); ++c) columns[c].values.push_back(row[c]);
+    }
+    return data_table(columns);
+  }
+
+ private:
+  FigureInput input_;
+  std::vector<RobotState> states_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+std::unique_ptr<PaperPanel> footfall_panel(const PanelSource& source) { return std::make_unique<FootfallsOfPanel>(source); }
+std::unique_ptr<PaperPanel> views_panel(const PanelSource& source) { return std::make_unique<ViewsOfPanel>(source); }
+
+}  // namespace gaitlab::report

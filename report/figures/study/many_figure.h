@@ -1,0 +1,38 @@
+// Figures over the points of a study with any number of parameters.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "report/figures/study/study_figure.h"
+
+namespace gaitlab::report {
+
+/// A parameter: numbers, or words, of which a point has the number.
+struct ManyAxis {
+  StudyAxis axis;
+  std::vector<std::string> words = {};
+};
+
+struct ManyPoint {
+  std::vector<double> at;  ///< by axis
+  double value = 0;        ///< NaN where not known
+  PointState state = PointState::feasible;
+};
+
+struct ManyFigure {
+  std::string title, note;  ///< note: below
+  std::vector<ManyAxis> axes;
+  StudyAxis value;
+  std::vector<ManyPoint> points;
+  std::size_t best = 0;  ///< number of a point; points.size(): there is none
+};
+
+/// Parallel coordinates: a line per point over an axis per parameter, feasible ones coloured by their value, others grey, the
+/// best black. Above 20 000 stretches between axes a histogram of them. At most 16 parameters; the note tells what is left out.
+std::string parallel_svg(const ManyFigure& figure);
+/// A panel per parameter, at most 24: the value over it. Above 20 000 dots a histogram of them.
+std::string scatter_svg(const ManyFigure& figure);
+/// The points of both.
+std::string many_csv(const ManyFigure& figure);
+
+}  // namespace gaitlab::report

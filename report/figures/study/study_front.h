@@ -1,0 +1,26 @@
+// Two objectives against one another: the points that no other is better than in both, and those behind them.
+#pragma once
+#include "report/figures/study/study_figure.h"
+
+namespace gaitlab::report {
+
+enum class FrontState { behind, front, verified };
+
+struct FrontPoint {
+  double run = 0;
+  std::vector<double> objectives;  ///< two or three; the third is in the table alone
+  FrontState state = FrontState::behind;
+};
+
+struct FrontFigure {
+  std::string title, note;
+  std::vector<StudyAxis> objectives;
+  std::vector<bool> maximize;
+  std::vector<FrontPoint> points;  ///< feasible ones; those of the front by the first objective
+};
+
+/// At most 20 000 marks: of those behind the front every n-th above that.
+std::string front_svg(const FrontFigure& figure);
+std::string front_csv(const FrontFigure& figure);
+
+}  // namespace gaitlab::report

@@ -1,0 +1,58 @@
+#include "report/page/page.h"
+
+#include <array>
+#include <utility>
+
+namespace gaitlab::report {
+
+namespace {
+
+std::string html_escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace
+
+std::string page(const PageData& data) {
+  const std::string_view empty = page_template();
+  const std::string title = html_escaped(data.name);
+  const std::array<std::pair<std::string_view, std::string_view>, 3> marks{
+      {{"/*TITLE*/", title}, {"/*META*/", data.meta}, {"/*DATA*/", data.data}}};
+  std::string text;
+  text.reserve(empty.size() + title.size() + data.meta.size() + data.data.size());
+  // What is put in is not looked at again: a name may hold a mark. The marks come in any order.
+  for (std::size_t at = 0; at < empty.size();) {
+    std::size_t next = empty.size();
+    const std::pair<std::string_view, std::string_view>* found = nullptr;
+    for (const auto& mark : marks) {
+      if (const std::size_t place = empty.find(mark.first, at); place < next) {
+        next = place;
+        found = &mark;
+      }
+    }
+    text += empty.substr(at, next - at);
+    at = next;
+    if (found == nullptr) break;
+    text += found->second;
+    at += found->first.size();
+  }
+  return text;
+}
+
+}  // namespace gaitlab::report

@@ -1,0 +1,201 @@
+#include "report/page/page_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "core/scenario/resolved.h"
+#include "report/analysis/envelope.h"
+#include "report/analysis/harmonic.h"
+#include "report/analysis/loads.h"
+#include "report/analysis/plugin_names.h"
+#include "report/analysis/settings_numbers.h"
+#include "report/page/page_ground.h"
+#include "report/page/robot_tree.h"
+#include "report/page/signals.h"
+#include "report/verdict/numbers.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json known(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
+
+std::string plugin_name(const PluginSelection& plugin) {
+  return plugin.entry == nullptr ? "none" : std::string(plugin.entry->name);
+}
+
+/// Of the gait, where it has one for all joints.
+Json frequency(const PluginSelection& cpg) {
+  const SettingsNumbers settings(cpg);
+  const SettingsNumbers::Found* found = settings.find("frequency");
+  if (found == nullptr) return {};
+  const auto same = [&](double each) { return each == found->value[0]; };
+  return std::ranges::all_of(found->value.each, same) ? Json(found->value[0]) : Json();
+}
+
+/// Every text within.
+void leave_folders_out(Json& json, const std::vector<PluginFile>& plugins) {
+  if (json.is_string()) json = without_folders(json.get<std::string>(), plugins);
+  if (!json.is_structured()) return;
+  for (Json& within : json) leave_folders_out(within, plugins);
+}
+
+Json joints_json(const Scenario& scenario, const RobotTree& tree, const Motors& motors) {
+  Json all = Json::array();
+  const std::vector<Joint>& joints = scenario.robot->joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    all.push_back({{"name", joints[j].name},
+                   {"module", joints[j].module},
+                   {"body", tree.place(tree.moved_by(j))},
+                   {"lo", known(joints[j].lo)},
+                   {"hi", known(joints[j].hi)},
+                   {"motor", motors.of_joint.empty() || !joints[j].driven() ? Json() : Json(motors.of_joint[j])}});
+  }
+  return all;
+}
+
+Json motors_json(const Motors& motors) {
+  Json all = Json::array();
+  for (const Envelope& motor : motors.kinds) {
+    all.push_back({{"unit", motor.unit},
+                   {"command", known(motor.command)},
+                   {"current", known(motor.current)},
+                   {"continuous", known(motor.continuous)},
+                   {"rest", known(motor.rest)},
+                   {"no_load", known(motor.no_load)},
+                   {"speed", motor.speed},
+                   {"most", motor.most},
+                   {"least", motor.least}});
+  }
+  return all;
+}
+
+Json feet_json(const std::vector<Foot>& feet, const RobotTree& tree) {
+  Json all = Json::array();
+  for (const Foot& foot : feet) all.push_back({{"name", foot.name}, {"module", foot.module}, {"body", tree.place(foot.body)}});
+  return all;
+}
+
+Json phases_json(const Recording& r, const MotionCycle& cycle, std::size_t joints) {
+  const auto of = [&](const char* quantity) {
+    std::vector<Series> all;
+    for (std::size_t j = 0; j < joints; ++j) all.push_back(r.joint(j, quantity));
+    return first_harmonics(cycle, r.series("t"), all);
+  };
+  const std::vector<Harmonic> setpoints = of("setpoint");
+  const std::vector<Harmonic> angles = of("angle");
+  Json all = Json::array();
+  for (std::size_t j = 0; j < angles.size(); ++j) {
+    all.push_back(
+        {{"setpoint", {setpoints[j].amplitude, setpoints[j].phase}}, {"angle", {angles[j].amplitude, angles[j].phase}}});
+  }
+  return all;
+}
+
+/// Less what is of the clock.
+Json summary_json(const RunData& run) {
+  Json all = numbers_json(run);
+  for (const SummaryNumber& number : summary_numbers()) {
+    if (number.clock) all.erase(number.key);
+  }
+  return all;
+}
+
+Json verdict_json(const Verdict& verdict) {
+  Json all = Json::parse(to_json(verdict));
+  all.emplace("checks", Json::array());
+  return all;
+}
+
+double fastest_joint(const Recording& r) {
+  double fastest = 0;
+  for (const JointStatistics& joint : r.joints) fastest = std::max(fastest, joint.speed_peak);
+  return fastest;
+}
+
+}  // namespace
+
+nlohmann::ordered_json channels_json(const Packing& packing) {
+  Json all = Json::array();
+  for (const Channel& channel : packing.channels()) all.push_back({channel.name, channel.unit, channel.quantum, channel.count});
+  return all;
+}
+
+std::string json_text(const nlohmann::ordered_json& json) {
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
+  return text;
+}
+
+PageData page_data(const Scenario& scenario, const Recording& r, const Summary& summary, const Verdict& verdict,
+                   std::vector<std::string> missing, std::size_t most) {
+  const Robot& robot = *scenario.robot;
+  const RobotTree tree(robot);
+  const Motors motors = report::motors(scenario, fastest_joint(r));
+  const Trace loads = loads_at_rows(r);
+  const std::vector<Foot> feet = report::feet(scenario, r, loads);
+  const std::vector<Signal> signals = report::signals(r, loads, feet, motors.kinds.empty() ? "" : motors.kinds[0].unit);
+  std::size_t stride = 1;
+  Packing packing = packed(signals, r.rows(), stride);
+  std::string data = packing.text();
+  for (; data.size() > most && thinned(r.rows(), stride) > 2; data = packing.text()) {
+    stride *= 2;
+    packing = packed(signals, r.rows(), stride);
+  }
+  if (!verdict.of_rows.empty()) missing.push_back(verdict.of_rows);
+  if (r.rows() > 1) std::ranges::move(left_out(scenario, signals), std::back_inserter(missing));
+  if (stride > 1) {
+    missing.push_back(fmt::format(
+        "one row of every {} is shown, to keep the page small; verdict and numbers are of the whole recording", stride));
+  }
+
+  Json meta;
+  meta["format"] = 1;
+  meta["name"] = scenario.name;
+  meta["build"] = summary.build;
+  meta["engine"] = scenario.physics.engine->name;
+  meta["integrator"] = scenario.physics.integrator->name;
+  meta["step"] = scenario.physics.adaptive_step ? Json() : Json(scenario.physics.step);
+  meta["accuracy"] = scenario.physics.adapts() ? Json(scenario.physics.accuracy) : Json();
+  meta["period"] = scenario.trace.period * static_cast<double>(stride);
+  meta["rows"] = thinned(r.rows(), stride);
+  meta["duration"] = summary.simulated;
+  meta["outcome"] = summary.outcome;
+  meta["mass"] = robot.mass;
+  meta["weight"] = robot.mass * scenario.physics.gravity.norm();
+  meta["modules"] = Json::array();
+  for (std::size_t m = 0; m < robot.modules.size(); ++m)
+    meta["modules"].push_back({{"name", fmt::format("m{}", m)}, {"type", robot.types[robot.modules[m].type].name}});
+  meta["joints"] = joints_json(scenario, tree, motors);
+  meta["bodies"] = tree.bodies();
+  meta["geometry"] = tree.geometry();
+  meta["faces"] = tree.faces();
+  meta["docks"] = tree.docks();
+  meta["contacts"] = Json::array();
+  for (const ContactElement& element : contact_elements(robot, scenario.contact.on)) meta["contacts"].push_back(element.name);
+  meta["ground"] = page_ground(scenario, r);
+  meta["feet"] = feet_json(feet, tree);
+  meta["motors"] = motors_json(motors);
+  meta["verdict"] = verdict_json(verdict);
+  meta["summary"] = summary_json({scenario, r, summary});
+  const MotionCycle& cycle = summary.limit_cycle;
+  meta["cycle"] = cycle.found ? Json{{"from", cycle.from}, {"period", cycle.period}} : Json();
+  meta["phases"] = phases_json(r, cycle, robot.joints.size());
+  meta["cpg"] = plugin_name(scenario.cpg);
+  meta["frequency"] = frequency(scenario.cpg);
+  meta["command"] = "gaitlab rerun FOLDER";
+  meta["missing"] = missing;
+  meta["scenario"] = resolved(scenario);
+  meta["channels"] = channels_json(packing);
+  leave_folders_out(meta, scenario.plugins);
+
+  return {scenario.name, json_text(meta), std::move(data)};
+}
+
+}  // namespace gaitlab::report

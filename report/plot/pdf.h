@@ -1,0 +1,38 @@
+// A drawing as PDF 1.4: one page, vectors and text.
+#pragma once
+#include <set>
+
+#include "report/plot/canvas.h"
+#include "report/plot/helvetica.h"
+
+namespace gaitlab::report {
+
+/// The same calls as Svg make the same picture: one matrix from px to pt, and below it the same coordinates. Text is in
+/// Helvetica and Symbol, which are not embedded. No date; the file's /ID is a hash of the page. The page is compressed by zlib:
+/// another version of it may write other bytes of the same content.
+class Pdf final : public Canvas {
+ public:
+  explicit Pdf(const Paper& paper);
+  void line(Point a, Point b, const Style& style) override;
+  void rectangle(Point corner, double width, double height, const Style& style) override;
+  void circle(Point centre, double radius, const Style& style) override;
+  void polyline(std::span<const Point> points, const Style& style) override;
+  void polygons(std::span<const Polygon> polygons, const Style& style) override;
+  using Canvas::text;
+  void text(Point at, std::string_view content, const TextStyle& style) override;
+  /// RunError: no memory for zlib.
+  [[nodiscard]] std::string finish() const override;
+
+  /// Characters that the fonts lack, and `?` stands for.
+  [[nodiscard]] const std::set<char32_t>& missing() const { return missing_; }
+
+ private:
+  void paint(const std::string& path, const Style& style, bool round);
+
+  Paper paper_;
+  std::string page_;
+  std::set<char32_t> missing_;
+  std::set<Font> fonts_;
+};
+
+}  // namespace gaitlab::report

@@ -1,0 +1,30 @@
+// A small SVG writer: shapes and text in, a file's text out.
+#pragma once
+#include "report/plot/canvas.h"
+
+namespace gaitlab::report {
+
+/// Collects shapes on a white ground; coordinates in px with at most two decimals. The file is a valid XML document.
+class Svg final : public Canvas {
+ public:
+  /// For the screen: px, in any sans-serif font.
+  Svg(double width, double height);
+  /// For print: its size in mm, in Helvetica or a font of the same widths.
+  explicit Svg(const Paper& paper);
+  void line(Point a, Point b, const Style& style) override;
+  void rectangle(Point corner, double width, double height, const Style& style) override;
+  void circle(Point centre, double radius, const Style& style) override;
+  void polyline(std::span<const Point> points, const Style& style) override;
+  void polygons(std::span<const Polygon> polygons, const Style& style) override;
+  using Canvas::text;
+  void text(Point at, std::string_view content, const TextStyle& style) override;
+  [[nodiscard]] std::string finish() const override;
+
+ private:
+  std::string head_, body_;
+};
+
+/// `text` for XML content and attributes.
+std::string xml_escaped(std::string_view text);
+
+}  // namespace gaitlab::report

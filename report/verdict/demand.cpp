@@ -1,0 +1,163 @@
+#include "report/verdict/demand.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/plugin/plugin_instance.h"
+#include "core/simulation/simulation.h"
+#include "report/analysis/fall.h"
+#include "report/analysis/plugin_names.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kThrown =
+    0.5;  // of the height at the start: a gait that rises by more than its own run did and this is a jump
+
+class Raise final : public Fields {
+ public:
+  bool found = false;
+  bool zero = false;  ///< a limit of 0, which stays one
+  void visit(const Field& field) override {
+    const auto* each = std::get_if<field::EachJoint>(&field.value);
+    if (each == nullptr || each->role != field::Role::limit) return;
+    found = true;
+    if (each->usual != nullptr) state(each->value, *each->usual);
+    raise(each->value.common, each->value.each.empty());
+    for (double& value : each->value.each) raise(value, true);
+  }
+  void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
+
+ private:
+  /// Puts `usual` where nothing is stated.
+  static void state(PerJoint& value, const PerJoint& usual) {
+    if (value.each.empty()) value.each.assign(usual.each.size(), value.common);
+    for (std::size_t j = 0; j < value.each.size(); ++j) {
+      if (value.each[j] == 0) value.each[j] = usual[j];
+    }
+    if (value.common == 0) value.common = usual.common;
+  }
+  void raise(double& value, bool counts) {
+    zero = zero || (counts && value == 0);
+    value *= kDemandTimes;
+  }
+};
+
+/// m: how far the centre of mass rises above where it is at the start.
+double rise(const std::vector<double>& z) { return *std::ranges::max_element(z) - z.front(); }
+
+/// What the joint that lacks most would take beyond what it has, of those at that limit for some time: `0.241 A at m5/passive
+/// (needs 0.741 A; largest torque 1.3 N m, largest speed 0.9 rad/s)`.
+std::string lack(const Scenario& scenario, const std::vector<JudgedJoint>& own, const std::vector<JudgedJoint>& free,
+                 double JudgedJoint::*share, double JudgedJoint::*peak, const char* unit) {
+  double most = 0;
+  std::string text;
+  for (std::size_t j = 0; j < own.size(); ++j) {
+    const double missing = free[j].*peak - own[j].*peak;
+    if (!(own[j].*share > 0) || !(missing > kLarger * most)) continue;
+    most = missing;
+    text = fmt::format("{:.3g} {} at {} (needs {:.3g} {}; largest torque {:.3g} N m, largest speed {:.3g} rad/s)", missing,
+                       unit, scenario.robot->joints[j].name, free[j].*peak, unit, free[j].torque_peak, free[j].speed_peak);
+  }
+  return text;
+}
+
+}  // namespace
+
+bool thrown_up(const Scenario& scenario, const Recording& free, const Recording& own) {
+  if (scenario.base != Base::floating || scenario.ground.kind == Ground::Kind::none) return false;
+  const std::vector<double> z = heights(scenario, own);
+  const std::vector<double> thrown = heights(scenario, free);
+  return !z.empty() && !thrown.empty() && rise(thrown) > rise(z) + kThrown * std::abs(z.front());
+}
+
+bool raise_limits(Scenario& scenario) {
+  Raise raise;
+  if (scenario.actuator.entry != nullptr) visit_settings(*scenario.actuator.entry, scenario.actuator.settings.get(), raise);
+  return raise.found && !raise.zero;
+}
+
+Demand demand(const Scenario& twin, const Recording& record, const Summary& summary) {
+  Demand made;
+  Recording free;
+  try {
+    Simulation simulation({&twin, 1});
+    simulation.run();
+    free = simulation.take_recording(0);
+  } catch (const RunError& error) {
+    made.doubt = fmt::format("with motors without limits the run breaks off: {}", error.what());
+    return made;
+  }
+  made.joints = judge(free, summary.limit_cycle).joints;
+  made.known = made.joints.size() == summary.judged.joints.size();
+  const bool limited = Judged::limited(made.joints) > 0;
+  if (thrown_up(twin, free, record)) {
+    made.doubt = "with motors without limits the robot is thrown up, so that what it needs is not what the gait needs";
+  } else if (limited) {
+    made.doubt = fmt::format("even {:g} times these limits are reached: it needs more than that", kDemandTimes);
+  }
+  return made;
+}
+
+bool take_demand(Verdict& verdict, const std::string& json) try {
+  using Json = nlohmann::json;
+  const Json old = Json::parse(json);
+  const auto demand = old.find("demand");
+  if (demand == old.end()) return true;
+  const Json own = Json::parse(to_json(verdict));
+  Verdict with = verdict;
+  for (const char* const same : {"verdict", "window"}) {
+    if (old.at(same) != own.at(same)) return false;
+  }
+  for (std::size_t i = 0; i < with.checks.size(); ++i) {
+    Check& check = with.checks[i];
+    if (check.id != "voltage" && check.id != "current") continue;
+    const auto of = std::ranges::find(old.at("checks"), Json(check.id), [](const Json& one) { return one.at("id"); });
+    if (of == old.at("checks").end()) return false;
+    for (const char* const same : {"status", "value", "limit", "joint", "joints"}) {
+      if (of->at(same) != own.at("checks")[i].at(same)) return false;
+    }
+    check.missing = of->at("missing").get<std::string>();
+  }
+  const auto number = [](const Json& value) {
+    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+  };
+  with.demand_doubt = demand->at("doubt").get<std::string>();
+  for (const Json& of : demand->at("joints")) {
+    with.demands.push_back({of.at("joint").get<std::string>(), number(of.at("voltage")), number(of.at("current")),
+                            number(of.at("torque")), number(of.at("speed"))});
+  }
+  verdict = std::move(with);
+  return true;
+} catch (const nlohmann::json::exception&) {  // a file that somebody changed
+  return false;
+}
+
+void add_demand(Verdict& verdict, const Scenario& scenario, const Summary& summary, const Demand& demand) {
+  verdict.demand_doubt = without_folders(demand.doubt, scenario.plugins);
+  if (!demand.known) return;
+  const std::vector<JudgedJoint>& own = summary.judged.joints;
+  for (std::size_t j = 0; j < own.size(); ++j) {
+    if (!(own[j].limited() > 0)) continue;
+    const JudgedJoint& free = demand.joints[j];
+    verdict.demands.push_back(
+        {scenario.robot->joints[j].name, free.voltage_peak, free.current_peak, free.torque_peak, free.speed_peak});
+  }
+  for (Check& check : verdict.checks) {
+    if (check.id != "voltage" && check.id != "current") continue;
+    if (check.status != CheckStatus::warn && check.status != CheckStatus::fail) continue;
+    const bool amperes = std::ranges::any_of(own, [](const JudgedJoint& joint) { return joint.current_peak > 0; });
+    check.missing = check.id == "voltage"
+                        ? lack(scenario, own, demand.joints, &JudgedJoint::voltage_limited, &JudgedJoint::voltage_peak, "V")
+                    : amperes
+                        ? lack(scenario, own, demand.joints, &JudgedJoint::current_limited, &JudgedJoint::current_peak, "A")
+                        : lack(scenario, own, demand.joints, &JudgedJoint::current_limited, &JudgedJoint::torque_peak, "N m");
+  }
+}
+
+}  // namespace gaitlab::report

@@ -1,0 +1,218 @@
+#include "report/verdict/load_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/dynamics/body_tree.h"
+#include "core/model/docking.h"
+#include "core/model/pattern.h"
+#include "report/analysis/motors.h"
+#include "report/verdict/number_texts.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kNothing = 1e-9;  // N, N m: rounding
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLeastWay = 0.01;  // m: who goes less does not walk, and slides any share of nothing
+
+struct DockWords {
+  const char *column, *unit, *does;
+};
+
+DockWords words(DockQuantity quantity) {
+  switch (quantity) {
+    case DockQuantity::tension:
+      return {"tension", "N", "pulled apart"};
+    case DockQuantity::shear:
+      return {"shear", "N", "sheared"};
+    case DockQuantity::bending:
+      return {"bending", "N m", "bent"};
+    default:
+      return {"torsion", "N m", "twisted"};
+  }
+}
+
+/// The rows of Recording::loads within the judged window, and the row that it begins after.
+struct Window {
+  const Trace& loads;
+  std::size_t start = 0;
+
+  /// Rows are those of Recording::ticks.
+  Window(const Recording& record, const Summary& summary)
+      : loads(record.loads), start(std::min(summary.judged.first_row, std::max<std::size_t>(record.loads.rows(), 1) - 1)) {}
+  [[nodiscard]] Series series(const std::string& name) const {
+    const std::size_t at = loads.find(name);
+    return at < loads.columns.size() && loads.rows() > 0 ? Series(loads, at) : Series();
+  }
+  /// What a sum from t = 0 has grown by.
+  [[nodiscard]] double grown(const Series& sum) const { return sum.empty() ? kUnknown : sum.back() - sum[start]; }
+  [[nodiscard]] double time(std::size_t row) const { return loads.at(row, 0); }
+};
+
+/// Why nothing is known of what feet and docks bore; empty: it is.
+std::string unknown(const Scenario& scenario, const Recording& record) {
+  if (scenario.contact.solver()) return "contact.law bullet has impulses, not all of them at contact elements";
+  if (record.loads.rows() < 2) return "loads were not recorded: only `gaitlab run` does, and not where a run ends at once";
+  return "";
+}
+
+std::string unknown_of_feet(const Scenario& scenario, const Recording& record) {
+  if (scenario.base != Base::floating || scenario.ground.kind == Ground::Kind::none)
+    return "judged of a floating base on a ground";
+  return unknown(scenario, record);
+}
+
+/// The largest load of a dock, and when.
+struct DockPeak {
+  std::size_t module = 0;
+  double value = 0, time = 0, limit = kUnknown;
+  [[nodiscard]] bool limited() const { return limit > 0; }
+  [[nodiscard]] double share() const { return value / limit; }
+};
+
+DockPeak peak_of(const Window& window, std::size_t module, DockQuantity quantity, double limit) {
+  const Series values = window.series(fmt::format("dock.{}.{}", module, words(quantity).column));
+  DockPeak peak{module, values.empty() ? kUnknown : -std::numeric_limits<double>::infinity(), kUnknown, limit};
+  for (std::size_t row = window.start + 1; row < values.size(); ++row) {
+    double value = quantity == DockQuantity::tension ? values[row] : std::abs(values[row]);
+    if (std::abs(value) < kNothing) value = 0;
+    if (value <= peak.value) continue;
+    peak.value = value;
+    peak.time = window.time(row);
+  }
+  return peak;
+}
+
+}  // namespace
+
+namespace {
+
+double stated(const Connector& connector, DockQuantity quantity) {
+  const double limit = quantity == DockQuantity::tension   ? connector.tension
+                       : quantity == DockQuantity::shear   ? connector.shear
+                       : quantity == DockQuantity::bending ? connector.bending
+                                                           : connector.torsion;
+  return limit > 0 ? limit : kUnknown;
+}
+
+/// The connector of a dock that gives way first.
+Connector weaker(const Robot& robot, std::size_t module, DockQuantity quantity) {
+  const auto [own, parents] = connectors_at(robot, module);
+  return stated(parents, quantity) < stated(own, quantity) || std::isnan(stated(own, quantity)) ? parents : own;
+}
+
+}  // namespace
+
+std::vector<double> dock_limits(const Robot& robot, DockQuantity quantity) {
+  std::vector<double> limits;
+  for (std::size_t m = 0; m < robot.modules.size(); ++m) limits.push_back(stated(weaker(robot, m, quantity), quantity));
+  return limits;
+}
+
+void judge_docks(const Scenario& scenario, const Recording& record, const Summary& summary, DockQuantity quantity,
+                 const std::vector<double>& limits, Check& made) {
+  const std::size_t modules = scenario.robot->modules.size();
+  made.text = modules < 2 ? "the robot has no dock" : unknown(scenario, record);
+  if (!made.text.empty()) return;
+  const Window window(record, summary);
+  std::vector<DockPeak> peaks;
+  for (std::size_t m = 1; m < modules; ++m)
+    peaks.push_back(peak_of(window, m, quantity, m < limits.size() ? limits[m] : kUnknown));
+  const auto less = [](const DockPeak& a, const DockPeak& b) {
+    if (a.limited() != b.limited()) return b.limited();
+    return a.limited() ? a.share() < b.share() : a.value < b.value;
+  };
+  const DockPeak worst = *std::ranges::max_element(peaks, less);
+  made.value = worst.value;
+  made.from = made.to = worst.time;
+  const DockWords are = words(quantity);
+  made.text = worst.value > 0
+                  ? fmt::format("{} is {} by up to {:.3g} {}", dock_name(worst.module), are.does, worst.value, are.unit)
+                  : fmt::format("no dock is {}", are.does);
+  if (!worst.limited()) {
+    made.text += "; the module types do not state what a dock holds";
+    return;
+  }
+  made.limit = worst.limit;
+  made.source = weaker(*scenario.robot, worst.module, quantity).source;
+  made.joints = static_cast<std::size_t>(std::ranges::count_if(peaks, [](const DockPeak& p) { return p.share() > 1; }));
+  made.status = worst.share() <= scenario.limits.margin ? CheckStatus::pass
+                : worst.share() <= 1                    ? CheckStatus::warn
+                                                        : CheckStatus::fail;
+  const auto unstated = std::ranges::count_if(peaks, [](const DockPeak& p) { return !p.limited(); });
+  made.text += fmt::format(
+      ", {} of what it holds{}{}", texts::percent(std::max(0.0, worst.share())),
+      chosen(made.source) ? " by a chosen figure" : "",
+      unstated > 0 ? fmt::format("; {} of {} docks are not judged: nobody states what they hold", unstated, peaks.size()) : "");
+}
+
+void judge_slip(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {
+  made.text = unknown_of_feet(scenario, record);
+  if (!made.text.empty()) return;
+  const Window window(record, summary);
+  const double way = window.grown(window.series("path"));
+  const double slip = window.grown(window.series("slip"));
+  std::string worst;
+  double farthest = 0;
+  for (const Column& column : record.loads.columns) {
+    if (!glob("foot.*.slid", column.name)) continue;
+    const double slid = window.grown(window.series(column.name));
+    if (slid <= farthest) continue;
+    farthest = slid;
+    worst = column.name.substr(5, column.name.size() - 10);
+  }
+  made.text = fmt::format("the robot goes {:.3g} mm: less than {:.3g} mm is not walking", 1000 * way, 1000 * kLeastWay);
+  if (way < kLeastWay) return;
+  made.value = slip / way;
+  made.limit = scenario.limits.slip;
+  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // not a number: a warning
+  made.from = window.time(window.start);
+  made.to = window.loads.at(window.loads.rows() - 1, 0);
+  made.text = worst.empty() ? "no foot slides under load"
+                            : fmt::format("feet slide {} of the way under load, farthest {}, by {:.3g} of {:.3g} m",
+                                          texts::percent(made.value), worst, farthest, way);
+}
+
+void judge_stability(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {
+  made.text =
+      scenario.ground.kind == Ground::Kind::plane ? unknown_of_feet(scenario, record) : "judged on a plane without boxes";
+  if (!made.text.empty()) return;
+  const Window window(record, summary);
+  const Series margin = window.series("stability");
+  made.text = "no foot bears a load";
+  std::size_t seen = 0;
+  std::size_t outside = 0;
+  std::size_t aloft = 0;
+  for (std::size_t row = window.start + 1; row < margin.size(); ++row) {
+    if (std::isnan(margin[row])) {
+      ++aloft;
+      continue;
+    }
+    ++seen;
+    if (margin[row] < 0) ++outside;
+    if (margin[row] >= made.value) continue;  // of a value that is not known yet: false
+    made.value = margin[row];
+    made.from = made.to = window.time(row);
+  }
+  if (seen == 0) return;
+  made.status = CheckStatus::pass;
+  made.text =
+      made.value >= 0 && aloft > 0
+          ? fmt::format(
+                "a note: no foot bears a load for {} of the time; else the centre of mass stays {:.3g} mm within the "
+                "support polygon",
+                texts::percent(static_cast<double>(aloft) / static_cast<double>(aloft + seen)), 1000 * made.value)
+      : made.value >= 0
+          ? fmt::format("statically stable: the centre of mass stays {:.3g} mm within the support polygon", 1000 * made.value)
+          : fmt::format(
+                "a note: the centre of mass comes {:.3g} mm out of the support polygon, and is out of it {} of the "
+                "time on the ground, as it may be in a dynamic gait",
+                -1000 * made.value, texts::percent(static_cast<double>(outside) / static_cast<double>(seen)));
+}
+
+}  // namespace gaitlab::report

@@ -1,0 +1,127 @@
+#include "report/verdict/summary_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/settings/wording.h"
+#include "core/simulation/start.h"
+#include "core/simulation/step_advice.h"
+#include "report/analysis/fall.h"
+#include "report/verdict/number_texts.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A group of which a number is not known is null.
+void put(Json& json, const SummaryNumber& number, const std::string& joint, const Json& value) {
+  const Json::json_pointer at(number.pointer(joint));
+  const Json::json_pointer group = at.parent_pointer();
+  json[value.is_null() && !group.empty() ? group : at] = value;
+}
+
+}  // namespace
+
+Json numbers_json(const RunData& run) {
+  Json json;
+  for (const SummaryNumber& number : summary_numbers()) {
+    if (number.of_joint == nullptr) {
+      put(json, number, "", number.value(run));
+      continue;
+    }
+    json.emplace("per_joint", Json::object());  // without joints, too
+    for (std::size_t j = 0; j < run.record.joints.size(); ++j)
+      put(json, number, run.scenario.robot->joints[j].name, number.of_joint(run, j));
+  }
+  return json;
+}
+
+std::string to_json(const Summary& s, const Scenario& scenario, const Recording& r) {
+  return numbers_json({scenario, r, s}).dump(2) + "\n";
+}
+
+std::string to_text(const Summary& s, const Scenario& scenario, const Recording& r, bool verbose) {
+  std::string text;
+  for (const SummaryNumber* number : placed(&SummaryNumber::line)) {
+    if (number->line.verbose && !verbose) continue;
+    const char* title = number->line.title;
+    for (const std::string& line : number->line.text({scenario, r, s})) {
+      text += title == nullptr ? line + "\n" : fmt::format("  {:<13} {}\n", title, line);
+      if (title != nullptr) title = "";
+    }
+  }
+  return text;
+}
+
+std::string joint_table(const Summary& s, const Scenario& scenario) {
+  if (!has_motors(scenario) || s.judged.joints.empty()) return "  no table of joints: nothing drives them\n";
+  std::size_t width = 5;
+  for (const Joint& joint : scenario.robot->joints) width = std::max(width, joint.name.size());
+  std::string text = fmt::format("  {:<{}}  {:^15}  {:^24}  {}\n  {:<{}} {:>8} {:>8} {:>9} {:>8} {:>6}  {:>8} {:>8}\n", "",
+                                 width, "at a limit", "torque, N m", " tracking error", "joint", width, "voltage", "current",
+                                 "peak", "at s", "RMS", "rad", "at s");
+  const auto share = [](double limited) {
+    return limited > 0 && limited < 0.0005 ? "< 0.1 %" : fmt::format("{:.1f} %", 100 * limited);
+  };
+  for (const std::size_t j : s.judged.order) {
+    const JudgedJoint& joint = s.judged.joints[j];
+    if (!scenario.robot->joints[j].driven()) continue;
+    text +=
+        fmt::format("  {:<{}} {:>8} {:>8} {:>8.3f}{} {:>8.2f} {:>6.3f}  {:>8.3f} {:>8.2f}\n", scenario.robot->joints[j].name,
+                    width, share(joint.voltage_limited), share(joint.current_limited), joint.torque_peak,
+                    joint.peak_limit == MotorLimit::none      ? ' '
+                    : joint.peak_limit == MotorLimit::voltage ? 'u'
+                                                              : 'i',
+                    joint.torque_peak_time, joint.torque_rms, joint.error_peak, joint.error_peak_time);
+  }
+  const bool marked =
+      std::ranges::any_of(s.judged.joints, [](const JudgedJoint& j) { return j.peak_limit != MotorLimit::none; });
+  return text + "  the most loaded first: by time at a limit, then RMS, then peak\n" +
+         (marked ? "  u, i: the peak is at the limit of voltage, of current\n" : "");
+}
+
+namespace {
+
+/// A field's height says nothing about how high the robot stands above it.
+bool has_height(const Ground& ground) { return ground.kind == Ground::Kind::plane || ground.kind == Ground::Kind::boxes; }
+
+}  // namespace
+
+std::string start_warning(const Scenario& scenario) {
+  if (!has_height(scenario.ground)) return "";
+  const RobotState start = start_state(scenario);
+  Kinematics k(*scenario.robot);
+  k.update(*scenario.robot, start);
+  constexpr double kSunk = 1e-3;  // m
+  const double lowest = lowest_point(*scenario.robot, k, {});
+  if (lowest >= -kSunk) return "";
+  const std::string deep = fmt::format("the robot starts {:.3g} m deep in the ground: ", -lowest);
+  if (!scenario.on_ground) {
+    return deep + fmt::format(
+                      "on_ground is off (a position of three numbers turns it off) and the base frame starts at z = {} m; "
+                      "position: [{}, {}] lowers the robot onto the ground there",
+                      number_text(start.position.z()), number_text(start.position.x()), number_text(start.position.y()));
+  }
+  return deep + fmt::format("only the elements of contact.on: {} touch it; is it upside down?",
+                            scenario.contact.on == ContactSet::feet ? "feet" : "none");
+}
+
+std::string fall_warning(const Scenario& scenario, const Recording& r) {
+  const std::optional<Fall> found = fall(scenario, r);
+  if (!found || !(found->share() < scenario.limits.height)) return "";
+  return fmt::format("it fell: from t = {:.2f} s on, the centre of mass comes down to {:.3f} m, from {:.3f} m at the start",
+                     found->fallen_time, found->lowest, found->start);
+}
+
+std::string stability_warning(const Summary& s, const Scenario& scenario, const Recording& r) {
+  if (!(s.stability_share > 0.01)) return "";
+  const auto contacts = contact_elements(*scenario.robot, scenario.contact.on);
+  return fmt::format("in {} of the control ticks {}", texts::percent(s.stability_share),
+                     step_advice(scenario, contacts, r.worst, fmt::format("at t = {:.2f} s", r.worst_time)));
+}
+
+}  // namespace gaitlab::report

@@ -1,0 +1,148 @@
+#include "report/verdict/trust.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/settings/wording.h"
+#include "core/simulation/step_advice.h"
+#include "report/analysis/summary.h"
+#include "report/verdict/number_texts.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kGood = 0.01;           // of a torque's peak
+constexpr double kLeastPeak = 0.02;      // of the largest of all joints: smaller ones are judged by this
+constexpr double kOftenCoarse = 0.1;     // share of the time
+constexpr double kLeastAccuracy = 1e-6;  // that a scenario may ask for
+constexpr double kHeight = 1e-3;         // m: lifting the robot by it is the least energy that is judged
+constexpr double kMargin = 2;            // by which a remedy is better than it seems to need
+
+/// One digit, downwards: 0.0037 becomes 0.003.
+double one_digit(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  return std::floor(value / decade) * decade;
+}
+
+/// What brings the torque error from `share` to kGood.
+std::string remedy(const Scenario& s, double share) {
+  const Physics& physics = s.physics;
+  const double ratio = kGood / share / kMargin;
+  if (physics.adapts()) {
+    return fmt::format("physics.accuracy: {:.1g}", std::max(one_digit(physics.accuracy * ratio), kLeastAccuracy));
+  }
+  const int order = std::max(1, physics.integrator->order);
+  const double step = usable_step(s, physics.step * std::pow(ratio, 1.0 / order));
+  std::string text = step > 0 ? fmt::format("physics.step: {:.4g}", step) : "a smaller physics.step";
+  if (const Integrator* adaptive = physics.engine->adaptive(); adaptive != nullptr) {
+    text += fmt::format(", or physics.integrator: {} without a step", adaptive->name);
+  }
+  return text;
+}
+
+}  // namespace
+
+TorqueError torque_error(const Recording& r) {
+  TorqueError worst;
+  double largest = 0;
+  for (const double peak : r.tally.torque_peak) largest = std::max(largest, peak);
+  if (!r.tally.estimated || !(largest > 0)) return worst;
+  for (std::size_t j = 0; j < r.joints.size(); ++j) {
+    const double share = r.tally.torque_error[j] / std::max(r.tally.torque_peak[j], kLeastPeak * largest);
+    if (share > worst.share) worst = {true, share, j};
+  }
+  worst.estimated = worst.share > 0;  // else both took the same steps, which says nothing
+  return worst;
+}
+
+std::string step_text(const Physics& physics) {
+  std::string text = physics.adaptive_step ? fmt::format("step auto (at most {:.4g} s)", physics.step)
+                                           : fmt::format("step {} s", number_text(physics.step));
+  if (physics.adapts()) text += fmt::format(", accuracy {}", texts::rough_percent(physics.accuracy));
+  return text;
+}
+
+std::string steps_text(const Scenario& scenario, const Recording& r) {
+  std::string text = step_text(scenario.physics);
+  if (r.tally.solves > 0) text += fmt::format(", {:.0f} solves", r.tally.solves);
+  const TorqueError error = torque_error(r);
+  if (error.estimated) {
+    text += fmt::format("; torque error about {} (joint {})", texts::rough_percent(error.share),
+                        scenario.robot->joints[error.joint].name);
+  } else if (scenario.actuator.entry != nullptr && !r.joints.empty()) {
+    text += "; torque error not estimated";
+  }
+  return text;
+}
+
+double least_energy(const Scenario& s) {
+  return std::max(s.robot->mass * s.physics.gravity.norm() * kHeight, std::numeric_limits<double>::min());
+}
+
+double energy_scale(const Scenario& s, const Recording& r) {
+  return std::max({std::abs(r.ledger.electrical), std::abs(r.ledger.stored), least_energy(s)});
+}
+
+double torque_error_limit(const Scenario& s) { return s.physics.adapts() ? std::max(kGood, s.physics.accuracy) : kGood; }
+
+std::vector<std::string> not_finite(const Scenario& s, const Recording& r) {
+  std::vector<std::string> names;
+  const auto look = [&](double value, const std::string& name) {
+    if (!std::isfinite(value)) names.push_back(name);
+  };
+  const Ledger& ledger = r.ledger;
+  for (const auto& [name, value] : {std::pair("electrical", ledger.electrical),
+                                    {"copper", ledger.copper},
+                                    {"gear", ledger.gear},
+                                    {"stored", ledger.stored},
+                                    {"contact", ledger.contact},
+                                    {"friction", ledger.friction},
+                                    {"stops", ledger.stops},
+                                    {"hinges", ledger.hinges}})
+    look(value, std::string("energy.") + name);
+  for (std::size_t j = 0; j < r.joints.size(); ++j) {
+    for (const JointStatistic& one : kJointStatistics)
+      look(r.joints[j].*one.member, std::string(one.name) + " of " + s.robot->joints[j].name);
+  }
+  const Summary way = travelled(r);
+  look(way.distance, "distance");
+  look(way.path_length, "path_length");
+  return names;
+}
+
+std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
+  std::vector<std::string> warnings;
+  const TorqueError error = torque_error(r);
+  if (error.share > torque_error_limit(s)) {
+    warnings.push_back(fmt::format("the torque of joint {} is off by about {} of its peak, estimated from other steps; take {}",
+                                   s.robot->joints[error.joint].name, texts::rough_percent(error.share),
+                                   remedy(s, error.share)));
+  }
+  if (s.physics.adapts() && r.tally.coarse > kOftenCoarse * r.simulated) {
+    warnings.push_back(
+        fmt::format("in {} of the time the shortest steps of the integrator did not reach the accuracy {}: the result depends "
+                    "on the steps and may not be reproducible at any; is something undamped, or driven without bounds?",
+                    texts::rough_percent(r.tally.coarse / r.simulated), texts::rough_percent(s.physics.accuracy)));
+  }
+  const double residual = std::abs(r.ledger.residual());
+  const double drawn = std::abs(r.ledger.electrical);
+  const double judged = energy_scale(s, r);
+  if (s.actuator.entry != nullptr && !s.robot->joints.empty() && residual > s.limits.energy_residual * judged) {
+    warnings.push_back(fmt::format("the energy does not add up: {:.3g} J are missing of {:.3g} J drawn; take {}", residual,
+                                   drawn, s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step"));
+  }
+  if (r.tally.off > 0) {
+    warnings.push_back(
+        fmt::format("{:.0f} joint-steps ended off the law of their motor or stop: the torques there are wrong; "
+                    "does the torque of the actuator fall with the joint's speed, as it must?",
+                    r.tally.off));
+  }
+  return warnings;
+}
+
+}  // namespace gaitlab::report

@@ -1,0 +1,278 @@
+#include "report/verdict/warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/laws/dc_motor.h"
+#include "core/plugin/robot_info.h"
+#include "report/analysis/settings_numbers.h"
+#include "report/analysis/summary.h"
+#include "report/verdict/number_texts.h"
+#include "report/verdict/trust.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kApart = 1.3;          // Kt / Ks or its inverse: measured constants of one motor agree to 10 %
+constexpr double kOvershoots = 1;       // gain of the sampled loop: with 1 the error is gone at the next tick
+constexpr double kCannotSettle = 2;     // measured: 1.3 to 1.9 settle, 2.3 does not
+constexpr double kRounding = 1 + 1e-9;  // of products that are equal on paper
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kDegrees = 360;  // a larger range is not an angle in degrees either: it stands for "no limit"
+
+/// Two digits, downwards: 156.4 becomes 150.
+double two_digits(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  return std::floor(value / unit) * unit;
+}
+
+/// Where the key was given, or else its section, or the file.
+SourceLocation place_of(const Scenario& s, const std::string& key) {
+  const SourceLocation place = s.place(key);
+  return place.line > 0 ? place : s.place(key.substr(0, key.find('.')));
+}
+
+void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warning>& out) {
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    const DcMotor& m = motors[j];
+    const std::string& name = s.robot->joints[j].name;
+    if (!s.robot->joints[j].driven()) continue;
+    for (const auto& [key, value] : {std::pair{"Kt", m.Kt}, {"u_max", m.u_max}, {"i_max", m.i_max}}) {
+      if (value > 0) continue;
+      out.push_back({place_of(s, std::string("actuator.") + key),
+                     fmt::format("the motor of joint {} makes no torque: {} is {:g}", name, key, value)});
+      return;
+    }
+    if (!(m.Ks > 0)) continue;
+    const double apart = std::max(m.Kt / m.Ks, m.Ks / m.Kt);
+    if (apart > kApart) {
+      out.push_back(
+          {place_of(s, "actuator.Kt"),
+           fmt::format("Kt {:.4g} N m/A and Ks {:.4g} V s/rad of joint {} are one constant in SI units, but differ by a "
+                       "factor of {:.3g}: is one in mN m/A or rpm/V? (1 mN m/A = 0.001 N m/A; k rpm/V = {:.4g} / k V s/rad)",
+                       m.Kt, m.Ks, name, apart, 60 / kTurn)});
+      return;
+    }
+    if (m.efficiency * m.Kt > kRounding * m.Ks) {
+      out.push_back({place_of(s, "actuator.Kt"),
+                     fmt::format("the motor of joint {} makes energy: efficiency x Kt {:.4g} N m/A exceeds Ks {:.4g} V s/rad; "
+                                 "take Kt = Ks",
+                                 name, m.efficiency * m.Kt, m.Ks)});
+      return;
+    }
+  }
+}
+
+/// Whether the derivative answers a step of the error with more than a quarter of what Kp does (Kd N / (Kd + N Ts), eq. 5): it
+/// then moves the bound on Kp.
+bool damps(const SettingsNumbers& settings, std::size_t joint, double period) {
+  const SettingsNumbers::Found* Kp = settings.find("Kp");
+  const SettingsNumbers::Found* Kd = settings.find("Kd");
+  const SettingsNumbers::Found* N = settings.find("N");
+  if (Kd == nullptr || !(Kd->value[joint] > 0)) return false;
+  const double d = Kd->value[joint];
+  const double step = N == nullptr ? d / period : d * N->value[joint] / (d + N->value[joint] * period);
+  return step > 0.25 * Kp->value[joint];
+}
+
+void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& out) {
+  const SettingsNumbers settings(s.controller);
+  const auto* gain = settings.find("Kp");
+  if (gain == nullptr || make_controller(s.controller, info(*s.robot))->command_unit() != "V") return;
+  double largest = 0;
+  std::size_t worst = 0;
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    if (!s.robot->joints[j].driven() || !(motors[j].Ks > 0))
+      continue;  // nothing slows such a motor down: the rule is of another loop
+    const double g = gain->value[j] * s.control_period / (motors[j].Ks * motors[j].gear);
+    if (!(g > largest) || damps(settings, j, s.control_period)) continue;
+    largest = g;
+    worst = j;
+  }
+  if (!(largest > kOvershoots * kRounding)) return;
+  const bool severe = largest > kCannotSettle;
+  out.push_back(
+      {place_of(s, "controller.Kp"),
+       fmt::format(
+           "Kp {:.4g} of joint {} is {} for commands every {:.4g} s: the share of its error that the joint goes per command is "
+           "{:.3g}, and above {} it {}; take Kp: {:.4g} or less, or a shorter controller.period",
+           gain->value[worst], s.robot->joints[worst].name, severe ? "too large" : "large", s.control_period, largest,
+           severe ? kCannotSettle : kOvershoots, severe ? "cannot settle" : "overshoots",
+           two_digits(gain->value[worst] / largest)),
+       severe});
+}
+
+void check_motors(const Scenario& s, std::vector<Warning>& out) {
+  if (s.actuator.entry == nullptr || s.robot->joints.empty()) return;
+  const std::unique_ptr<Actuator> actuator = make_actuator(s.actuator, info(*s.robot));
+  const DcMotor* const motors = actuator->dc_motors();
+  if (motors == nullptr) return;
+  check_constants(s, motors, out);
+  if (s.controller.entry != nullptr) check_gain(s, motors, out);
+}
+
+void check_degrees(const Scenario& s, std::vector<Warning>& out) {
+  const auto doubt = [&](const std::string& key, const std::string& what, double value) {
+    out.push_back({place_of(s, key),
+                   fmt::format("{} is {:.4g} rad, {:.3g} turns: angles are in rad; {:.4g} degrees are {:.4g} rad", what, value,
+                               std::abs(value) / kTurn, value, value * kTurn / 360),
+                   false});
+  };
+  const auto beyond = [](double value) { return std::abs(value) > 2 * kTurn; };
+  for (const PluginSelection* plugin : {&s.cpg, &s.controller, &s.actuator}) {
+    if (plugin->entry == nullptr) continue;
+    const SettingsNumbers numbers(*plugin);
+    for (const SettingsNumbers::Found& one : numbers.all()) {
+      for (std::size_t j = 0; one.unit == "rad" && j < s.robot->joints.size(); ++j) {
+        if (!beyond(one.value[j]) || s.robot->joints[j].turns_freely()) continue;
+        const std::string key = std::string(word(plugin->entry->kind)) + "." + one.key;
+        doubt(key, key, one.value[j]);
+        break;
+      }
+    }
+  }
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    if (!beyond(s.orientation[i])) continue;
+    doubt("robot.orientation", "robot.orientation", s.orientation[i]);
+    break;
+  }
+  for (const Joint& joint : s.robot->joints) {
+    const double widest = std::max(std::abs(joint.lo), std::abs(joint.hi));
+    if (!beyond(widest) || widest > kDegrees) continue;
+    doubt("robot", "the range of hinge " + joint.name, widest);
+    break;
+  }
+}
+
+}  // namespace
+
+bool beside_field(const Ground& ground, double x, double y) {
+  if (ground.kind != Ground::Kind::heightfield) return false;
+  const Heightfield& field = ground.field;
+  const double u = (x - field.origin.x()) / field.spacing;
+  const double v = (y - field.origin.y()) / field.spacing;
+  const auto within = [](double at, std::size_t count) { return at >= 0 && at <= static_cast<double>(count - 1); };
+  return !within(u, field.columns) || !within(v, field.rows());
+}
+
+std::vector<Warning> setup_warnings(const Scenario& s) {
+  std::vector<Warning> out;
+  try {
+    check_motors(s, out);
+    check_degrees(s, out);
+  } catch (const PluginError&) {
+    out.clear();  // the run says it, at its place
+  }
+  if (beside_field(s.ground, s.position.x(), s.position.y())) {
+    out.push_back(
+        {place_of(s, "ground.heightfield"),
+         fmt::format("the robot starts at ({:.4g}, {:.4g}) m, beside the heightfield, whose edge heights go on there: put "
+                     "the field under it (ground.heightfield.origin) or the robot onto it (robot.position)",
+                     s.position.x(), s.position.y())});
+  }
+  return out;
+}
+
+namespace {
+
+void check_joints(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
+  if (s.actuator.entry == nullptr || r.joints.empty()) return;
+  const std::size_t jumps = texts::worst(r, &JointStatistics::start_jump);
+  if (const double jump = r.joints[jumps].start_jump; jump > s.limits.start_jump) {
+    const bool ramps = s.cpg.entry != nullptr && SettingsNumbers(s.cpg).find("model.ramp") != nullptr;
+    out.push_back(
+        {place_of(s, "cpg"),
+         fmt::format("the set point of joint {} is {:.3g} rad from its angle at t = 0, and its motor answers at once: "
+                     "peaks of the whole run may be of that; set initial.angles{}",
+                     s.robot->joints[jumps].name, jump, ramps ? ", or cpg.model.ramp" : "")});
+  }
+  const std::size_t beyond = texts::worst(r, &JointStatistics::range_share);
+  if (const JointStatistics& joint = r.joints[beyond]; joint.range_share > s.limits.beyond_range_share) {
+    out.push_back(
+        {place_of(s, "cpg"),
+         fmt::format("joint {} is beyond its range for {} of the time, by up to {:.3g} rad (its set point for {}): the "
+                     "motor works against the hinge stop there; take a smaller amplitude or offset",
+                     s.robot->joints[beyond].name, texts::percent(joint.range_share), joint.range_worst,
+                     texts::percent(joint.setpoint_outside))});
+  }
+}
+
+/// Set points that never change in the rows.
+void check_still(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
+  if (s.cpg.entry == nullptr || s.actuator.entry == nullptr || r.rows() < 3) return;
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    const Series setpoint = r.joint(j, "setpoint");
+    for (std::size_t k = 1; k < setpoint.size(); ++k) {
+      if (setpoint[k] != setpoint[0]) return;
+    }
+  }
+  out.push_back({place_of(s, "cpg"), fmt::format("cpg {} moves no joint: no set point changes in the whole run; are its "
+                                                 "amplitudes, frames or equations given?",
+                                                 s.cpg.entry->name)});
+}
+
+void check_way(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
+  const Series x = r.series("com.x");
+  const Series y = r.series("com.y");
+  if (x.empty() || y.empty() || beside_field(s.ground, x.front(), y.front())) return;  // a start beside it was told
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (!beside_field(s.ground, x[k], y[k])) continue;
+    out.push_back(
+        {place_of(s, "ground.heightfield"),
+         fmt::format("the robot leaves its heightfield at t = {:.2f} s, x {:.3g} m, y {:.3g} m: beyond it the heights of "
+                     "the border go on; take a larger field or spacing",
+                     std::min(static_cast<double>(k) * s.trace.period, r.simulated), x[k], y[k])});
+    return;
+  }
+}
+
+void check_bodies(const Scenario& s, const Overlaps& overlaps, std::vector<Warning>& out) {
+  if (const auto& deepest = overlaps.sunk; deepest && deepest->time > 0) {  // a start in the ground was told before the run
+    const bool all = s.contact.on == ContactSet::all;
+    out.push_back({place_of(s, "contact.on"),
+                   fmt::format("body {} goes {:.3g} mm into the ground (some body from t = {:.2f} s on), {}",
+                               s.robot->bodies[deepest->body].name, 1000 * deepest->depth, deepest->time,
+                               all ? "though contact.on is all: is contact.stiffness too small for this load?"
+                                   : fmt::format("because contact.on: {} lets other parts of the robot through; set "
+                                                 "contact.on: all",
+                                                 s.contact.on == ContactSet::feet ? "feet" : "none"))});
+  }
+  const auto& found = overlaps.collision;
+  if (!found) return;
+  const auto name = [&](std::size_t body) { return s.robot->bodies[body].name; };
+  std::string text = fmt::format("bodies {} and {} pass through one another from t = {:.2f} s on", name(found->first),
+                                 name(found->second), found->time);
+  text += found->pairs == 1 ? fmt::format(", by up to {:.3g} mm", 1000 * found->depth)
+                            : fmt::format(" ({} pairs of bodies in all, deepest {} and {}, {:.3g} mm)", found->pairs,
+                                          name(found->deepest_first), name(found->deepest_second), 1000 * found->depth);
+  out.push_back({place_of(s, "robot"),
+                 text + ": the robot cannot do that, and contact.law penalty, which knows the ground alone, does not keep "
+                        "them apart; take smaller amplitudes or offsets"});
+}
+
+}  // namespace
+
+std::vector<Warning> run_warnings(const Scenario& s, const Recording& r, const Overlaps& overlaps) {
+  std::vector<Warning> out;
+  double drawn = 0;  // as for the cost of transport
+  for (const JointStatistics& joint : r.joints) drawn += joint.electrical;
+  const bool costs = s.robot->mass * s.physics.gravity.norm() * travelled(r).distance > 0;
+  if (s.actuator.entry != nullptr && (r.ledger.electrical < -least_energy(s) || (costs && drawn < 0))) {
+    out.push_back(
+        {place_of(s, "actuator"),
+         fmt::format("the motors gave {:.3g} J back to their supply instead of drawing any, so that the cost of transport "
+                     "is negative: the robot went down, or a motor makes energy (Kt, Ks, efficiency)",
+                     std::max(-r.ledger.electrical, -drawn))});
+  }
+  check_joints(s, r, out);
+  check_still(s, r, out);
+  check_way(s, r, out);
+  check_bodies(s, overlaps, out);
+  return out;
+}
+
+}  // namespace gaitlab::report

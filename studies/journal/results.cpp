@@ -1,0 +1,161 @@
+#include "studies/journal/results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "studies/study/number.h"
+
+namespace gaitlab::studies {
+
+namespace {
+
+/// Gathers the replicates of one point after the other.
+class Gather {
+ public:
+  Gather(const JournalHead& head, Results& results) : head_(head), results_(results) {}
+
+  void take(const Brief& run) {
+    if (!runs_.empty() && run.run / head_.replicates != runs_.front().run / head_.replicates) finish();
+    runs_.push_back(run);
+  }
+
+  void finish() {
+    if (runs_.size() == head_.replicates) results_.points.push_back(point_result(head_, runs_));
+    runs_.clear();
+  }
+
+ private:
+  const JournalHead& head_;
+  Results& results_;
+  std::vector<Brief> runs_;
+};
+
+}  // namespace
+
+PointResult point_result(const JournalHead& head, std::span<const Brief> runs) {
+  PointResult point{runs.front().run / head.replicates * head.replicates, runs.size(), 0, {}};
+  std::array<std::vector<double>, kMostObjectives> bad;  // more is worse
+  std::vector<double> violation;
+  for (const Brief& run : runs) {
+    if (run.outcome != "done" || !run.score) {
+      point.lived = point.failed == 0 ? run.simulated : std::min(point.lived, run.simulated);
+      ++point.failed;
+      continue;
+    }
+    for (std::size_t k = 0; k < head.objectives.size(); ++k)
+      bad[k].push_back(head.objectives[k].maximize ? -run.score->objectives[k] : run.score->objectives[k]);
+    violation.push_back(run.score->violation);
+  }
+  if (point.failed > 0) return point;
+  point.score.violation = combined(violation, head.combine, head.quantile);
+  for (std::size_t k = 0; k < head.objectives.size(); ++k) {
+    const double worse = combined(bad[k], head.combine, head.quantile);
+    point.score.objectives[k] = head.objectives[k].maximize ? -worse : worse;
+  }
+  return point;
+}
+
+double combined(std::vector<double> values, const std::string& how, double quantile) {
+  if (std::ranges::any_of(values, [](double v) { return std::isnan(v); })) return std::nan("");
+  std::ranges::sort(values);
+  if (how == "mean") return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  if (how == "median") {
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+  }
+  if (how == "quantile") {
+    const double at = std::ceil(quantile * static_cast<double>(values.size())) - 1;
+    return values[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(values.size() - 1)))];
+  }
+  return values.back();
+}
+
+Results results(Journal& journal) {
+  Results results;
+  Gather gather(journal.head(), results);
+  journal.each_brief([&](const Brief& run) {
+    ++results.runs;
+    if (run.score && run.score->feasible()) ++results.feasible_runs;
+    if (run.outcome != "done") {
+      Failures::One& one = results.failures.by_outcome[run.outcome];
+      if (one.count++ == 0) one = {1, run.run, run.message};
+    }
+    gather.take(run);
+  });
+  gather.finish();
+  return results;
+}
+
+std::vector<BrokenLimit> broken_limits(Journal& journal) {
+  const JournalHead& head = journal.head();
+  std::vector<std::string> columns{"run"};  // one at least
+  const Names names = [&](const std::string& name, const std::string& joint) -> Naming {
+    const std::string full = joint.empty() ? name : name + "[" + joint + "]";
+    const auto at = std::ranges::find(head.figures, full, &FigureName::name);
+    if (at == head.figures.end()) return {{}, "unknown"};
+    const std::string& column = journal.columns().figures[static_cast<std::size_t>(at - head.figures.begin())];
+    const auto known = std::ranges::find(columns, column);
+    const auto place = static_cast<std::size_t>(known - columns.begin());
+    if (known == columns.end()) columns.push_back(column);
+    return {place};
+  };
+  std::vector<std::pair<Formula, bool>> formulas;  // and whether it is a guard
+  std::vector<BrokenLimit> limits;
+  for (const Limit& limit : head.limits) {
+    Problems problems;
+    Formula formula({limit.text, {}}, names, problems);
+    const bool relation = formula.compares("<=") || formula.compares(">=") || formula.compares("==");
+    if (!problems.empty() || !relation) continue;  // a stranger's
+    formulas.emplace_back(std::move(formula), limit.guard);
+    limits.push_back({limit.text});
+  }
+  if (limits.empty()) return limits;
+  journal.each_numbers(columns, [&](std::span<const double> values) {
+    for (std::size_t k = 0; k < formulas.size(); ++k) {
+      if (broken(formulas[k].first, values, formulas[k].second) > 0) ++limits[k].runs;
+    }
+  });
+  std::erase_if(limits, [](const BrokenLimit& limit) { return limit.runs == 0; });
+  std::ranges::stable_sort(limits, std::ranges::greater(), &BrokenLimit::runs);
+  return limits;
+}
+
+bool better(const PointResult& a, const PointResult& b, bool maximize) {
+  const auto rank = [](const PointResult& p) { return p.failed > 0 ? 2 : p.feasible() ? 0 : 1; };
+  if (rank(a) != rank(b)) return rank(a) < rank(b);
+  if (a.failed > 0) return a.lived != b.lived ? a.lived > b.lived : a.first_run < b.first_run;
+  const double x = a.feasible() ? (maximize ? -a.score.objective() : a.score.objective()) : a.score.violation;
+  const double y = b.feasible() ? (maximize ? -b.score.objective() : b.score.objective()) : b.score.violation;
+  return x != y ? x < y : a.first_run < b.first_run;
+}
+
+std::vector<std::size_t> front(const std::vector<PointResult>& points, const std::vector<JournalObjective>& objectives) {
+  std::vector<std::size_t> order = ranked(points, objectives.front().maximize);
+  std::erase_if(order, [&](std::size_t k) { return !points[k].feasible(); });
+  const auto at_least = [&](const PointResult& a, const PointResult& b) {
+    for (std::size_t k = 0; k < objectives.size(); ++k) {
+      const double x = a.score.objectives[k];
+      const double y = b.score.objectives[k];
+      if (objectives[k].maximize ? x < y : x > y) return false;
+    }
+    return true;
+  };
+  std::vector<std::size_t> kept;
+  for (const std::size_t k : order) {
+    const auto beats = [&](std::size_t other) { return at_least(points[other], points[k]); };
+    if (std::ranges::any_of(kept, beats)) continue;
+    std::erase_if(kept, [&](std::size_t other) { return at_least(points[k], points[other]); });
+    kept.push_back(k);
+  }
+  return kept;
+}
+
+std::vector<std::size_t> ranked(const std::vector<PointResult>& points, bool maximize) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return better(points[a], points[b], maximize); });
+  return order;
+}
+
+}  // namespace gaitlab::studies

@@ -1,0 +1,395 @@
+#include "studies/plan/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/model/pattern.h"
+#include "core/settings/value.h"
+#include "core/settings/wording.h"
+#include "studies/plan/draws.h"
+#include "studies/study/number.h"
+
+namespace gaitlab::studies {
+
+namespace {
+
+const Node* find_key(const Node& root, const std::string& key) {
+  const Node* node = &root;
+  for (std::size_t at = 0; node != nullptr && at <= key.size();) {
+    const std::size_t end = std::min(key.find('.', at), key.size());
+    node = node->kind == Node::Kind::map ? node->find(key.substr(at, end - at)) : nullptr;
+    at = end + 1;
+  }
+  return node;
+}
+
+std::string number_range(const Parameter& p) {
+  std::string text = fmt::format("{} to {}", number_text(p.low), number_text(p.high));
+  if (p.log) text += ", log";
+  if (p.count > 0) text += fmt::format(", {} values", p.count);
+  return text;
+}
+
+std::string law_text(const Variation& v) {
+  std::string text = v.times ? "times " : "";
+  if (v.law == Variation::Law::values) return text + fmt::format("one of {}", fmt::join(v.values, ", "));
+  text += fmt::format("{} {}, {}", v.law == Variation::Law::normal ? "normal" : "uniform", number_text(v.a), number_text(v.b));
+  if (v.low) text += ", low " + number_text(*v.low);
+  if (v.high) text += ", high " + number_text(*v.high);
+  return text;
+}
+
+/// All parameters at their low, or first, or at their high, or last.
+std::vector<std::string> corner(const Study& study, bool high) {
+  std::vector<std::string> values;
+  for (const Parameter& p : study.parameters)
+    values.push_back(p.values.empty() ? number_text(high ? p.high : p.low) : high ? p.values.back() : p.values.front());
+  return values;
+}
+
+/// What a search is besides its method.
+std::string search_text(const Study& study) {
+  const SearchKeys& s = study.search;
+  std::string text =
+      fmt::format("search: population {}, instances {}, restarts {}",
+                  s.population > 0 ? std::to_string(s.population) : "by the number of parameters", s.instances, s.restarts);
+  if (study.method == Method::cma || study.method == Method::xnes) text += ", sigma " + number_text(s.sigma);
+  return text + "\n";
+}
+
+/// Settings that take the engine of `verify` in place of a scenario's, with its own step; empty: it is that engine, or none.
+std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& scenario, const Catalog& catalog,
+                                         Problems& problems) {
+  const std::string& name = verify.engine;
+  if (name == "none" || name == scenario.physics.engine->name) return {};
+  const Engine* engine = catalog.engine(name);
+  if (engine == nullptr) {
+    problems.add(verify.place,
+                 "verify.engine " + in_quotes(name) + " is not known" + gaitlab::offer(name, catalog.engines(), "engines"));
+    return {};
+  }
+  const bool solver = scenario.contact.solver();
+  const double step = solver && engine->solver_step > 0 ? engine->solver_step : engine->step;
+  std::vector<std::string> sets{"physics.engine=" + name};
+  if (engine->adaptive() != nullptr) {
+    sets.push_back(fmt::format("physics.integrator={}", engine->integrators.front().name));
+    sets.emplace_back("physics.step=auto");
+  } else {
+    sets.push_back(fmt::format("physics.integrator={}", engine->fixed().name));
+    sets.push_back("physics.step=" + number_text(step));
+  }
+  return sets;
+}
+
+/// Figures of joints that a pattern of the study names are the same in every scenario.
+void check_same(const std::vector<FigureName>& first, const std::vector<FigureName>& other, const SourceLocation& place,
+                Problems& problems) {
+  const auto check = [&](const std::vector<FigureName>& have, const std::vector<FigureName>& lack, const char* text) {
+    for (const FigureName& figure : have) {
+      if (std::ranges::find(lack, figure.name, &FigureName::name) != lack.end()) continue;
+      problems.add(place, fmt::format(fmt::runtime(text), in_quotes(figure.name)));
+      return;
+    }
+  };
+  check(first, other, "there is no figure {}, which the first scenario has");
+  if (problems.empty()) check(other, first, "there is a figure {}, which the first scenario does not have");
+}
+
+/// Keeps what both have; the first time all.
+void keep_common(std::vector<Limit>& kept, const std::vector<Limit>& limits, bool first) {
+  if (first) kept = limits;
+  std::erase_if(kept, [&](const Limit& one) { return std::ranges::find(limits, one.text, &Limit::text) == limits.end(); });
+}
+
+constexpr std::array kCombines{"mean", "worst", "median", "quantile"};
+
+}  // namespace
+
+Plan::Plan(Study study, const FigureOffer& offer, Catalog& catalog)
+    : study_(std::move(study)), scenarios_(read_scenarios(study_, catalog)), points_(study_) {
+  Problems problems;
+  scenario_text_ = scenarios_text(scenarios_);
+  scenario_digest_ = digest(scenario_text_);
+  followers_ = std::make_unique<Followers>(study_.parameters, problems);
+  problems.raise();
+  std::vector<Problems> found(scenarios_.size());
+  for (std::size_t s = 0; s < scenarios_.size(); ++s) {
+    check_own_names(s, found[s]);
+    find_nominal(scenarios_[s], found[s]);
+  }
+  add_of_each(scenarios_, found, problems);
+  find_columns(offer, problems);
+  choose_shown(problems);
+  if (shown_.empty()) problems.raise();  // what orders the points is one of them
+  if (Text& first = study_.objectives.front().expression; first.text.empty()) first.text = columns_[shown_.front()].name;
+  make_judges(offer, catalog, problems);
+  problems.raise();
+  std::vector<Problems> refused(scenarios_.size());
+  for (std::size_t s = 0; s < scenarios_.size(); ++s) check_corners(s, refused[s]);
+  add_of_each(scenarios_, refused, problems);
+  problems.raise();
+}
+
+/// Those of the first scenario, which the others must have.
+void Plan::find_columns(const FigureOffer& offer, Problems& problems) {
+  columns_ = columns_of(study_, offer, scenarios_.front().joints);
+  constexpr std::size_t kMostColumns = 400;
+  if (columns_.size() > kMostColumns)
+    problems.add(study_.figures_place,
+                 fmt::format("the journal would have {} columns of figures; allowed are up to {}: name fewer joints",
+                             columns_.size(), kMostColumns));
+}
+
+/// What the study's expressions name exists in every scenario. The judges that stay are those of the first, which comes last.
+void Plan::make_judges(const FigureOffer& offer, const Catalog& catalog, Problems& problems) {
+  Study gait = study_;
+  gait.guarded = true;
+  gait.guards.clear();
+  std::vector<Problems> found(scenarios_.size());
+  std::vector<std::vector<FigureName>> columns(scenarios_.size());
+  for (std::size_t s = scenarios_.size(); s-- > 0;) {
+    StudyScenario& one = scenarios_[s];
+    columns[s] = s == 0 ? columns_ : columns_of(study_, offer, one.joints);
+    judge_ = std::make_unique<Judge>(study_, columns[s], offer, one.nominal.limits, one.joints, found[s]);
+    one.other_engine = other_engine_of(study_.verify, one.nominal, catalog, found[s]);
+    stops_ = std::make_unique<StopRules>(study_, offer, one.joints, found[s]);
+    keep_common(limits_, judge_->limits(), s + 1 == scenarios_.size());
+    Problems told;  // as of judge_
+    gait_judge_ = std::make_unique<Judge>(gait, columns[s], offer, one.nominal.limits, one.joints, told);
+  }
+  if (std::ranges::all_of(found, &Problems::empty)) {
+    for (std::size_t s = 1; s < scenarios_.size(); ++s) check_same(columns_, columns[s], study_.figures_place, found[s]);
+  }
+  const std::string& engine = study_.verify.engine;
+  for (std::size_t s = 0; s < scenarios_.size(); ++s) {
+    if (scenarios_[s].nominal.physics.engine->name == engine)
+      found[s].add(study_.verify.place,
+                   fmt::format("verify.engine {} is the engine of the study itself; expected another, or none: known are {}",
+                               engine, fmt::join(catalog.engines(), ", ")));
+  }
+  add_of_each(scenarios_, found, problems);
+}
+
+double Plan::longest() const {
+  double longest = 0;
+  for (const StudyScenario& one : scenarios_) longest = std::max(longest, one.nominal.duration);
+  return longest;
+}
+
+bool Plan::has_other_engine() const {
+  return std::ranges::any_of(scenarios_, [](const StudyScenario& one) { return !one.other_engine.empty(); });
+}
+
+/// A number of one's own that is called like a key of the scenario would be taken for it.
+void Plan::check_own_names(std::size_t scenario, Problems& problems) const {
+  for (const Parameter& p : study_.parameters) {
+    if (p.sets.empty()) continue;
+    const std::string unknown = "unknown key " + in_quotes(p.key);
+    bool is_key = true;
+    try {
+      (void)with({p.key + "=0"}, scenario);
+    } catch (const InputError& error) {
+      is_key = std::ranges::none_of(error.problems(), [&](const Problem& one) { return one.text.starts_with(unknown); });
+    }
+    if (is_key)
+      problems.add(
+          p.place,
+          fmt::format("{} is a key of the scenario, and has keys that follow it (sets); expected another name", p.key));
+  }
+}
+
+void Plan::find_nominal(StudyScenario& scenario, Problems& problems) const {
+  std::optional<Node> tree;
+  for (const Variation& v : study_.replicates.vary) {
+    const auto same = [&](const Parameter& p) {
+      return p.key == v.key || std::ranges::find(p.sets, v.key, &Follower::key) != p.sets.end();
+    };
+    if (!v.times || std::ranges::any_of(study_.parameters, same)) continue;
+    if (!tree) tree = parse_yaml(scenario.resolved, scenario.nominal.file);
+    const Node* node = find_key(*tree, v.key);
+    const Reading<double> value = node == nullptr ? Reading<double>{0, "is not a key of the scenario"} : read_number(*node, "");
+    if (!value.ok()) problems.add(v.place, v.key + " " + value.wrong + ", which a factor needs");
+    scenario.nominal_values[v.key] = value.value;
+  }
+}
+
+void Plan::choose_shown(Problems& problems) {
+  const std::vector<std::string> patterns = study_.figures.empty() ? std::vector<std::string>{"speed"} : study_.figures;
+  for (const std::string& pattern : patterns) {
+    bool any = false;
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      if (!glob(pattern, columns_[k].name)) continue;
+      any = true;
+      if (std::ranges::find(shown_, k) == shown_.end()) shown_.push_back(k);
+    }
+    if (any) continue;
+    std::vector<std::string> known;
+    for (const FigureName& column : columns_) known.push_back(column.name);
+    problems.add(study_.figures_place, "no figure is named " + in_quotes(pattern) + gaitlab::offer(pattern, known, "figures"));
+  }
+}
+
+/// The first and the last run are tried: what both refuse no run can have, a misspelt key above all.
+void Plan::check_corners(std::size_t scenario, Problems& problems) const {
+  const std::uint64_t first_run = scenario * points_.replicates();
+  const std::uint64_t last_run = points_.runs() - 1 - (scenarios_.size() - 1 - scenario) * points_.replicates();
+  std::optional<InputError> first;
+  for (const bool last : {false, true}) {
+    try {
+      (void)with(is_search(study_.method) ? sets(corner(study_, last), first_run) : sets(last ? last_run : first_run),
+                 scenario);
+      return;
+    } catch (const InputError& error) {
+      if (!first) first = error;
+    }
+  }
+  add_as_written(*first, study_, problems);
+}
+
+std::vector<Problem> Plan::refused_ends() const {
+  std::vector<Problem> notes;
+  for (const Parameter& p : study_.parameters) {
+    if (!p.values.empty() || !p.sets.empty()) continue;
+    for (const bool high : {false, true}) {
+      const std::string value = number_text(high ? p.high : p.low);
+      for (std::size_t s = 0; s < scenarios_.size(); ++s) {
+        try {
+          (void)with({p.key + "=" + value}, s);
+        } catch (const InputError& error) {
+          const std::string in = scenarios_[s].name.empty() ? "" : " in scenario " + scenarios_[s].name;
+          notes.push_back({p.place, fmt::format("{} is refused{} at its {} of {}, with the other keys as in the file: {}",
+                                                p.key, in, high ? "high" : "low", value, error.problems().front().text)});
+        }
+      }
+    }
+  }
+  return notes;
+}
+
+std::map<std::string, double> Plan::nominal(const std::vector<std::string>& values, std::size_t scenario) const {
+  std::map<std::string, double> nominal = scenarios_[scenario].nominal_values;
+  for (const auto& [key, value] : followers_->settings(values)) nominal[key] = number_of(value);
+  return nominal;
+}
+
+std::vector<std::string> Plan::sets(std::uint64_t run) const { return sets(points_.values(points_.point(run)), run); }
+
+/// Of a run, were its point one with these values.
+std::vector<std::string> Plan::sets(const std::vector<std::string>& values, std::uint64_t run) const {
+  std::vector<std::string> sets;
+  for (const auto& [key, value] : followers_->settings(values)) sets.push_back(key + "=" + value);
+  if (study_.replicates.count == 0) return sets;
+  const std::uint64_t replicate = points_.replicate(run);
+  const std::vector<std::string> drawn = points_.drawn(replicate, nominal(values, points_.scenario(run)));
+  for (std::size_t k = 0; k < drawn.size(); ++k) sets.push_back(study_.replicates.vary[k].key + "=" + drawn[k]);
+  sets.push_back(fmt::format("seed={}", points_.seed(replicate)));
+  return sets;
+}
+
+bool Plan::raise_budget(std::uint64_t runs) {
+  if (study_.runs == 0) return false;
+  const std::uint64_t each = points_.runs_of_point();
+  study_.runs = std::max(study_.runs, static_cast<std::int64_t>((runs + each - 1) / each * each));
+  return true;
+}
+
+std::string Plan::point_name(const std::vector<std::string>& values) const {
+  std::string name = scenario_digest_;
+  for (std::size_t k = 0; k < values.size(); ++k) name += study_.parameters[k].key + "=" + values[k] + "\n";
+  const auto own = [](const Parameter& p) { return !p.sets.empty(); };
+  if (std::ranges::any_of(study_.parameters, own)) {  // what follows it may be others in another study
+    for (const auto& [key, value] : followers_->settings(values)) name += key + "=" + value + "\n";
+  }
+  return digest(name);
+}
+
+Row Plan::row(std::uint64_t run) const {
+  Row row;
+  row.run = run;
+  row.values = points_.values(points_.point(run));
+  row.point = point_name(row.values);
+  const std::size_t scenario = points_.scenario(run);
+  row.scenario = scenarios_[scenario].name;
+  row.replicate = points_.replicate(run);
+  if (study_.replicates.count > 0) {
+    const std::vector<std::string> drawn = points_.drawn(row.replicate, nominal(row.values, scenario));
+    row.values.insert(row.values.end(), drawn.begin(), drawn.end());
+  }
+  row.seed = study_.replicates.count == 0 ? scenarios_[scenario].nominal.seed : points_.seed(row.replicate);
+  return row;
+}
+
+void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording, const Measure& measure) const {
+  row.simulated = recording.simulated;
+  if (recording.outcome != "done") {
+    // As SimulationError says it: of numbers that were left, or of a plugin that threw; or by a rule of the study.
+    row.outcome = recording.outcome.starts_with("diverged") ? "diverged"
+                  : StopRules::ended(recording.outcome)     ? "stopped"
+                                                            : "plugin";
+    row.message = recording.outcome;
+    row.verdict = "failed";
+    return;
+  }
+  Judged judged = measure(scenario, recording);
+  row.outcome = "done";
+  row.figures = std::move(judged.figures);
+  row.verdict = std::move(judged.verdict);
+  row.score = judge_->score(scenario, row.figures);
+}
+
+std::string Plan::definition() const {
+  std::string text = fmt::format("seed: {}\nmethod: {}\n", study_.seed,
+                                 study_.asked ? "asked" : kMethods[static_cast<std::size_t>(study_.method)]);
+  if (!study_.asked && is_search(study_.method)) text += search_text(study_);
+  for (const Parameter& p : study_.parameters) {
+    text += fmt::format("parameter {}: {}\n", p.key,
+                        p.values.empty() ? number_range(p) : fmt::format("{}", fmt::join(p.values, ", ")));
+    text += followers_text(p);
+  }
+  if (study_.replicates.count > 0) {
+    text += fmt::format("replicates: {}, {}", study_.replicates.count,
+                        kCombines[static_cast<std::size_t>(study_.replicates.combine)]);
+    if (study_.replicates.combine == Combine::quantile) text += " " + number_text(study_.replicates.quantile);
+    text += "\n";
+  }
+  for (const Variation& v : study_.replicates.vary) text += fmt::format("vary {}: {}\n", v.key, law_text(v));
+  for (std::size_t k = 0; k < study_.objectives.size(); ++k)
+    text += fmt::format("{}: {}\n", study_.objectives[k].maximize ? "maximize" : "minimize", judge_->objectives()[k]);
+  for (const Limit& limit : judge_->limits()) text += fmt::format("{}: {}\n", limit.guard ? "guard" : "constraint", limit.text);
+  for (const std::string& stop : stops_->texts()) text += "stop: " + stop + "\n";
+  std::string columns;
+  for (const FigureName& column : columns_) columns += column.name + "\n";
+  for (const FigureName& column : columns_) {
+    if (column.name.ends_with("]")) text += "figure: " + column.name + "\n";
+  }
+  return text + "figures: " + digest(columns) + "\n";
+}
+
+JournalHead Plan::head() const {
+  JournalHead head;
+  head.name = study_.name;
+  head.definition = definition();
+  head.scenario = scenario_text_;
+  for (const StudyScenario& one : scenarios_) {
+    if (!one.name.empty()) head.scenarios.push_back(one.name);
+  }
+  for (std::size_t k = 0; k < study_.objectives.size(); ++k)
+    head.objectives.push_back({judge_->objectives()[k], study_.objectives[k].maximize});
+  head.combine = kCombines[static_cast<std::size_t>(study_.replicates.combine)];
+  head.quantile = study_.replicates.quantile;
+  head.runs = most_runs();
+  head.replicates = points_.runs_of_point();
+  head.seed = study_.seed;
+  for (const Parameter& p : study_.parameters)
+    head.parameters.push_back({p.key, p.words, false, p.low, p.high, p.log, p.values});
+  for (const Variation& v : study_.replicates.vary) head.parameters.push_back({v.key, v.words, true, 0, 0, false, v.values});
+  head.figures = columns_;
+  for (const std::size_t column : shown_) head.shown.push_back(columns_[column].name);
+  head.limits = limits_;
+  head.guarded = study_.guarded;
+  return head;
+}
+
+}  // namespace gaitlab::studies

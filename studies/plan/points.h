@@ -1,0 +1,46 @@
+// The points of a study, by number: the same whatever ran before.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "studies/study/study.h"
+
+namespace gaitlab::studies {
+
+/// Runs are numbered from 0: those of a point follow one another, its replicates in the first scenario, then in the next.
+class Points {
+ public:
+  explicit Points(const Study& study) : study_(study) {}
+
+  [[nodiscard]] std::uint64_t points() const;
+  [[nodiscard]] std::uint64_t replicates() const { return study_.replicates.number(); }
+  [[nodiscard]] std::uint64_t runs_of_point() const { return study_.runs_of_point(); }
+  [[nodiscard]] std::uint64_t runs() const { return points() * runs_of_point(); }
+  [[nodiscard]] std::uint64_t point(std::uint64_t run) const { return run / runs_of_point(); }
+  [[nodiscard]] std::size_t scenario(std::uint64_t run) const { return run % runs_of_point() / replicates(); }
+  [[nodiscard]] std::uint64_t replicate(std::uint64_t run) const { return run % replicates(); }
+
+  /// The next point of a method that chooses points by what came out.
+  void add(std::vector<std::string> values) { chosen_.push_back(std::move(values)); }
+
+  /// Of each parameter, as for --set. A grid changes the last parameter fastest.
+  [[nodiscard]] std::vector<std::string> values(std::uint64_t point) const;
+  /// Of each variation, as for --set. nominal: of the point, by key.
+  [[nodiscard]] std::vector<std::string> drawn(std::uint64_t replicate, const std::map<std::string, double>& nominal) const;
+  /// Of the scenario's random numbers, 53 bits.
+  [[nodiscard]] std::int64_t seed(std::uint64_t replicate) const;
+
+ private:
+  const Study& study_;
+  std::vector<std::vector<std::string>> chosen_;
+};
+
+/// A point of a Sobol sequence in the unit cube.
+std::vector<double> sobol_point(std::size_t dimensions, std::uint64_t number);
+
+/// A value of a parameter between its ends: share 0 is low, 1 is high. 12 digits, so that a grid of tenths is one.
+double between(const Parameter& parameter, double share);
+
+}  // namespace gaitlab::studies

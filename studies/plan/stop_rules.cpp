@@ -1,0 +1,66 @@
+#include "studies/plan/stop_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/settings/wording.h"
+
+namespace gaitlab::studies {
+
+namespace {
+
+constexpr std::string_view kStoppedBy = "stopped by ";
+
+}  // namespace
+
+StopRules::StopRules(const Study& study, const FigureOffer& offer, const std::vector<std::string>& joints, Problems& problems)
+    : offer_(offer) {
+  const auto is_of = [](const std::vector<FigureName>& figures, const std::string& name) {
+    return std::ranges::find(figures, name, &FigureName::name) != figures.end();
+  };
+  const Names names = [&](const std::string& name, const std::string& joint) -> Naming {
+    const bool of_joint = !joint.empty();
+    if (!is_of(of_joint ? offer.of_joints : offer.common, name))
+      return {{}, "unknown figure " + in_quotes(name) + gaitlab::offer(name, offer.so_far, "figures")};
+    if (of_joint && std::ranges::find(joints, joint) == joints.end())
+      return {{}, "no joint is called " + in_quotes(joint) + gaitlab::offer(joint, joints, "joints")};
+    if (std::ranges::find(offer.so_far, name) == offer.so_far.end())
+      return {{},
+              fmt::format("{} is known when a run has ended; while it runs there are {}", name, fmt::join(offer.so_far, ", "))};
+    const std::pair figure{name, joint};
+    const auto at = std::ranges::find(figures_, figure);
+    const auto number = static_cast<std::size_t>(at - figures_.begin());
+    if (at == figures_.end()) figures_.push_back(figure);
+    return {number};
+  };
+  for (const StopText& stop : study.stops) {
+    Formula when(stop.when, names, problems);
+    rules_.push_back({stop.when.text + (stop.after > 0 ? fmt::format(" after {}", number_text(stop.after)) : ""), stop.after,
+                      std::move(when)});
+  }
+}
+
+std::string StopRules::reason(const Scenario& scenario, const Recording& so_far) const {
+  std::vector<double> values;
+  for (const Rule& rule : rules_) {
+    if (so_far.simulated < rule.after) continue;
+    if (values.empty()) {
+      for (const auto& [name, joint] : figures_) values.push_back(offer_.value_so_far(name, joint, scenario, so_far));
+    }
+    const double holds = rule.when.value(values);
+    if (std::isfinite(holds) && holds != 0) return fmt::format("{}{} at t = {:.6g} s", kStoppedBy, rule.text, so_far.simulated);
+  }
+  return "";
+}
+
+bool StopRules::ended(const std::string& outcome) { return outcome.starts_with(kStoppedBy); }
+
+std::vector<std::string> StopRules::texts() const {
+  std::vector<std::string> all;
+  for (const Rule& rule : rules_) all.push_back(rule.text);
+  return all;
+}
+
+}  // namespace gaitlab::studies

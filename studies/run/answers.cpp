@@ -1,0 +1,214 @@
+#include "studies/run/answers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include "core/settings/wording.h"
+#include "studies/study/number.h"
+
+namespace gaitlab::studies {
+
+namespace {
+
+std::string key_of(const std::string& point, const std::string& replicate, const std::string& seed,
+                   const std::string& scenario) {
+  return point + " " + replicate + " " + seed + " " + scenario;
+}
+
+std::string key_of(const Row& row) {
+  return key_of(row.point, std::to_string(row.replicate), std::to_string(row.seed), row.scenario);
+}
+
+/// The lines of a definition that say which rules stop runs.
+std::string stop_lines(const std::string& definition) {
+  std::string lines;
+  for (std::size_t at = 0; at < definition.size();) {
+    const std::size_t end = std::min(definition.find('\n', at), definition.size());
+    const std::string line = definition.substr(at, end - at);
+    if (line.starts_with("stop: ")) lines += line + "\n";
+    at = end + 1;
+  }
+  return lines;
+}
+
+std::size_t column(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+}
+
+/// Jobs on their way through an executor that remembers.
+class Remembering {
+ public:
+  Remembering(const Work& work, std::vector<Answers>& answers, std::uint64_t* taken)
+      : work_(work), answers_(answers), taken_(taken) {}
+
+  std::optional<Job> next() {
+    while (std::optional<Job> job = work_.next()) {
+      if (std::optional<Row> row = answered(job->row)) {
+        if (taken_ != nullptr) ++*taken_;
+        give(std::move(*row));
+      } else if (!held(*job)) {
+        give_all();
+        return job;
+      }
+    }
+    give_all();
+    return {};
+  }
+
+  void end(std::vector<Row>&& rows) {
+    std::vector<Row> copies;
+    {
+      const std::lock_guard lock(mutex_);
+      for (const Row& row : rows) {
+        const auto at = known_.find(key_of(row));
+        if (at == known_.end()) continue;
+        at->second.row = row;
+        for (Row& waiting : at->second.waiting) copies.push_back(as(waiting, row));
+        at->second.waiting.clear();
+      }
+    }
+    work_.end(std::move(rows));
+    if (!copies.empty()) work_.end(std::move(copies));
+  }
+
+ private:
+  struct Known {
+    std::optional<Row> row;    ///< nothing: it runs
+    std::vector<Row> waiting;  ///< of the same values
+  };
+
+  /// What another run of the same values gave, under this one's number.
+  static Row as(Row wanted, const Row& known) {
+    Row row = known;
+    row.run = wanted.run;
+    return row;
+  }
+
+  std::optional<Row> answered(const Row& wanted) {
+    for (Answers& one : answers_) {
+      if (std::optional<Row> row = one.find(wanted)) return row;
+    }
+    return {};
+  }
+
+  /// Whether a run of the same values gives its row, now or when it has ended.
+  bool held(const Job& job) {
+    constexpr std::size_t kMost = 20000;  // rows in memory; later ones are run again
+    std::optional<Row> row;
+    {
+      const std::lock_guard lock(mutex_);
+      const auto at = known_.find(key_of(job.row));
+      if (at == known_.end()) {
+        if (known_.size() < kMost) known_[key_of(job.row)] = {};
+        return false;
+      }
+      if (!at->second.row) {
+        at->second.waiting.push_back(job.row);
+        return true;
+      }
+      row = as(job.row, *at->second.row);
+    }
+    give(std::move(*row));
+    return true;
+  }
+
+  void give(Row&& row) {
+    given_.push_back(std::move(row));
+    constexpr std::size_t kMany = 64;
+    if (given_.size() >= kMany) give_all();
+  }
+
+  void give_all() {
+    if (!given_.empty()) work_.end(std::exchange(given_, {}));
+  }
+
+  const Work& work_;
+  std::vector<Answers>& answers_;
+  std::uint64_t* taken_;
+  std::vector<Row> given_;  ///< of next(), which one thread at a time calls
+  std::mutex mutex_;        ///< of what follows
+  std::map<std::string, Known> known_;
+};
+
+}  // namespace
+
+Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string& build, Journal::Build taken) : plan_(plan) {
+  std::error_code none;
+  if (std::filesystem::is_directory(file, none)) file /= kJournalFile;
+  if (!std::filesystem::exists(file, none))
+    throw InputError(SourceLocation{file.string()}, "does not exist; expected the study.db of a study");
+  journal_ = std::make_unique<Journal>(file);
+  const JournalHead& head = journal_->head();
+  const auto refuse = [&](const std::string& what) { throw InputError(SourceLocation{file.string()}, what); };
+  if (head.build != build && taken == Journal::Build::same)
+    refuse("was written by another build, which may give other numbers: " + head.build + ", and this is " + build +
+           "; take its answers all the same with --accept-build");
+  if (stop_lines(head.definition) != stop_lines(plan.definition()))
+    refuse("is of a study with other rules for stopping runs; its runs may have ended at other times");
+  const std::vector<std::string> names = journal_->columns().all();
+  for (const FigureName& figure : plan.columns()) {
+    const auto at = std::ranges::find(head.figures, figure.name, &FigureName::name);
+    if (at == head.figures.end()) refuse("lacks the figure " + in_quotes(figure.name) + ", which this study needs");
+    figures_.push_back(column(names, journal_->columns().figures[static_cast<std::size_t>(at - head.figures.begin())]));
+  }
+  // By key; where the other study has other keys, its points have other names and none is found.
+  std::vector<std::string> keys;
+  for (const Parameter& p : plan.study().parameters) keys.push_back(p.key);
+  for (const Variation& v : plan.study().replicates.vary) keys.push_back(v.key);
+  if (keys.size() != head.parameters.size()) return;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    if (head.parameters[k].key != keys[k]) return;
+    values_.push_back(column(names, journal_->columns().parameters[k]));
+  }
+  outcome_ = column(names, "outcome");
+  message_ = column(names, "message");
+  simulated_ = column(names, "simulated");
+  verdict_ = column(names, "verdict");
+  std::vector<std::string> columns{"run", "point", "replicate", "seed"};
+  if (journal_->columns().scenario) columns.emplace_back("scenario");
+  journal_->each_row(columns, [&](const std::vector<std::string>& row) {
+    runs_.emplace(key_of(row[1], row[2], row[3], row.size() > 4 ? row[4] : ""), run_number_of(row[0]));
+  });
+}
+
+bool Answers::same_values(const Row& wanted, const std::vector<std::string>& there) const {
+  if (wanted.values.size() != values_.size()) return false;
+  for (std::size_t k = 0; k < values_.size(); ++k) {
+    const bool words = journal_->head().parameters[k].words;
+    const std::string& value = there[values_[k]];
+    if (words ? wanted.values[k] != value : number_of(wanted.values[k]) != number_of(value)) return false;
+  }
+  return true;
+}
+
+std::optional<Row> Answers::find(const Row& wanted) {
+  const auto at = runs_.find(key_of(wanted));
+  if (at == runs_.end()) return {};
+  const std::vector<std::string> there = journal_->row(at->second);
+  if (there.size() <= verdict_ || !same_values(wanted, there)) return {};
+  Row row = wanted;
+  row.outcome = there[outcome_];
+  row.message = there[message_];
+  row.simulated = number_of(there[simulated_]);
+  row.verdict = there[verdict_];
+  if (row.outcome != "done") return row;
+  for (const std::size_t k : figures_) row.figures.push_back(there[k].empty() ? std::nan("") : number_of(there[k]));
+  row.score = plan_.judge().score(plan_.scenario(wanted.run), row.figures);
+  return row;
+}
+
+Executor remembering(Executor executor, std::vector<Answers>& answers, std::uint64_t* taken) {
+  return [executor = std::move(executor), &answers, taken](const Work& work, std::atomic<bool>& stop) {
+    Remembering jobs(work, answers, taken);
+    const Work between{.next = [&] { return jobs.next(); },
+                       .begin = work.begin,
+                       .end = [&](std::vector<Row>&& rows) { jobs.end(std::move(rows)); }};
+    return executor(between, stop);
+  };
+}
+
+}  // namespace gaitlab::studies

@@ -1,0 +1,126 @@
+#include "studies/run/question.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/settings/wording.h"
+#include "studies/study/number.h"
+
+namespace gaitlab::studies {
+
+namespace {
+
+using Json = nlohmann::json;
+constexpr const char* kExpected = R"(; expected {"id": 7, "parameters": {"KEY": VALUE}})";
+
+Json parsed(const std::string& line, const SourceLocation& place) {
+  constexpr int kDeep = 2;  // objects in one another
+  const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
+    if (depth > kDeep) throw InputError(place, "holds values within values" + std::string(kExpected));
+    return true;
+  };
+  try {
+    return Json::parse(line, shallow);
+  } catch (const Json::parse_error& error) {
+    SourceLocation at = place;
+    at.column = static_cast<int>(error.byte);
+    throw InputError(at, "is not JSON" + std::string(kExpected));
+  } catch (const Json::exception&) {  // a number beyond what a double holds
+    throw InputError(place, "holds a number that is too large" + std::string(kExpected));
+  }
+}
+
+/// The value of a parameter as for --set; a problem where it is of another kind; where it is not allowed, the question is
+/// refused.
+std::string value_of(const Json& value, const Parameter& p, Question& question, const SourceLocation& place,
+                     Problems& problems) {
+  if (p.words ? !value.is_string() : !value.is_number()) {
+    problems.add(place, fmt::format("{} is {}; expected {}", clipped(p.key), clipped(value.dump(-1, ' ', true)),
+                                    p.words ? "a word, in double quotes" : "a number"));
+    return {};
+  }
+  const std::string text = p.words ? value.get<std::string>() : number_text(value.get<double>() + 0.0);  // -0 is 0
+  const double number = p.words ? 0 : value.get<double>();
+  const bool listed = std::ranges::find(p.values, text) != p.values.end();
+  if (p.values.empty() ? number >= p.low && number <= p.high : listed) return text;
+  const std::string allowed =
+      p.values.empty() ? fmt::format("{} to {}", number_text(p.low), number_text(p.high)) : joined(p.values);
+  if (question.refused.empty()) question.refused = fmt::format("{} is {}; allowed are {}", p.key, clipped(text), allowed);
+  return text;
+}
+
+std::string json_text(const std::string& text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string json_number(double value) { return std::isfinite(value) ? number_text(value) : "null"; }
+
+}  // namespace
+
+Question read_question(const std::string& line, const SourceLocation& place, const std::vector<Parameter>& parameters) {
+  const Json root = parsed(line, place);
+  Problems problems;
+  Question question;
+  if (!root.is_object()) throw InputError(place, "is not a JSON object" + std::string(kExpected));
+  for (const auto& [key, value] : root.items()) {
+    if (key != "id" && key != "parameters") problems.add(place, "unknown key " + in_quotes(key) + kExpected);
+  }
+  const auto id = root.find("id");
+  if (id == root.end() || !(id->is_number_integer() || id->is_string())) {
+    problems.add(place, std::string(id == root.end() ? "has no id" : "its id is not a whole number or a text") + kExpected);
+  } else {
+    question.id = id->dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  const auto given = root.find("parameters");
+  if (given == root.end() || !given->is_object()) {
+    problems.add(place,
+                 std::string(given == root.end() ? "has no parameters" : "its parameters are not an object") + kExpected);
+    problems.raise();
+  }
+  std::vector<std::string> known;
+  for (const Parameter& p : parameters) {
+    known.push_back(p.key);
+    if (const auto value = given->find(p.key); value != given->end()) {
+      question.values.push_back(value_of(*value, p, question, place, problems));
+    } else {
+      problems.add(place, "has no value for the parameter " + in_quotes(p.key));
+    }
+  }
+  for (const auto& [key, value] : given->items()) {
+    if (std::ranges::find(known, key) == known.end())
+      problems.add(place, "unknown parameter " + in_quotes(key) + offer(key, known, "parameters"));
+  }
+  problems.raise();
+  return question;
+}
+
+std::string answer(const Question& question, const JournalHead& head, std::span<const Brief> runs,
+                   std::span<const std::vector<std::string>> figures) {
+  std::string text = fmt::format(R"({{"id":{})", question.id);
+  const auto failed = std::ranges::find_if(runs, [](const Brief& run) { return run.outcome != "done"; });
+  const bool done = !runs.empty() && failed == runs.end();
+  if (runs.empty()) {
+    text += R"(,"run":null,"outcome":"refused","message":)" + json_text(question.refused);
+  } else {
+    text += fmt::format(R"(,"run":{},"outcome":{})", runs.front().run, json_text(done ? "done" : failed->outcome));
+    if (!done) text += R"(,"message":)" + json_text(failed->message);
+  }
+  text += R"(,"figures":{)";
+  for (std::size_t k = 0; done && k < head.figures.size(); ++k) {
+    std::string values;
+    for (const std::vector<std::string>& row : figures)
+      values += (values.empty() ? "" : ",") + (row[k].empty() ? "null" : json_number(number_of(row[k])));
+    if (head.replicates > 1) values = "[" + values + "]";
+    text += (k == 0 ? "" : ",") + json_text(head.figures[k].name) + ":" + values;
+  }
+  const PointResult point = done ? point_result(head, runs) : PointResult{};
+  text += R"(},"objective":[)";
+  for (std::size_t k = 0; k < head.objectives.size(); ++k)
+    text += (k == 0 ? "" : ",") + (done ? json_number(point.score.objectives[k]) : "null");
+  text += fmt::format(R"(],"violation":{},"feasible":{}}})", done ? json_number(point.score.violation) : "null",
+                      done && point.feasible());
+  return text;
+}
+
+}  // namespace gaitlab::studies

@@ -1,0 +1,44 @@
+#include "studies/search/fitness.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gaitlab::studies {
+
+namespace {
+
+constexpr double kInfeasible = 1e6, kFailed = 2e6;
+constexpr double kMost = 1e5;  // of an objective as it is, and of a violation
+
+double pressed(double value) {
+  const double size = std::abs(value);
+  return size <= kMost ? value : std::copysign(kMost * (9 - 8 * (kMost / size)), value);
+}
+
+double kind(double fitness) { return fitness >= kFailed ? kFailed : fitness >= kInfeasible ? kInfeasible : 0; }
+
+}  // namespace
+
+std::vector<double> fitness(const PointResult& point, const std::vector<JournalObjective>& objectives, double duration) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < objectives.size(); ++k) {
+    const double value = point.score.objectives[k];
+    if (point.failed > 0) {
+      values.push_back(kFailed + 1 - std::clamp(point.lived / duration, 0.0, 1.0));
+    } else if (!point.feasible() || std::isnan(value)) {
+      values.push_back(kInfeasible + std::min(std::isnan(point.score.violation) ? kMost : point.score.violation, kMost));
+    } else {
+      values.push_back(pressed(objectives[k].maximize ? -value : value));
+    }
+  }
+  return values;
+}
+
+double fitness_gain(double former, double value) {
+  if (!(value < former)) return 0;
+  if (kind(former) != kind(value)) return 1;
+  const double within = former - kind(former);
+  return within == 0 ? 1 : (former - value) / std::abs(within);
+}
+
+}  // namespace gaitlab::studies

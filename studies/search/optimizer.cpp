@@ -1,0 +1,183 @@
+#include "studies/search/optimizer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/settings/wording.h"
+#include "studies/search/fitness.h"
+#include "studies/search/search.h"
+#include "studies/study/population.h"
+
+namespace gaitlab::studies {
+
+namespace {
+
+SearchSettings search_settings(const Study& study, std::uint64_t number) {
+  return {.algorithm = study.method,
+          .dimensions = dimensions(study),
+          .objectives = study.objectives.size(),
+          .population = static_cast<std::size_t>(study.search.population),
+          .restarts = static_cast<std::size_t>(study.search.restarts),
+          .sigma = study.search.sigma,
+          .seed = static_cast<std::uint64_t>(study.seed),
+          .number = number};
+}
+
+/// Values of all parameters, as for --set: of a combination of those that are listed, and a point of the others' box.
+std::vector<std::string> values_at(const Study& study, std::size_t combination, const Vector& point) {
+  std::vector<std::string> values(study.parameters.size());
+  std::size_t coordinate = point.size();
+  for (std::size_t k = values.size(); k-- > 0;) {
+    const Parameter& p = study.parameters[k];
+    if (p.values.empty()) {
+      values[k] = number_text(between(p, point[--coordinate]));
+    } else {
+      values[k] = p.values[combination % p.values.size()];
+      combination /= p.values.size();
+    }
+  }
+  return values;
+}
+
+/// One search, and the points that its present generation asks for.
+struct Course {
+  Search search;
+  std::size_t combination;
+  std::vector<std::uint64_t> points = {};
+  std::uint64_t first = 0, added = 0;  ///< points that nobody had asked for
+};
+
+class Optimizer {
+ public:
+  Optimizer(Plan& plan, Journal& journal, RunnerSettings settings)
+      : plan_(plan), journal_(journal), runner_(plan, journal, keeping(std::move(settings))), before_(present()) {
+    const auto instances = static_cast<std::size_t>(plan.study().search.instances);
+    for (std::size_t s = 0; s < instances * combinations(plan.study()); ++s)
+      courses_.push_back({Search(search_settings(plan.study(), s)), s / instances});
+  }
+
+  SearchEnd run(const std::function<void(const SearchPlace&)>& told, std::atomic<bool>& stop) {
+    const std::uint64_t runs = plan_.points().runs_of_point();
+    for (bool whole = true; whole;) {
+      const std::uint64_t first = added_;
+      whole = ask();
+      if (added_ == first && whole && std::ranges::all_of(courses_, [](const Course& c) { return c.points.empty(); }))
+        return SearchEnd::converged;
+      check(first);
+      told(place(added_ - first));
+      if (!runner_.run(added_ * runs, stop)) return SearchEnd::stopped;
+      if (whole) tell();
+    }
+    return SearchEnd::budget;
+  }
+
+ private:
+  RunnerSettings keeping(RunnerSettings settings) {
+    answers_.resize(plan_.most_runs());
+    settings.ended = [this, also = std::move(settings.ended)](const Brief& run) {
+      answers_[run.run] = run;
+      also(run);
+    };
+    return settings;
+  }
+
+  std::vector<bool> present() { return journal_.present(plan_.most_runs()); }
+
+  /// Adds what the searches ask for. False: the budget ends within this generation.
+  bool ask() {
+    for (std::size_t s = 0; s < courses_.size(); ++s) {
+      Course& course = courses_[s];
+      course.points.clear();
+      course.first = added_;
+      course.added = 0;
+      for (const Vector& point : course.search.ask()) {
+        std::vector<std::string> values = values_at(plan_.study(), course.combination, point);
+        const auto [at, is_new] = memo_.try_emplace(std::move(values), added_);
+        if (is_new && added_ == plan_.points().points()) return false;
+        course.points.push_back(at->second);
+        if (!is_new) continue;
+        plan_.add(at->first);
+        ++added_;
+        ++course.added;
+      }
+    }
+    return true;
+  }
+
+  /// Where the journal has the first new run, its point is the one that is asked for.
+  void check(std::uint64_t first) {
+    const std::uint64_t run = first * plan_.points().runs_of_point();
+    if (run >= added_ * plan_.points().runs_of_point() || !before_[run]) return;
+    if (journal_.row(run)[1] != plan_.row(run).point)
+      throw InputError(
+          SourceLocation{"study.db"},
+          fmt::format("run {} is at another point than this program asks for, with {}; take another folder (--out)", run,
+                      evolution_library()));
+  }
+
+  [[nodiscard]] SearchPlace place(std::uint64_t points) const {
+    SearchPlace place{courses_.size(), 0, 0, points * plan_.points().runs_of_point()};
+    for (const Course& course : courses_) {
+      place.generation = std::max(place.generation, course.search.generation() + 1);
+      place.restart = std::max(place.restart, course.search.restart());
+    }
+    return place;
+  }
+
+  [[nodiscard]] PointResult result(std::uint64_t point) const {
+    const std::uint64_t runs = plan_.points().runs_of_point();
+    return point_result(journal_.head(), std::span(answers_).subspan(point * runs, runs));
+  }
+
+  void tell() {
+    std::vector<Generation> generations;
+    for (std::size_t s = 0; s < courses_.size(); ++s) {
+      Course& course = courses_[s];
+      if (course.points.empty()) continue;
+      std::vector<Vector> values;
+      Generation g{.search = s,
+                   .generation = course.search.generation(),
+                   .restart = course.search.restart(),
+                   .first_run = course.first * plan_.points().runs_of_point(),
+                   .runs = course.added * plan_.points().runs_of_point(),
+                   .points = course.points.size(),
+                   .spread = course.search.spread()};
+      std::vector<double> feasible;
+      for (const std::uint64_t point : course.points) {
+        const PointResult one = result(point);
+        values.push_back(fitness(one, journal_.head().objectives, plan_.longest()));
+        if (one.feasible()) feasible.push_back(one.score.objective());
+      }
+      g.feasible = feasible.size();
+      if (!feasible.empty()) {
+        const bool maximize = plan_.study().objectives.front().maximize;
+        g.best = maximize ? std::ranges::max(feasible) : std::ranges::min(feasible);
+        g.median = combined(std::move(feasible), "median", 0.5);
+      }
+      generations.push_back(g);
+      course.search.tell(values);
+    }
+    journal_.write(generations);
+  }
+
+  Plan& plan_;
+  Journal& journal_;
+  std::vector<Brief> answers_;  ///< by run
+  Runner runner_;
+  std::vector<bool> before_;  ///< runs that the journal had
+  std::vector<Course> courses_;
+  std::map<std::vector<std::string>, std::uint64_t> memo_;  ///< points by their values
+  std::uint64_t added_ = 0;                                 ///< points
+};
+
+}  // namespace
+
+SearchEnd run_searches(Plan& plan, Journal& journal, RunnerSettings settings,
+                       const std::function<void(const SearchPlace&)>& told, std::atomic<bool>& stop) {
+  return Optimizer(plan, journal, std::move(settings)).run(told, stop);
+}
+
+}  // namespace gaitlab::studies

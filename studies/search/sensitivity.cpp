@@ -1,0 +1,244 @@
+#include "studies/search/sensitivity.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+#include "studies/plan/designs.h"
+#include "studies/plan/draws.h"
+#include "studies/study/number.h"
+#include "studies/study/study.h"
+
+namespace gaitlab::studies {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kResamples = 500;
+constexpr std::uint64_t kBootstrapDraw = 111;  // the first word of its hashes
+
+using Blocks = std::vector<std::size_t>;  ///< numbers of blocks; one may stand several times
+
+/// Those of which every point has a value.
+Blocks whole_blocks(std::span<const double> values, std::size_t size) {
+  Blocks whole;
+  for (std::size_t b = 0; (b + 1) * size <= values.size(); ++b) {
+    const std::span<const double> block = values.subspan(b * size, size);
+    if (std::ranges::all_of(block, [](double v) { return std::isfinite(v); })) whole.push_back(b);
+  }
+  return whole;
+}
+
+/// What a resample gives, by measure and parameter, one after the other.
+using Estimator = std::function<std::vector<double>(const Blocks&)>;
+
+void estimate(Sensitivity& found, const Blocks& used, const Estimator& estimator, std::size_t parameters) {
+  const std::vector<double> best = estimator(used);
+  std::vector<std::vector<double>> resampled(best.size());
+  constexpr std::size_t kFewest = 2;
+  for (std::uint64_t sample = 0; used.size() >= kFewest && sample < kResamples; ++sample) {
+    Blocks drawn(used.size());
+    for (std::size_t k = 0; k < drawn.size(); ++k) drawn[k] = used[hash64({kBootstrapDraw, sample, k}) % used.size()];
+    const std::vector<double> one = estimator(drawn);
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      if (std::isfinite(one[k])) resampled[k].push_back(one[k]);
+    }
+  }
+  for (std::size_t m = 0; m < found.measures.size(); ++m) {
+    for (std::size_t p = 0; p < parameters; ++p) {
+      std::vector<double>& all = resampled[m * parameters + p];
+      Estimate one{best[m * parameters + p], kNone, kNone};
+      if (!all.empty()) {
+        std::ranges::sort(all);
+        const auto at = [&](double share) {
+          return all[static_cast<std::size_t>(share * static_cast<double>(all.size() - 1))];
+        };
+        one.low = at(0.025);
+        one.high = at(0.975);
+      }
+      found.measures[m].of.push_back(one);
+    }
+  }
+  found.used = used.size();
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// By trajectory and parameter.
+std::vector<double> elementary_effects(std::uint64_t seed, std::size_t n, std::span<const double> values) {
+  std::vector<double> effects(values.size() / (n + 1) * n, kNone);
+  for (std::size_t t = 0; t < values.size() / (n + 1); ++t) {
+    std::vector<double> before = morris_shares(seed, n, t * (n + 1));
+    for (std::size_t s = 1; s <= n; ++s) {
+      const std::size_t point = t * (n + 1) + s;
+      const std::vector<double> now = morris_shares(seed, n, point);
+      std::size_t moved = 0;
+      while (now[moved] == before[moved]) ++moved;
+      effects[t * n + moved] = (values[point] - values[point - 1]) / (now[moved] - before[moved]);
+      before = now;
+    }
+  }
+  return effects;
+}
+
+/// mu*, mu, sigma of the drawn trajectories.
+std::vector<double> morris_measures(const std::vector<double>& effects, std::size_t n, const Blocks& drawn) {
+  std::vector<double> measures(3 * n, kNone);
+  if (drawn.empty()) return measures;
+  for (std::size_t p = 0; p < n; ++p) {
+    std::vector<double> of;
+    std::vector<double> magnitudes;
+    for (const std::size_t t : drawn) {
+      of.push_back(effects[t * n + p]);
+      magnitudes.push_back(std::abs(of.back()));
+    }
+    const double mu = mean_of(of);
+    measures[p] = mean_of(magnitudes);
+    measures[n + p] = mu;
+    if (of.size() < 2) continue;
+    double squares = 0;
+    for (const double one : of) squares += (one - mu) * (one - mu);
+    measures[2 * n + p] = std::sqrt(squares / static_cast<double>(of.size() - 1));
+  }
+  return measures;
+}
+
+/// Total, first of the drawn rows.
+std::vector<double> jansen(std::span<const double> values, std::size_t n, const Blocks& drawn) {
+  std::vector<double> measures(2 * n, kNone);
+  if (drawn.size() < 2) return measures;
+  const auto rows = static_cast<double>(drawn.size());
+  double mean = 0;
+  for (const std::size_t row : drawn) mean += (values[row * (n + 2)] + values[row * (n + 2) + 1]) / (2 * rows);
+  double variance = 0;  // of A and B together
+  for (const std::size_t row : drawn) {
+    const double a = values[row * (n + 2)] - mean;
+    const double b = values[row * (n + 2) + 1] - mean;
+    variance += (a * a + b * b) / (2 * rows - 1);
+  }
+  // Below, the differences are those of rounding.
+  constexpr double kRounding = 1e-24;
+  if (!(variance > kRounding * mean * mean) || !(variance > 0)) return measures;
+  for (std::size_t p = 0; p < n; ++p) {
+    double with_a = 0;
+    double with_b = 0;
+    for (const std::size_t row : drawn) {
+      const double mixed = values[row * (n + 2) + 2 + p];
+      const double from_a = values[row * (n + 2)] - mixed;
+      const double from_b = values[row * (n + 2) + 1] - mixed;
+      with_a += from_a * from_a;
+      with_b += from_b * from_b;
+    }
+    measures[p] = with_a / (2 * rows) / variance;
+    measures[n + p] = 1 - with_b / (2 * rows) / variance;
+  }
+  return measures;
+}
+
+/// The method of a study, as its definition says.
+std::string method_of(const JournalHead& head) {
+  constexpr std::string_view kKey = "\nmethod: ";
+  const std::size_t at = head.definition.find(kKey);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + kKey.size();
+  return head.definition.substr(from, head.definition.find('\n', from) - from);
+}
+
+/// An answer of the points, by their numbers.
+struct Output {
+  std::string name, unit;
+  std::vector<double> values;
+};
+
+std::string unit_of(const JournalHead& head, const std::string& name) {
+  const auto figure = std::ranges::find(head.figures, name, &FigureName::name);
+  return figure == head.figures.end() ? "" : figure->unit;
+}
+
+/// Mean over the replicates of each point; not known where one does not know it.
+std::vector<double> means(Journal& journal, const std::string& column, std::size_t points) {
+  const std::uint64_t replicates = journal.head().replicates;
+  std::vector<double> sums(points, 0.0);
+  std::vector<std::uint64_t> counts(points, 0);
+  journal.each_row({"run", column}, [&](const std::vector<std::string>& row) {
+    const auto point = run_number_of(row[0]) / replicates;
+    if (point >= points) return;
+    sums[point] += row[1].empty() ? kNone : number_of(row[1]);
+    ++counts[point];
+  });
+  for (std::size_t k = 0; k < points; ++k)
+    sums[k] = counts[k] == replicates ? sums[k] / static_cast<double>(replicates) : kNone;
+  return sums;
+}
+
+}  // namespace
+
+Sensitivity morris(std::uint64_t seed, std::size_t parameters, std::span<const double> values) {
+  Sensitivity found;
+  found.measures = {{"mu_star", {}}, {"mu", {}}, {"sigma", {}}};
+  found.blocks = values.size() / (parameters + 1);
+  const std::vector<double> effects = elementary_effects(seed, parameters, values);
+  const Estimator estimator = [&](const Blocks& drawn) { return morris_measures(effects, parameters, drawn); };
+  estimate(found, whole_blocks(values, parameters + 1), estimator, parameters);
+  return found;
+}
+
+Sensitivity sobol_indices(std::size_t parameters, std::span<const double> values) {
+  Sensitivity found;
+  found.measures = {{"total", {}}, {"first", {}}};
+  found.blocks = values.size() / (parameters + 2);
+  const Estimator estimator = [&](const Blocks& drawn) { return jansen(values, parameters, drawn); };
+  estimate(found, whole_blocks(values, parameters + 2), estimator, parameters);
+  return found;
+}
+
+std::vector<Sensitivity> sensitivities(Journal& journal, const Results& results) {
+  const JournalHead& head = journal.head();
+  const std::string method = method_of(head);
+  const bool of_morris = method == kMethods[static_cast<std::size_t>(Method::morris)];
+  if (!of_morris && method != kMethods[static_cast<std::size_t>(Method::sobol_indices)]) return {};
+  std::vector<std::string> keys;
+  for (const JournalParameter& p : head.parameters) {
+    if (!p.drawn) keys.push_back(p.key);
+  }
+  constexpr std::uint64_t kMostPoints = 1U << 28U;  // a journal with more is not one of this program
+  const std::uint64_t all = head.runs / head.replicates;
+  if (keys.empty() || all > kMostPoints) return {};
+  const auto points = static_cast<std::size_t>(all);
+  std::vector<Output> outputs;
+  std::uint64_t infeasible = 0;
+  for (const JournalObjective& objective : head.objectives)
+    outputs.push_back({objective.expression, unit_of(head, objective.expression), std::vector<double>(points, kNone)});
+  for (const PointResult& point : results.points) {
+    const std::size_t number = point.first_run / head.replicates;
+    if (point.failed > 0 || number >= points) continue;
+    infeasible += point.feasible() ? 0 : 1;
+    for (std::size_t k = 0; k < head.objectives.size(); ++k) outputs[k].values[number] = point.score.objectives[k];
+  }
+  for (const std::string& name : head.shown) {
+    if (std::ranges::find(outputs, name, &Output::name) != outputs.end()) continue;
+    const auto at = std::ranges::find(head.figures, name, &FigureName::name) - head.figures.begin();
+    outputs.push_back(
+        {name, unit_of(head, name), means(journal, journal.columns().figures[static_cast<std::size_t>(at)], points)});
+  }
+  std::vector<Sensitivity> found;
+  for (const Output& output : outputs) {
+    Sensitivity one = of_morris ? morris(static_cast<std::uint64_t>(head.seed), keys.size(), output.values)
+                                : sobol_indices(keys.size(), output.values);
+    one.output = output.name;
+    one.unit = output.unit;
+    one.parameters = keys;
+    one.infeasible = infeasible;
+    one.unusable =
+        static_cast<std::uint64_t>(std::ranges::count_if(output.values, [](double value) { return !std::isfinite(value); }));
+    found.push_back(std::move(one));
+  }
+  return found;
+}
+
+}  // namespace gaitlab::studies

@@ -1,0 +1,49 @@
+// Which parameters matter: estimates from the points of a sensitivity study.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "studies/journal/results.h"
+
+namespace gaitlab::studies {
+
+/// With the interval that holds 95 % of what resampled trajectories or rows give (Efron's percentile bootstrap, 500 samples,
+/// drawn by counters: the same every time). NaN: not known.
+struct Estimate {
+  double value, low, high;
+};
+
+/// A measure, by parameter.
+struct Measure95 {
+  std::string name;
+  std::vector<Estimate> of;
+};
+
+struct Sensitivity {
+  std::string output;                   ///< the figure or expression that answers
+  std::string unit;                     ///< of it
+  std::vector<std::string> parameters;  ///< keys
+  std::vector<Measure95> measures;      ///< the first orders the parameters
+  std::uint64_t blocks = 0, used = 0;   ///< trajectories or rows of the study; those all of whose points have a value
+  std::uint64_t unusable = 0;           ///< points without one: failed, or the figure is not known
+  std::uint64_t infeasible = 0;         ///< points that are infeasible and count all the same
+};
+
+/// Elementary effects (Morris 1991) by point, in the output's unit per whole range of a parameter: `mu_star`, the mean of their
+/// magnitudes (Campolongo, Cariboni, Saltelli 2007), `mu`, their mean, `sigma`, their deviation. A trajectory with a value that
+/// is not finite is left out; sigma takes two.
+Sensitivity morris(std::uint64_t seed, std::size_t parameters, std::span<const double> values);
+
+/// Shares of the output's variance by Jansen's estimators (Jansen 1999; Saltelli et al. 2010, table 2): `total`, that of a
+/// parameter with all that it does together with others, `first`, that of it alone. `values` by point of saltelli_shares. Rows
+/// with a value that is not finite are left out; not known where less than two are left, or nothing varies.
+Sensitivity sobol_indices(std::size_t parameters, std::span<const double> values);
+
+/// Of a journal whose method is `morris` or `sobol_indices`: of its objectives (as its replicates are combined), and of the
+/// figures shown beside (the mean over the replicates). None: another method.
+std::vector<Sensitivity> sensitivities(Journal& journal, const Results& results);
+
+}  // namespace gaitlab::studies

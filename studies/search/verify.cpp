@@ -1,0 +1,214 @@
+#include "studies/search/verify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <mutex>
+
+#include "core/math/functions.h"
+#include "core/settings/wording.h"
+#include "studies/study/number.h"
+
+namespace gaitlab::studies {
+
+namespace {
+
+/// Another way to run a point; `sets` of one of its runs.
+struct Way {
+  std::string what;
+  std::vector<std::string> (*sets)(const Plan& plan, std::uint64_t run);
+};
+
+std::vector<std::string> halved(const Plan& plan, std::uint64_t run) {
+  const Physics physics = plan.scenario(run).physics;
+  if (physics.adaptive_step) return {"physics.accuracy=" + number_text(physics.accuracy / 2)};
+  return {"physics.step=" + number_text(physics.step / 2)};
+}
+
+std::vector<Way> ways(const Plan& plan) {
+  std::vector<Way> ways;
+  const Verify& verify = plan.study().verify;
+  if (verify.halve_step) ways.push_back({"half step", halved});
+  if (plan.has_other_engine())
+    ways.push_back({clipped(verify.engine), [](const Plan& of, std::uint64_t run) { return of.other_engine(run); }});
+  return ways;
+}
+
+/// Largest difference of a coordinate as a share of its range; another word: 1.
+double apart(const Study& study, const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < study.parameters.size(); ++k) {
+    const Parameter& p = study.parameters[k];
+    if (!p.values.empty()) {
+      if (a[k] != b[k]) return 1;
+      continue;
+    }
+    const auto share = [&](const std::string& value) {
+      const double number = number_of(value);
+      return p.log ? math::log(number / p.low) / math::log(p.high / p.low) : (number - p.low) / (p.high - p.low);
+    };
+    most = std::max(most, std::abs(share(a[k]) - share(b[k])));
+  }
+  return most;
+}
+
+/// What a verdict that is infeasible rests on, as far as figures tell.
+std::string verdict_text(const Plan& plan, const Scenario& scenario, const std::vector<double>& figures) {
+  const std::vector<std::string> broken = plan.gait_judge().broken(scenario, figures);
+  return "the verdict is infeasible" + (broken.empty() ? "" : fmt::format(": {}", fmt::join(broken, ", ")));
+}
+
+/// `in rubble: ` of a row, where the study has several scenarios.
+std::string in_scenario(const Row& row) { return row.scenario.empty() ? "" : "in " + row.scenario + ": "; }
+
+/// Why a point does not stand, or "". `jobs`: of the rows.
+std::string reason(const Plan& plan, const std::vector<Row>& rows, std::span<const Job> jobs, const PointResult& was,
+                   const PointResult& is) {
+  std::string why;
+  const auto add = [&](const std::string& text) { why += (why.empty() ? "" : "; ") + text; };
+  for (const Row& row : rows) {
+    if (row.outcome != "done") return in_scenario(row) + row.outcome + ": " + row.message;
+  }
+  for (std::size_t k = 0; k < plan.study().objectives.size(); ++k) {
+    const double then = was.score.objectives[k];
+    const double now = is.score.objectives[k];
+    if (!(std::abs(now - then) <= plan.study().verify.change * std::abs(then)))
+      add(fmt::format("{} is {:.4g} instead of {:.4g}, beyond the {:.3g} % of verify.change",
+                      clipped(plan.judge().objectives()[k]), now, then, 100 * plan.study().verify.change));
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Row& row = rows[k];
+    const bool breaks = is.score.violation > 0 && row.score && row.score->violation > 0;
+    if (!breaks && row.verdict != "infeasible") continue;
+    const Scenario scenario = plan.with(jobs[k].sets, jobs[k].scenario);
+    if (breaks) add(in_scenario(row) + fmt::format("{}", fmt::join(plan.judge().broken(scenario, row.figures), ", ")));
+    if (row.verdict == "infeasible") add(in_scenario(row) + verdict_text(plan, scenario, row.figures));
+    break;  // of several replicates the first
+  }
+  return why;
+}
+
+/// What the point's own runs were.
+Verification as_run(const Plan& plan, Journal& journal, const PointResult& point) {
+  Verification own{point.first_run, "as run", {}, point.score.violation, "", ""};
+  const std::vector<std::string> names = journal.columns().all();
+  const auto place = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  };
+  for (std::uint64_t run = point.first_run; run < point.first_run + point.runs; ++run) {
+    const std::vector<std::string> row = journal.row(run);
+    const std::string& word = row[place("verdict")];
+    if (own.verdict.empty()) own.verdict = word;
+    if (word != "infeasible" || !own.reason.empty()) continue;
+    std::vector<double> figures;
+    for (const std::string& column : journal.columns().figures) {
+      const std::string& cell = row[place(column)];
+      figures.push_back(cell.empty() ? std::nan("") : number_of(cell));
+    }
+    own.verdict = word;
+    own.reason = in_scenario(plan.row(run)) + verdict_text(plan, plan.scenario(run), figures);
+  }
+  for (std::size_t k = 0; k < plan.study().objectives.size(); ++k) own.objectives.push_back(point.score.objectives[k]);
+  return own;
+}
+
+}  // namespace
+
+std::vector<std::size_t> candidates(const Plan& plan, const Results& results) {
+  constexpr double kApart = 0.01;
+  const auto most = static_cast<std::size_t>(plan.study().verify.best);
+  std::vector<JournalObjective> objectives;
+  for (const Objective& o : plan.study().objectives) objectives.push_back({o.expression.text, o.maximize});
+  std::vector<std::size_t> chosen;
+  if (objectives.size() > 1) {
+    const std::vector<std::size_t> all = front(results.points, objectives);
+    const std::size_t count = std::min(most, all.size());
+    for (std::size_t k = 0; k < count; ++k) chosen.push_back(all[count == 1 ? 0 : k * (all.size() - 1) / (count - 1)]);
+    return chosen;
+  }
+  const auto values = [&](std::size_t k) { return plan.points().values(plan.points().point(results.points[k].first_run)); };
+  for (const std::size_t k : ranked(results.points, objectives.front().maximize)) {
+    if (chosen.size() == most || !results.points[k].feasible()) break;
+    const auto near = [&](std::size_t other) { return apart(plan.study(), values(k), values(other)) <= kApart; };
+    if (std::ranges::none_of(chosen, near)) chosen.push_back(k);
+  }
+  return chosen;
+}
+
+std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journal, const Results& results,
+                                                const std::vector<std::size_t>& points, const Executor& executor,
+                                                const std::function<void(std::size_t done, std::size_t of)>& told,
+                                                std::atomic<bool>& stop) {
+  const std::vector<Way> tried = ways(plan);
+  const std::uint64_t runs_of_point = plan.points().runs_of_point();
+  std::vector<Job> jobs;
+  for (const std::size_t point : points) {
+    for (const Way& way : tried) {
+      for (std::uint64_t r = 0; r < runs_of_point; ++r) {
+        const std::uint64_t run = results.points[point].first_run + r;
+        Job job{plan.row(run), plan.sets(run), plan.points().scenario(run)};
+        job.row.run = jobs.size();
+        std::ranges::copy(way.sets(plan, run), std::back_inserter(job.sets));
+        jobs.push_back(std::move(job));
+      }
+    }
+  }
+  std::vector<Row> rows(jobs.size());
+  std::mutex mutex;
+  std::size_t next = 0;
+  std::size_t done = 0;
+  const Work work{.next = [&]() -> std::optional<Job> {
+                    if (next == jobs.size()) return {};
+                    return jobs[next++];
+                  },
+                  .begin = [](std::span<const std::uint64_t>) {},
+                  .end =
+                      [&](std::vector<Row>&& ended) {
+                        const std::lock_guard lock(mutex);
+                        for (Row& row : ended) rows[row.run] = std::move(row);
+                        done += ended.size();
+                        told(done, rows.size());
+                      }};
+  if (!jobs.empty() && !executor(work, stop)) return {};
+  std::vector<Verification> all;
+  std::size_t at = 0;
+  for (const std::size_t number : points) {
+    const PointResult& point = results.points[number];
+    all.push_back(as_run(plan, journal, point));
+    for (const Way& way : tried) {
+      std::vector<Row> own(rows.begin() + static_cast<std::ptrdiff_t>(at),
+                           rows.begin() + static_cast<std::ptrdiff_t>(at + runs_of_point));
+      std::vector<Brief> briefs;
+      for (std::size_t r = 0; r < runs_of_point; ++r)
+        briefs.push_back({point.first_run + r, own[r].outcome, own[r].message, own[r].simulated, own[r].score});
+      const PointResult is = point_result(journal.head(), briefs);
+      Verification v{point.first_run,
+                     way.what,
+                     {},
+                     is.score.violation,
+                     own.front().verdict,
+                     reason(plan, own, std::span(jobs).subspan(at, runs_of_point), point, is)};
+      for (const Row& row : own) {
+        if (row.verdict == "infeasible") v.verdict = row.verdict;
+      }
+      for (std::size_t k = 0; k < plan.study().objectives.size(); ++k)
+        v.objectives.push_back(is.failed > 0 ? std::nan("") : is.score.objectives[k]);
+      all.push_back(std::move(v));
+      at += runs_of_point;
+    }
+  }
+  return all;
+}
+
+std::vector<std::uint64_t> verified(const std::vector<Verification>& tried) {
+  std::vector<std::uint64_t> runs;
+  for (const Verification& v : tried) {
+    const auto fell = [&](const Verification& other) { return other.run == v.run && !other.reason.empty(); };
+    if (std::ranges::none_of(tried, fell) && std::ranges::find(runs, v.run) == runs.end()) runs.push_back(v.run);
+  }
+  return runs;
+}
+
+}  // namespace gaitlab::studies

@@ -1,0 +1,113 @@
+// What the settings of a study rule out among themselves.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studies/study/population.h"
+#include "studies/study/study_file.h"
+
+namespace gaitlab::studies {
+
+namespace {
+
+void check_search(const Study& study, const SourceLocation& place, Problems& problems) {
+  const std::string method = std::string("method ") + kMethods[static_cast<std::size_t>(study.method)];
+  const std::int64_t population = study.search.population;
+  if (std::ranges::none_of(study.parameters, [](const Parameter& p) { return p.values.empty(); }))
+    problems.add(place, method + " has nothing to search: no parameter has low and high");
+  if (study.method == Method::nsga2 && study.objectives.size() < 2)
+    problems.add(place, "method nsga2 is for two or three objectives; expected cma, xnes, sade or pso");
+  if (study.method != Method::nsga2 && study.objectives.size() > 1)
+    problems.add(place, method + " is for one objective; expected nsga2");
+  const std::int64_t least = study.method == Method::nsga2 ? 8 : study.method == Method::sade ? 7 : 5;
+  if (study.method == Method::nsga2 && (population % 4 != 0 || (population > 0 && population < least))) {
+    problems.add(place, fmt::format("a population of {} does not suit method nsga2; expected a multiple of 4 from {}",
+                                    population, least));
+  } else if (population > 0 && population < least) {
+    problems.add(place, fmt::format("a population of {} is too small for {}; expected at least {}", population, method, least));
+  }
+  if (problems.empty() && study.runs > 0 && static_cast<std::uint64_t>(study.runs) < least_runs(study))
+    problems.add(place, fmt::format("a budget of {} runs is less than the {} of the searches' first generation", study.runs,
+                                    least_runs(study)));
+}
+
+/// A key that follows a number has no other value.
+void check_followers(const Study& study, Problems& problems) {
+  for (const Parameter& own : study.parameters) {
+    for (const Follower& f : own.sets) {
+      for (const Parameter& other : study.parameters) {
+        const auto also = [&](const Follower& one) { return one.key == f.key; };
+        if (other.key == f.key)
+          problems.add(f.place, fmt::format("{} follows {} and is a parameter; expected one or the other", f.key, own.key));
+        if (&other < &own && std::ranges::any_of(other.sets, also))
+          problems.add(f.place, fmt::format("{} follows {} and {}; expected one of them", f.key, other.key, own.key));
+      }
+      const auto drawn = [&](const Variation& v) { return v.key == f.key && !v.times; };
+      if (std::ranges::any_of(study.replicates.vary, drawn))
+        problems.add(f.place, fmt::format("{} follows {} and is drawn for every replicate; expected vary: {{{}: {{times: "
+                                          "...}}}}, or one of the two",
+                                          f.key, own.key, f.key));
+    }
+  }
+}
+
+/// The seed belongs to the replicates: what is set behind it would win.
+void check_seed(const Study& study, Problems& problems) {
+  constexpr const char* kWhy = "seed cannot be chosen here; expected replicates: {count: N}, whose runs differ in their seed";
+  for (const Parameter& p : study.parameters) {
+    if (p.key == "seed") problems.add(p.place, kWhy);
+    for (const Follower& f : p.sets) {
+      if (f.key == "seed") problems.add(f.place, kWhy);
+    }
+  }
+  for (const Variation& v : study.replicates.vary) {
+    if (v.key == "seed") problems.add(v.place, kWhy);
+  }
+}
+
+}  // namespace
+
+void check_study(const Study& study, const SourceLocation& place, Problems& problems) {
+  if (is_search(study.method)) check_search(study, place, problems);
+  check_followers(study, problems);
+  check_seed(study, problems);
+  for (const Parameter& p : study.parameters) {
+    if (study.method == Method::grid && !p.in_grid())
+      problems.add(p.place, p.key + " has no count; expected one for a grid, or method: {type: random} or sobol");
+    if (study.of_sensitivity() && !p.values.empty())
+      problems.add(p.place, fmt::format("{} has values one by one; method {} needs low and high", p.key,
+                                        kMethods[static_cast<std::size_t>(study.method)]));
+    if (study.method != Method::grid && p.count > 0 && !study.asked)
+      problems.add(p.place, fmt::format("{} has a count, which a grid takes; method.type is {}", p.key,
+                                        kMethods[static_cast<std::size_t>(study.method)]));
+    const auto same = [&](const Variation& v) { return v.key == p.key && !v.times; };
+    if (std::ranges::any_of(study.replicates.vary, same))
+      problems.add(p.place, p.key + " is a parameter and drawn for every replicate; expected vary: {" + p.key +
+                                ": {times: ...}}, or one of the two");
+  }
+  if (study.asked) return;
+  if (study.method == Method::grid && study.runs > 0)
+    problems.add(place, "a grid takes no budget of runs: it has as many as there are combinations");
+  if (study.of_sensitivity() && study.runs > 0)
+    problems.add(place, fmt::format("method {} takes no budget of runs; expected method: {{{}: N}}",
+                                    kMethods[static_cast<std::size_t>(study.method)],
+                                    study.method == Method::morris ? "trajectories" : "samples"));
+  if (study.method != Method::grid && !study.of_sensitivity() && study.runs == 0)
+    problems.add(place, "missing budget: {runs: N}, which method " +
+                            std::string(kMethods[static_cast<std::size_t>(study.method)]) + " needs");
+  if (study.runs > 0 && study.runs < static_cast<std::int64_t>(study.runs_of_point()))
+    problems.add(place, fmt::format("a budget of {} runs is less than the {} {} of one point", study.runs,
+                                    study.runs_of_point(), study.scenarios.empty() ? "replicates" : "runs"));
+  constexpr double kMostRuns = 1e9;
+  double runs = static_cast<double>(study.runs_of_point());
+  for (const Parameter& p : study.parameters)
+    runs *= static_cast<double>(p.values.empty() ? p.count : static_cast<std::int64_t>(p.values.size()));
+  const auto blocks = static_cast<double>(study.method == Method::morris ? study.trajectories : study.samples);
+  const double runs_of_blocks = blocks * static_cast<double>((study.parameters.size() + 2) * study.runs_of_point());
+  if (study.of_sensitivity() && runs_of_blocks > kMostRuns)
+    problems.add(place, fmt::format("the study has {:.3g} runs; allowed are up to {:g}", runs_of_blocks, kMostRuns));
+  if (study.method == Method::grid && runs > kMostRuns)
+    problems.add(place, fmt::format("the grid has {:.3g} runs; allowed are up to {:g}", runs, kMostRuns));
+}
+
+}  // namespace gaitlab::studies

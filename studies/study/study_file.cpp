@@ -1,0 +1,253 @@
+#include "studies/study/study_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "core/files/atomic_file.h"
+#include "core/settings/explainer.h"
+#include "core/settings/reader.h"
+#include "core/settings/value.h"
+#include "core/settings/wording.h"
+#include "studies/study/parameter_file.h"
+#include "studies/study/study_keys.h"
+
+namespace gaitlab::studies {
+
+namespace {
+
+/// {flat: a.yaml, rubble: b.yaml}; `folder`: of the study.
+void read_named_scenarios(const Node& node, const std::filesystem::path& folder, Study& study, Problems& problems) {
+  constexpr std::size_t kMost = 1000;
+  if (node.kind != Node::Kind::map || node.keys.empty() || node.keys.size() > kMost) {
+    const std::string what = node.kind != Node::Kind::map ? found(node) : node.keys.empty() ? "empty" : "too long";
+    problems.add(node.place, fmt::format("scenarios is {}; expected 1 to {} names with their files: {{flat: flat.yaml, rubble: "
+                                         "rubble.yaml}}",
+                                         what, kMost));
+    return;
+  }
+  for (std::size_t k = 0; k < node.keys.size(); ++k) {
+    const auto& [name, place] = node.keys[k];
+    const Node& file = node.items[k];
+    if (!is_name(name, "_.-"))
+      problems.add(place, "scenario name " + in_quotes(name) + " is not allowed; expected letters, digits, _ . and -");
+    if (file.kind != Node::Kind::scalar)
+      problems.add(file.place, "scenario " + clipped(name) + " is " + found(file) + "; expected the name of a file");
+    study.scenarios.push_back({name, (folder / file.text).lexically_normal().string()});
+  }
+}
+
+void read_objective(const Node& node, Objective& objective, Problems& problems) {
+  const std::size_t before = problems.size();
+  Reader reader(node, "objective", problems, nullptr);
+  if (node.kind != Node::Kind::map) return;
+  const Node* most = reader.take("maximize");
+  const Node* least = reader.take("minimize");
+  reader.finish();
+  const Node* chosen = most != nullptr ? most : least;
+  if (chosen == nullptr && problems.size() > before) return;  // a misspelt key says enough
+  if (chosen == nullptr || (most != nullptr && least != nullptr)) {
+    problems.add(node.place, "objective is not one expression; expected {maximize: speed} or {minimize: ...}");
+  } else if (chosen->kind != Node::Kind::scalar) {
+    problems.add(chosen->place, "objective is " + found(*chosen) + "; expected an expression");
+  } else {
+    objective = {{chosen->text, *chosen}, most != nullptr};
+  }
+}
+
+/// One, {maximize: speed}, or a list of up to three.
+void read_objectives(const Node& node, std::vector<Objective>& objectives, Problems& problems) {
+  if (node.kind != Node::Kind::list) return read_objective(node, objectives.front(), problems);
+  if (node.items.empty() || node.items.size() > kMostObjectives)
+    problems.add(node.place, fmt::format("objective is a list of {}; expected 1 to {}", node.items.size(), kMostObjectives));
+  objectives.assign(std::clamp<std::size_t>(node.items.size(), 1, kMostObjectives), {});
+  for (std::size_t k = 0; k < std::min(objectives.size(), node.items.size()); ++k)
+    read_objective(node.items[k], objectives[k], problems);
+}
+
+void read_constraints(const Node& node, Study& study, Problems& problems) {
+  if (node.kind != Node::Kind::list) problems.add(node.place, "constraints is " + found(node) + "; expected a list of texts");
+  for (const Node& item : node.items) {
+    if (node.kind != Node::Kind::list) return;
+    if (item.kind != Node::Kind::scalar) {
+      problems.add(item.place, "a constraint is " + found(item) + "; expected a text: torque.rms <= 0.6");
+    } else {
+      study.constraints.push_back({item.text, item});
+    }
+  }
+}
+
+/// Texts, each an expression, with ` after SECONDS` behind it or without.
+void read_stops(const Node& node, Study& study, Problems& problems) {
+  if (node.kind != Node::Kind::list) problems.add(node.place, "stop is " + found(node) + "; expected a list of texts");
+  for (const Node& item : node.items) {
+    if (node.kind != Node::Kind::list) return;
+    if (item.kind != Node::Kind::scalar) {
+      problems.add(item.place, "a rule is " + found(item) + "; expected a text: saturated.voltage > 0.3 after 4");
+      continue;
+    }
+    StopText stop{{item.text, item}};
+    constexpr std::string_view kAfter = " after ";
+    if (const std::size_t at = item.text.rfind(kAfter); at != std::string::npos) {
+      const std::string seconds = item.text.substr(at + kAfter.size());
+      const char* end = seconds.data() + seconds.size();
+      const auto read = std::from_chars(seconds.data(), end, stop.after);
+      if (read.ec != std::errc() || read.ptr != end || !(stop.after >= 0) || !std::isfinite(stop.after))
+        problems.add(item.place,
+                     "a rule ends with after " + in_quotes(seconds) + "; expected a number of seconds: fell after 2");
+      stop.when.text.resize(at);
+    }
+    study.stops.push_back(std::move(stop));
+  }
+}
+
+void read_guards(const Node& node, Study& study, Problems& problems) {
+  if (node.kind == Node::Kind::scalar && (node.text == "gait" || node.text == "none")) {
+    study.guarded = node.text == "gait";
+    return;
+  }
+  if (node.kind != Node::Kind::map) {
+    problems.add(node.place, "guards is " + found(node) + "; expected gait, none, or limits by name: {range.share: 0.1}");
+    return;
+  }
+  for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    const Reading<double> limit = read_number(node.items[i], "");
+    if (limit.ok()) {
+      study.guards.push_back({node.keys[i].first, limit.value, node.keys[i].second});
+    } else {
+      problems.add(node.items[i].place, "guards." + clipped(node.keys[i].first) + " " + limit.wrong);
+    }
+  }
+}
+
+Explainer study_keys() {
+  Explainer explainer;
+  Study study;
+  std::string scenario;
+  explainer.row("gaitlab_study", "", "1", "1", "Format version; by this key a file is known as a study.");
+  PlainKeys{study, scenario}.fields(explainer);
+  explainer.row("scenarios", "", "", "{NAME: FILE, ...}",
+                "Instead of `scenario`: several, in each of which every point runs, each a row; `combine` of `replicates` says "
+                "what they count for together.");
+  explainer.row("parameters", "", "required", "", "Keys of the scenario, as for --set, that change from point to point.");
+  explainer.row("  KEY.low", "", "", "", "Least value, in the unit of the scenario's key.");
+  explainer.row("  KEY.high", "", "", "above low", "Largest value.");
+  explainer.row("  KEY.scale", "", "linear", "linear or log", "Whether values are even in themselves or in their logarithm.");
+  explainer.row("  KEY.count", "", "", "2 to 1e9", "Of a grid: number of values from low to high, both included.");
+  explainer.row("  KEY.values", "", "", "", "Instead of low and high: numbers or words, one by one.");
+  explainer.row("  KEY.sets", "", "none", "{KEY: EXPRESSION, ...}",
+                "KEY is a number of the study's own, and these keys of the scenario follow it: legs: {low: 0, high: 1, sets: "
+                "{cpg.offset: 0.3*legs - 0.1}}. Expressions are over all parameters that are numbers.");
+  explainer.row(
+      "replicates", "", "none", "",
+      "Runs of each point that differ in their seed and in what `vary` draws; the draws are the same for every point.");
+  explainer.row("  count", "", "required", "1 to 1e6", "Runs of each point.");
+  explainer.row("  vary.KEY", "", "", "normal: [MEAN, DEVIATION] (with low, high), uniform: [LOW, HIGH], values: [...]",
+                "How a key of the scenario is drawn; {times: LAW}: as a multiple of the value that the point has.");
+  explainer.row("  combine", "", "worst", "mean, worst, median or quantile(Q)",
+                "What the replicates of a point, in all its scenarios, count for together.");
+  explainer.row("objective", "", "{maximize: FIGURE}", "{maximize: EXPRESSION} or {minimize: EXPRESSION}",
+                "What points are ordered by; without it by the first of `figures`. A list of two or three: the points that no "
+                "other is better than in all.");
+  explainer.row("constraints", "", "[]", "texts a <= b, a >= b or a == b", "What a point must keep to be feasible.");
+  explainer.row("guards", "", "gait", "gait, none or {NAME: LIMIT}",
+                "Limits without which the figures of a gait may be those of a numerical accident.");
+  explainer.row("stop", "", "[]", "texts EXPRESSION or EXPRESSION after SECONDS",
+                "Rules that end a run early, asked once every simulated second of figures so far: fell, or what a joint did.");
+  MethodKeys method{study};
+  explainer.group("method", method, "How points are chosen.");
+  BudgetKeys budget{study.runs};
+  explainer.group("budget", budget, "How much is run.");
+  VerifyKeys verify{study.verify};
+  explainer.group("verify", verify, "How `gaitlab optimize` tries the best points again.");
+  return explainer;
+}
+
+}  // namespace
+
+bool is_study(const std::string& file) {
+  Problems problems;
+  const std::string text = read_file(file, kMostScenario);
+  const std::optional<Node> root = parse_yaml(text, file, problems);
+  // What is not valid YAML is told by who reads it as what it seems to be.
+  return root ? root->find("gaitlab_study") != nullptr : text.find("gaitlab_study:") != std::string::npos;
+}
+
+Study read_study(const std::string& file, Purpose purpose) {
+  Study study;
+  study.asked = purpose == Purpose::evaluate;
+  study.file = file;
+  const Node root = read_yaml(file);
+  Problems problems;
+  Reader reader(root, "the study", problems, nullptr);
+  if (!reader.version("gaitlab_study")) problems.raise();
+  std::string scenario;
+  study.name = std::filesystem::path(file).stem().string();
+  PlainKeys{study, scenario}.fields(reader);
+  if (!is_name(study.name, "_.-") || study.name[0] == '.') {
+    const Node* name = root.find("name");
+    problems.add(name != nullptr ? name->place : root.place,
+                 "name " + in_quotes(study.name) + " is not allowed; expected letters, digits, _ . and -, not a . first");
+  }
+  if (const Node* sets = root.find("set")) {
+    for (const Node& set : sets->items) study.set_places.push_back(set.place);
+  }
+  if (const Node* figures = root.find("figures")) study.figures_place = figures->place;
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  study.scenario = (folder / scenario).lexically_normal().string();
+  if (const Node* node = reader.take("scenarios")) {
+    read_named_scenarios(*node, folder, study, problems);
+    if (reader.has("scenario")) problems.add(node->place, "the study has scenario and scenarios; expected one or the other");
+  }
+  MethodKeys method{study};
+  const bool chosen = reader.has("method");
+  reader.group("method", method, "");
+  BudgetKeys budget{study.runs};
+  reader.group("budget", budget, "");
+  VerifyKeys verify{study.verify};
+  reader.group("verify", verify, "");
+  if (const Node* node = root.find("verify")) {
+    const Node* engine = node->kind == Node::Kind::map ? node->find("engine") : nullptr;
+    study.verify.place = engine != nullptr ? engine->place : node->place;
+  }
+  if (const Node* node = reader.take("parameters")) read_parameters(*node, study, problems);
+  if (const Node* node = reader.take("replicates")) read_replicates(*node, study.replicates, problems);
+  if (const Node* node = reader.take("objective")) read_objectives(*node, study.objectives, problems);
+  if (const Node* node = reader.take("constraints")) read_constraints(*node, study, problems);
+  if (const Node* node = reader.take("guards")) read_guards(*node, study, problems);
+  if (const Node* node = reader.take("stop")) read_stops(*node, study, problems);
+  if (!reader.has("scenarios")) reader.require({"scenario"});
+  reader.require({"parameters"});
+  reader.finish();
+  const bool grid = std::ranges::all_of(study.parameters, &Parameter::in_grid);
+  const Method search = study.objectives.size() > 1 ? Method::nsga2 : Method::cma;
+  if (!chosen && !(grid && purpose == Purpose::sweep)) study.method = purpose == Purpose::optimize ? search : Method::random;
+  if (study.asked) study.method = Method::random;  // whatever it says: none is used
+  if (problems.empty()) check_study(study, root.place, problems);
+  problems.raise();
+  return study;
+}
+
+std::string explain_study() {
+  return wrapped(
+             "A study runs the points of a scenario: `gaitlab sweep STUDY.yaml`; `gaitlab optimize STUDY.yaml` searches the "
+             "best. Expressions name figures as summary.json "
+             "does, with "
+             "dots; one per joint without the joint is its largest, torque.peak[m3/active] that of one. They take + - * / ^, "
+             "comparisons, and, or, not, min, max, abs, sqrt, log, if and the other functions of CPG `equations`.") +
+         "\n" + table(study_keys().rows());
+}
+
+std::string study_page() {
+  return "# The file of a study\n\n"
+         "<!-- Written by `tests/gates/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n"
+         "Every key of what `gaitlab sweep STUDY.yaml` and `gaitlab optimize STUDY.yaml` read, as `gaitlab explain study` "
+         "prints it; what is done with it:\n"
+         "[studies](../studies.md). Studies that come with the program: `scenarios/studies/`.\n\n" +
+         markdown_table(study_keys().rows());
+}
+
+}  // namespace gaitlab::studies

@@ -1,0 +1,83 @@
+// The keys of a study that are declared as fields: one walk over each reads it, explains it and makes its schema.
+#pragma once
+#include <array>
+#include <string>
+
+#include "core/plugin/fields.h"
+#include "studies/study/study.h"
+
+namespace gaitlab::studies {
+
+/// Keys that stand as they are in `fields`: one walk reads and explains them.
+struct PlainKeys {
+  Study& study;
+  std::string& scenario;
+  void fields(Fields& f) const {
+    f.text("name", study.name, "Name of the study; without it that of the file.");
+    f.text("scenario", scenario, "Scenario file, relative to this file; or `scenarios`.");
+    f.texts("set", study.sets, "Settings of all runs, as for --set: physics.step=0.001.");
+    f.integer("seed", study.seed, {"", 0, 9e15, "Seed of what is drawn: points and replicates."});
+    f.texts("figures", study.figures,
+            "Figures shown in tables and drawn, by name with * and ?; without any the speed. Those of one joint, "
+            "torque.peak[m3/*], become columns.");
+  }
+};
+
+struct MethodKeys {
+  Study& study;
+  void fields(Fields& f) {
+    f.choice(
+        "type", study.method, kMethods,
+        "grid: every combination of values; random, sobol: points drawn, at random or evenly by a Sobol sequence; morris, "
+        "sobol_indices: which parameters matter, by elementary effects or shares of the variance. The others search (gaitlab "
+        "optimize): cma, xnes, sade, pso for one objective, nsga2 for two or three.");
+    f.integer("trajectories", study.trajectories,
+              {"", 2, 1e6, "Of morris: each has one point more than there are parameters."});
+    f.integer("samples", study.samples,
+              {"", 2, 1e7, "Of sobol_indices, best a power of 2: each has two points more than there are parameters."});
+    f.integer("population", study.search.population,
+              {"", 0, 10000,
+               "Points of a generation, at least 5 (sade 7; nsga2: a multiple of 4 from 8). 0: 4 + 3 ln n of n "
+               "parameters, rounded up to a multiple of 8, at least 16."});
+    f.integer("instances", study.search.instances, {"", 1, 1000, "Searches side by side, which share the budget."});
+    f.integer("restarts", study.search.restarts,
+              {"", 0, 10, "How often a search that has converged starts again, each time with twice the population."});
+    f.number("sigma", study.search.sigma, {"", 1e-3, 1, "First step of cma and xnes, as a share of the box."});
+  }
+};
+
+struct VerifyKeys {
+  Verify& verify;
+  void fields(Fields& f) {
+    f.integer("best", verify.best, {"", 1, 100, "How many of the best points are tried again."});
+    f.flag("halve_step", verify.halve_step, "With half the step (of integrators that choose it: half the accuracy's limit).");
+    f.text("engine", verify.engine, "In another engine, with its own step; none: in no other.");
+    f.number("change", verify.change, {"", 1e-6, 10, "Largest change of an objective, as a share, of a point that stands."});
+  }
+};
+
+struct BudgetKeys {
+  std::int64_t& runs;
+  void fields(Fields& f) {
+    f.integer("runs", runs, {"", 1, 1e9, "Runs of methods that draw or search points, replicates counted."});
+  }
+};
+
+inline constexpr std::array<const char*, 2> kScales{"linear", "log"};
+inline constexpr double kAny = 1e300;
+
+/// Of a parameter between two ends.
+struct RangeKeys {
+  Parameter& parameter;
+  bool& log;
+  void fields(Fields& f) {
+    f.number("low", parameter.low, {"", -kAny, kAny, "Least value, in the unit of the scenario's key."});
+    f.number("high", parameter.high, {"", -kAny, kAny, "Largest value."});
+    int scale = log ? 1 : 0;
+    f.choice("scale", scale, kScales, "Whether values are even in themselves or in their logarithm.");
+    log = scale == 1;
+    f.integer("count", parameter.count, {"", 2, 1e9, "Of a grid: number of values from low to high, both included."});
+  }
+};
+
+}  // namespace gaitlab::studies

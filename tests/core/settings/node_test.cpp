@@ -1,0 +1,179 @@
+// The guards against yaml-cpp 0.7 (traps.md), and print_yaml.
+#include "core/settings/node.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/core/scenario/fakes.h"
+#include "tests/cpu_time.h"
+
+namespace gaitlab {
+namespace {
+
+using fakes::error_of;
+
+std::string error(const std::string& text) {
+  return error_of([&] { parse_yaml(text, "f"); });
+}
+
+TEST(Node, KnowsPlacesAndKinds) {
+  const Node root = parse_yaml("a: 1\nb: [x, '5', {c: ~}]\nd:\n  - e: \"q\"\n", "f");
+  ASSERT_EQ(root.kind, Node::Kind::map);
+  EXPECT_EQ(to_string(root.find("a")->place), "f:1:4");
+  EXPECT_EQ(to_string(root.keys[1].second), "f:2:1");
+  const Node& b = *root.find("b");
+  EXPECT_TRUE(b.flow);
+  EXPECT_FALSE(b.items[0].quoted);
+  EXPECT_TRUE(b.items[1].quoted);
+  EXPECT_EQ(b.items[2].find("c")->kind, Node::Kind::null);
+  EXPECT_FALSE(root.find("d")->flow);
+  EXPECT_EQ(root.find("x"), nullptr);
+}
+
+TEST(Node, ADuplicateKeyIsAnErrorAtTheSecond) {
+  EXPECT_EQ(error("a: 1\nb: 2\na: 3\n"), "f:3:1: error: duplicate key 'a'\nf:1:1: note: it is given here first");
+  EXPECT_EQ(error("m: {a: 1, 'a': 2}\n"), "f:1:11: error: duplicate key 'a'\nf:1:5: note: it is given here first");
+}
+
+TEST(Node, AnchorsAliasesAndTagsAreRefused) {
+  EXPECT_EQ(error("a: &x 1\n"), "f:1:4: error: found the anchor '&x'; anchors and aliases are not supported");
+  EXPECT_EQ(error("a: &x 1\nb: *x\n"),
+            "f:1:4: error: found the anchor '&x'; anchors and aliases are not supported\n"
+            "f:2:4: error: found an alias (*name); write the value itself");
+  EXPECT_EQ(error("a: &x [*x]\n"),
+            "f:1:4: error: found the anchor '&x'; anchors and aliases are not supported\n"
+            "f:1:8: error: found an alias (*name); write the value itself");
+  EXPECT_EQ(error("a: *x\n"),
+            "f:1:4: error: not valid YAML: the referenced anchor is not defined; a pattern goes in quotes: \"*/active\"");
+  EXPECT_EQ(error("a: !!float 1\n"), "f:1:4: error: found the tag 'tag:yaml.org,2002:float'; explicit tags are not supported");
+  EXPECT_EQ(error("a: ! 1\n"), "f:1:4: error: found the tag '!'; explicit tags are not supported");
+  EXPECT_EQ(error("a: !t [1]\n"), "f:1:4: error: found the tag '!t'; explicit tags are not supported");
+  EXPECT_EQ(error("a: !t {b: 1}\n"), "f:1:4: error: found the tag '!t'; explicit tags are not supported");
+}
+
+TEST(Node, AMergeKeyIsAnOrdinaryKey) { EXPECT_EQ(parse_yaml("a: {<<: 1}\n", "f").find("a")->keys[0].first, "<<"); }
+
+TEST(Node, ASecondDocumentIsRefused) {
+  EXPECT_EQ(error("a: 1\n---\nb: 2\n"), "f:2:1: error: found a second document; expected one document a file");
+  EXPECT_EQ(error("a: 1\n---\n"), "f:2:1: error: found a second document; expected one document a file");
+  EXPECT_EQ(error("---\na: 1\n...\n"), "no error");
+}
+
+TEST(Node, TheRootIsAMap) {
+  EXPECT_EQ(error(","), "f:1:1: error: found empty; expected a map (KEY: VALUE lines)");  // LoadAll(",") never returns
+  EXPECT_EQ(error("- 1\n"), "f:1:1: error: found a list; expected a map (KEY: VALUE lines)");
+  EXPECT_EQ(error("word\n"), "f:1:1: error: found 'word'; expected a map (KEY: VALUE lines)");
+  EXPECT_EQ(error(""), "f: error: the file is empty; expected a map (KEY: VALUE lines)");
+  EXPECT_EQ(error("# only a comment\n"), "f: error: the file is empty; expected a map (KEY: VALUE lines)");
+}
+
+TEST(Node, KeysAreNames) {
+  EXPECT_EQ(error("? [a]\n: 1\n"), "f:1:3: error: found a list as a key; expected a name");
+  EXPECT_EQ(error("{a: 1}: 1\n"), "f:1:1: error: found a map as a key; expected a name");
+  EXPECT_EQ(error("~: 1\n"), "f:1:1: error: found nothing as a key; expected a name");
+}
+
+TEST(Node, DepthAndSizeAreLimited) {
+  EXPECT_EQ(error("a: " + std::string(31, '[') + std::string(31, ']')), "no error");
+  EXPECT_EQ(error("a: " + std::string(32, '[') + std::string(32, ']')), "f:1:35: error: nested deeper than 32 levels");
+  EXPECT_EQ(error("a: " + std::string(1 << 20, 'x')), "f: error: the text is larger than 1 MB");
+}
+
+TEST(Node, AnAliasBombCostsNothing) {
+  std::string bomb = "a0: &a0 [x, x]\n";
+  for (int i = 1; i < 40; ++i) {
+    const std::string before = "*a" + std::to_string(i - 1);
+    bomb += fmt::format("a{0}: &a{0} [{1}, {1}]\n", i, before);
+  }
+  EXPECT_NE(error(bomb).find("found an alias"), std::string::npos);
+}
+
+TEST(Node, OnlyTextIsRead) {
+  using namespace std::string_literals;
+  EXPECT_EQ(error("a: 1\nb: \0\n"s), "f:2:4: error: found a NUL byte; expected a text file");
+  EXPECT_EQ(error("a: \x04 b\n"), "f:1:4: error: found the control character 0x04; expected a text file");
+  EXPECT_EQ(error("a: \xff\n"), "f:1:4: error: found the byte 0xff, which is not UTF-8; expected a text file");
+  EXPECT_EQ(error("a: \xC0\xAF\n"), "f:1:4: error: found the byte 0xc0, which is not UTF-8; expected a text file");
+  EXPECT_EQ(error("a: 1\rb: 2\r"), "f:1:5: error: found a carriage return without a line feed; expected a text file");
+  EXPECT_EQ(parse_yaml("\xEF\xBB\xBF"
+                       "a: 'x'\r\nb: 'gr\xC3\xBC\xC3\x9F'\r\n",
+                       "f")
+                .find("b")
+                ->text,
+            "gr\xC3\xBC\xC3\x9F");
+}
+
+TEST(Node, SyntaxErrorsHaveAPlace) {
+  EXPECT_EQ(error("a: [1, 2\n"), "f:2:1: error: not valid YAML: end of sequence flow not found");
+  EXPECT_EQ(error("a: b: c\n"), "f:1:5: error: not valid YAML: illegal map value");
+}
+
+TEST(Node, AMissingFileIsReportedWhereItWasAskedFor) {
+  EXPECT_EQ(error_of([] { read_yaml("/nowhere/x.yaml"); }),
+            "/nowhere/x.yaml: error: cannot be read: No such file or directory");
+  EXPECT_EQ(error_of([] {
+              read_yaml("/nowhere/x.yaml", {"s.yaml", 3, 7});
+            }),
+            "s.yaml:3:7: error: file '/nowhere/x.yaml' cannot be read: No such file or directory");
+  EXPECT_EQ(error_of([] { read_yaml("/tmp"); }), "/tmp: error: cannot be read: Is a directory");
+  EXPECT_EQ(error_of([] { read_yaml("/dev/zero"); }), "/dev/zero: error: cannot be read: not a regular file");
+}
+
+// The same kinds, texts and flags; places apart.
+void expect_same(const Node& a, const Node& b) {
+  EXPECT_EQ(a.kind, b.kind);
+  EXPECT_EQ(a.text, b.text);
+  EXPECT_EQ(a.quoted, b.quoted) << a.text;
+  EXPECT_EQ(a.flow, b.flow);
+  ASSERT_EQ(a.keys.size(), b.keys.size());
+  ASSERT_EQ(a.items.size(), b.items.size());
+  for (std::size_t i = 0; i < a.keys.size(); ++i) EXPECT_EQ(a.keys[i].first, b.keys[i].first);
+  for (std::size_t i = 0; i < a.items.size(); ++i) expect_same(a.items[i], b.items[i]);
+}
+
+TEST(PrintYaml, ReadsBackTheSame) {
+  const std::string text =
+      "a: 1\n"
+      "b: a sentence, with a comma: \"quotes\"\n"
+      "c: {x: [1, 2.5e-05, -1], y: 'no', joint.*: m3/passive, \"k: v\": ~}\n"
+      "d:\n  - 1\n  - e: 2\n    f:\n      - {g: h}\n  - - 3\n    - [4]\n  - {}\n  - []\n  -\n"
+      "h: |\n  two\n  lines\n"
+      "i: 'null'\nj: ''\nk: '# no'\nl: \"tab\\t, quote \\\", backslash \\\\\"\nm: -\xC3\xBC\n\"\": 1\n\"-\": 1\n\"? x\": 2\n";
+  const Node first = parse_yaml(text.substr(0, text.find("b: a")) + text.substr(text.find("c:")), "f");
+  const std::string printed = print_yaml(first);
+  expect_same(first, parse_yaml(printed, "g"));
+  EXPECT_EQ(print_yaml(parse_yaml(printed, "g")), printed);
+}
+
+TEST(PrintYaml, QuotesWhatIsNotSafe) {
+  Node node{Node::Kind::map};
+  for (const char* text : {"plain", "a, b", "a: b", "a #b", "- a", "", "null", " a", "a\nb", "*x", "[", "a:"}) {
+    node.keys.emplace_back("k" + std::to_string(node.keys.size()), SourceLocation{});
+    node.items.push_back({Node::Kind::scalar, {}, text});
+  }
+  EXPECT_EQ(print_yaml(node),
+            "k0: plain\nk1: a, b\nk2: \"a: b\"\nk3: \"a #b\"\nk4: \"- a\"\nk5: \"\"\nk6: \"null\"\nk7: \" a\"\nk8: \"a\\nb\"\n"
+            "k9: \"*x\"\nk10: \"[\"\nk11: \"a:\"\n");
+  node.flow = true;
+  EXPECT_EQ(print_yaml(node).substr(0, 22), "{k0: plain, k1: \"a, b\"");
+  const Node back = parse_yaml(print_yaml(node), "f");
+  for (std::size_t i = 0; i < node.items.size(); ++i) EXPECT_EQ(back.items[i].text, node.items[i].text);
+}
+
+TEST(Node, HostileTextsEndSoon) {
+  for (const std::string part : {"[",    "{", "- ", "? ",     ": ",      "!a ",  "&a ",     "*a ",  "'",   "\"",  "{a: ",
+                                 "[a, ", ",", "\t", "a: 1\n", "- [a]\n", "a\n ", "--- a\n", "%a\n", "'' ", "b:\n"}) {
+    for (const std::string begin : {"k: ", "k:\n ", ""}) {
+      const auto cost = [&](std::size_t size) {
+        std::string text = begin;
+        while (text.size() + part.size() < size) text += part;
+        return test::cost_of([&] { error(text); });
+      };
+      // Linear, it is 16 times; quadratic, 256.
+      EXPECT_LT(cost(1U << 16), 64 * cost(1U << 12)) << begin << part;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gaitlab

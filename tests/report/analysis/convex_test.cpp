@@ -1,0 +1,113 @@
+#include "report/analysis/convex.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace gaitlab::report {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Convex at(const Shape& shape, const Vec3& p, const Vec3& axis = Vec3::UnitX(), double angle = 0) {
+  return moved(convex(shape), {turn(axis, angle).toRotationMatrix(), p});
+}
+
+Shape box(double x, double y, double z) { return {Shape::Kind::box, {}, {x, y, z}}; }
+Shape ball(double radius) { return {Shape::Kind::sphere, {}, {radius, 0, 0}}; }
+
+// 1e-15, 1e-14: rounding of lengths of about 1, of one product and of some.
+
+TEST(Convex, BoxesFaceToFace) {
+  EXPECT_NEAR(penetration(at(box(2, 2, 2), {0, 0, 0}), at(box(1, 1, 1), {1.4, 0, 0}), 0), 0.1, 1e-15);
+  EXPECT_EQ(penetration(at(box(2, 2, 2), {0, 0, 0}), at(box(1, 1, 1), {1.6, 0, 0}), 0), 0);
+  EXPECT_EQ(penetration(at(box(2, 2, 2), {0, 0, 0}), at(box(1, 1, 1), {1.4, 0, 0}), 0.2), 0) << "ignored";
+}
+
+/// An edge along y, sqrt(1/2) right of the left box's middle, against one along z: neither has a face that separates them.
+TEST(Convex, BoxesEdgeToEdge) {
+  const double reach = std::sqrt(0.5);
+  const Convex left = at(box(1, 8, 1), {0, 0, 0}, Vec3::UnitY(), kPi / 4);
+  const auto right = [&](double gap) { return at(box(1, 1, 8), {2 * reach + gap, 0, 0}, Vec3::UnitZ(), kPi / 4); };
+  EXPECT_NEAR(penetration(left, right(-0.01), 0), 0.01, 1e-14);
+  EXPECT_EQ(penetration(left, right(0.01), 0), 0);
+}
+
+TEST(Convex, SpheresWithSpheresFacesEdgesAndCorners) {
+  EXPECT_NEAR(penetration(at(ball(1), {1, 2, 3}), at(ball(2), {1, 2, 3}), 0), 3, 1e-15) << "one around the other";
+  EXPECT_NEAR(penetration(at(ball(1), {0, 0, 0}), at(ball(2), {1, 2, 2}, Vec3::UnitX(), 1), 0), 0, 1e-15);
+  EXPECT_NEAR(penetration(at(ball(1), {0, 0, 0}), at(ball(2), {0.9, 1.8, 1.8}), 0), 0.3, 1e-15);
+  EXPECT_NEAR(penetration(at(ball(1), {1.9, 0, 0}), at(box(2, 2, 2), {0, 0, 0}), 0), 0.1, 1e-15);
+  // Middle at (1 + d, 1 + d): sqrt(2) d from the edge.
+  EXPECT_NEAR(penetration(at(ball(1), {1.7, 1.7, 0}), at(box(2, 2, 2), {0, 0, 0}), 0), 1 - 0.7 * std::sqrt(2), 1e-14);
+  EXPECT_NEAR(penetration(at(ball(1), {1.5, 1.5, 1.5}), at(box(2, 2, 2), {0, 0, 0}), 0), 1 - 0.5 * std::sqrt(3), 1e-14);
+  EXPECT_EQ(penetration(at(ball(1), {1.6, 1.6, 1.6}), at(box(2, 2, 2), {0, 0, 0}), 0), 0);
+}
+
+/// Two M-TRAN blocks back to back: their half cylinders touch at any angles of the hinges, and never meet.
+TEST(Convex, HalfCylindersOfOneModuleTouch) {
+  const Shape half{Shape::Kind::half_cylinder, {}, {0.0325, 0.065, 0}};
+  for (int tenths = -15; tenths <= 15; ++tenths) {
+    const double angle = 0.1 * tenths;
+    const Convex left = at(half, {0, 0, 0}, Vec3::UnitY(), angle);
+    const Convex right = moved(convex(half), {turn(Vec3::UnitZ(), kPi).toRotationMatrix(), {0.065, 0, 0}});
+    EXPECT_LT(penetration(left, right, 0), 1e-15) << angle;
+  }
+}
+
+/// The axis that showed two boxes apart shows it still when one has moved a little, and no more when they meet.
+TEST(Convex, TheAxisThatShowsTwoApartServesAgain) {
+  const Convex one = convex(box(2, 2, 2));
+  const Convex other = convex(box(1, 1, 1));
+  const Pose here{turn(Vec3::UnitZ(), 0.3).toRotationMatrix(), {5, 1, 0}};
+  const auto there = [&](double gap) { return here * Pose{turn(Vec3::UnitX(), 0.7).toRotationMatrix(), {1.5 + gap, 0, 0}}; };
+  Vec3 apart = Vec3::Zero();
+  ASSERT_EQ(penetration(moved(one, here), moved(other, there(0.1)), 0, apart), 0);
+  EXPECT_NEAR(std::abs(apart.dot(here.R.col(0))), 1, 1e-15);
+  EXPECT_TRUE(are_apart(one, here, other, there(0.1), apart, 0));
+  EXPECT_TRUE(are_apart(other, there(0.1), one, here, apart, 0));
+  EXPECT_TRUE(are_apart(one, here, other, there(0.01), apart, 0));
+  EXPECT_FALSE(are_apart(one, here, other, there(-0.01), apart, 0));
+  EXPECT_TRUE(are_apart(one, here, other, there(-0.01), apart, 0.02)) << "ignored";
+}
+
+/// The depth is the least value of the support function of the Minkowski difference, which 20 000 directions find from above.
+TEST(Convex, AgreesWithSampledDirections) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vec = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+  const std::vector<Shape> shapes{
+      box(1, 0.6, 0.3), {Shape::Kind::cylinder, {}, {0.4, 0.9, 0}}, {Shape::Kind::half_cylinder, {}, {0.5, 0.7, 0}}, ball(0.4)};
+  std::vector<Vec3> directions;
+  constexpr int kDirections = 20000;
+  for (int k = 0; k < kDirections; ++k) {  // a spiral on the sphere
+    const double z = 1 - (2.0 * k + 1) / kDirections;
+    const double turn = kPi * (3 - std::sqrt(5.0)) * k;
+    directions.emplace_back(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+  }
+  int met = 0;
+  for (std::size_t trial = 0; trial < 60; ++trial) {
+    const Convex a = at(shapes[trial % 4], Vec3::Zero(), vec().normalized(), 3 * unit(random));
+    const Convex b = at(shapes[trial / 4 % 4], 0.7 * vec(), vec().normalized(), 3 * unit(random));
+    double least = 1e9;
+    for (const Vec3& d : directions) {
+      double high = -1e9;
+      double low = 1e9;
+      for (const Vec3& v : a.vertices) high = std::max(high, d.dot(v) + a.radius);
+      for (const Vec3& v : b.vertices) low = std::min(low, d.dot(v) - b.radius);
+      least = std::min(least, high - low);
+    }
+    const double depth = penetration(a, b, 0);
+    met += depth > 0 ? 1 : 0;
+    // A direction is at most 0.02 rad from a sampled one, and the slope is at most the distance of two vertices, 2.5.
+    EXPECT_LE(depth, std::max(least, 0.0) + 1e-12) << trial;
+    EXPECT_GE(depth, least - 0.02 * 2.5) << trial;
+  }
+  EXPECT_GT(met, 20);
+  EXPECT_LT(met, 58);
+}
+
+}  // namespace
+}  // namespace gaitlab::report

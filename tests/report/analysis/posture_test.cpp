@@ -1,0 +1,87 @@
+// Numbers of how a robot holds itself, against motions that are known in closed form.
+#include "report/analysis/posture.h"
+
+#include <nlohmann/json.hpp>
+
+#include "studies/study/judge.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace report;
+
+Scenario one_module(const std::vector<std::string>& sets) {
+  return scenario(
+      "gaitlab: 1\nname: one\nrobot: {modules: mtran}\ncontact: {on: all}\nphysics: {engine: articulated}\n"
+      "trace: {period: 0.01}\n",
+      sets);
+}
+
+Posture posture_of(const Scenario& s) {
+  const Recording r = run(s);
+  return posture(s, r, summarise(s, r, 0).judged);
+}
+
+/// Down from z0 for t: z0 - g t^2 / 2 at the last tick; the first of the window is that behind its start, a fifth of the run.
+TEST(Posture, AFallIsAirborneAllTheTime) {
+  const Scenario s = one_module({"robot.position=[0, 0, 10]", "duration=1"});
+  const Recording r = run(s);
+  const Judged judged = summarise(s, r, 0).judged;
+  const Posture p = posture(s, r, judged);
+  EXPECT_EQ(p.airborne_share, 1);
+  const double g = s.physics.gravity.norm();
+  const double start = r.com(0).z();
+  constexpr double kIntegration = 1e-4;  // m: of the adaptive steps, 1 % of torques that are 0
+  EXPECT_NEAR(p.height_min, start - g / 2, kIntegration);
+  const double first = (std::floor(judged.from / s.trace.period + 1e-9) + 1) * s.trace.period;
+  EXPECT_NEAR(p.height_max, start - g * first * first / 2, kIntegration);
+}
+
+TEST(Posture, AtRestIsNeverAirborne) {
+  const Posture p = posture_of(one_module({"duration=1"}));
+  EXPECT_EQ(p.airborne_share, 0);
+  EXPECT_LT(p.height_max - p.height_min, 1e-3);  // m: it settles into its contacts
+}
+
+/// A robot that weighs nothing is not known to fly.
+TEST(Posture, IsNotKnownWhereNothingCarries) {
+  EXPECT_TRUE(std::isnan(posture_of(one_module({"duration=0.2", "physics.gravity=[0, 0, 0]"})).airborne_share));
+}
+
+TEST(Posture, TiltIsOfTheBaseAgainstTheVertical) {
+  constexpr double kTilt = 0.3;  // rad
+  // In the air, where nothing turns it.
+  const Posture p = posture_of(one_module({"robot.position=[0, 0, 10]", "robot.orientation=[0.3, 0, 1]", "duration=0.5"}));
+  EXPECT_NEAR(p.tilt_max, kTilt, 1e-6);  // the acos of a double near it
+}
+
+/// The way from the first tick of the window to its last, where the window's ends are ticks.
+TEST(Posture, CycleSpeedIsThatOfTheWindow) {
+  Recording r;
+  r.trace.columns = {{"t", "s", ""}, {"com.x", "m", ""}, {"com.y", "m", ""}};
+  for (int k = 0; k <= 100; ++k) {
+    const double t = 0.1 * k;
+    const double v = t < 4 ? 7 : 0.3;  // m/s, of its start and of its gait
+    const double x = t < 4 ? v * t : 28 + v * (t - 4);
+    for (const double value : {t, x, -x}) r.trace.values.push_back(value);
+  }
+  Judged judged;
+  judged.from = 5.55;
+  judged.to = 9.95;
+  EXPECT_TRUE(std::isnan(cycle_speed(r, judged)));  // no limit cycle
+  judged.periods = 2;
+  EXPECT_NEAR(cycle_speed(r, judged), 0.3 * std::sqrt(2.0), 1e-12);
+}
+
+/// The guard: gaits that are shipped as walking keep to the ground, and a hop is told.
+TEST(Posture, ShippedGaitsKeepToTheGround) {
+  const auto share = [](const char* file, const char* duration) {
+    return posture_of(shipped(file, {"physics.engine=articulated", duration})).airborne_share;
+  };
+  EXPECT_EQ(share("caterpillar.yaml", "duration=8"), 0);
+  EXPECT_EQ(share("hexapod.yaml", "duration=6"), 0);
+}
+
+}  // namespace
+}  // namespace gaitlab::test

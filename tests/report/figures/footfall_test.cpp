@@ -1,0 +1,185 @@
+// The footfall diagram, and what the figure of a legged robot shows. Expected values are counted by hand.
+#include "report/figures/run/footfall.h"
+
+#include <limits>
+
+#include "report/figures/run/run_figure.h"
+#include "report/plot/svg.h"
+#include "tests/program/fixture.h"
+#include "tests/report/sample.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace report;
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(Footfall, StancesLastFromOneSampleToTheNext) {
+  const std::vector<double> time{0, 1, 2, 3, 4, 5};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto found = stances(time, std::vector<double>{2, 1, 3, nan, 4, 5}, 1);
+  ASSERT_EQ(found.size(), 3U);  // 1 does not exceed 1
+  EXPECT_EQ(found[0].from, 0);
+  EXPECT_EQ(found[0].to, 1);
+  EXPECT_EQ(found[1].from, 2);
+  EXPECT_EQ(found[1].to, 3);
+  EXPECT_EQ(found[2].from, 4);
+  EXPECT_EQ(found[2].to, 5);
+  EXPECT_TRUE(stances({}, {}, 1).empty());
+}
+
+TEST(Footfall, DutyFactorIsTheShareOfTheStretch) {
+  const std::vector<Stance> found{{0, 1}, {2, 3}, {4, 5}};
+  EXPECT_DOUBLE_EQ(duty_factor(found, 0, 5), 0.6);
+  EXPECT_DOUBLE_EQ(duty_factor(found, 0.5, 2.5), 0.5);
+  EXPECT_DOUBLE_EQ(duty_factor(found, 1, 2), 0);
+  EXPECT_DOUBLE_EQ(duty_factor(found, 5, 5), 0);
+}
+
+std::vector<Leg> pairs(std::size_t count) {
+  std::vector<Leg> legs;
+  for (std::size_t i = 0; i < 2 * count; ++i) {
+    Leg leg;
+    leg.modules = {static_cast<std::int64_t>(i)};
+    leg.left = i % 2 == 0;
+    legs.push_back(leg);
+  }
+  return legs;
+}
+
+TEST(Footfall, LegsHaveNames) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(leg_names(pairs(2)), (Names{"m0 front left", "m1 front right", "m2 rear left", "m3 rear right"}));
+  EXPECT_EQ(leg_names(pairs(3))[2], "m2 middle left");
+  EXPECT_EQ(leg_names(pairs(5))[3], "m3 2nd right");
+  EXPECT_EQ(leg_names(pairs(5))[4], "m4 3rd left");
+  EXPECT_EQ(leg_names(pairs(5))[7], "m7 4th right");
+  EXPECT_EQ(leg_names(pairs(5))[8], "m8 rear left");
+}
+
+TEST(Footfall, DrawsABarAStanceAndJoinsWhatNobodySees) {
+  Svg svg(1000, 100);
+  const Ticks time = ticks_within(10, 18, 8);
+  // Before the panel, over its edge, two that 1 ms parts, one to the end.
+  const Footfall row{"m9 front left", {{8, 9}, {9.5, 11}, {12, 13}, {13.001, 14}, {17, 19}}, 0.625};
+  const std::vector<Footfall> rows{row};
+  draw_footfalls(svg, {rows, "footfall", "note"}, time, {10, 18, 120, 920}, 0);
+  const std::string text = svg.finish();
+  EXPECT_EQ(count(text, "height=\"12\""), 3U);
+  EXPECT_NE(text.find("width=\"100\" height=\"12\""), std::string::npos);  // 10 to 11 s, 17 to 18 s
+  EXPECT_NE(text.find("width=\"200\" height=\"12\""), std::string::npos);  // 12 to 14 s
+  for (const std::string part : {">m9 front left<", ">0.62<", ">note<"}) EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+TEST(Footfall, StandsBetweenTheCurvesAndTheViews) {
+  FigureInput input = sample::figure();
+  const std::string without = figure_svg(input);
+  input.footfalls = {{"m9 front left", {{13, 14}}, 0.5}, {"m10 front right", {}, 0}};
+  input.footfall_note = "the note";
+  const std::string with = figure_svg(input);
+  EXPECT_EQ(without.find("footfall"), std::string::npos);
+  EXPECT_LT(with.find("time (s)"), with.find(">footfall<"));
+  EXPECT_LT(with.find(">m10 front right<"), with.find("side view"));
+  EXPECT_NE(with.find("the note"), std::string::npos);
+  input.time.clear();
+  EXPECT_EQ(figure_svg(input).find("footfall"), std::string::npos);
+}
+
+TEST(Footfall, AJointAtRestHasASensibleAngleAxis) {
+  FigureInput input = sample::figure();
+  input.views.clear();
+  for (double& angle : input.joints[0].angle) angle *= 1e-3;
+  input.joints[0].setpoint.assign(input.joints[0].setpoint.size(), 0);
+  EXPECT_EQ(figure_svg(input).find(">-0.10<"), std::string::npos);
+  input.joints[0].least_angle = 0.1;
+  EXPECT_NE(figure_svg(input).find(">-0.10<"), std::string::npos);
+  EXPECT_NE(figure_svg(input).find(">0.10<"), std::string::npos);
+}
+
+TEST(Footfall, CentralSpineJointIsThePapers) {
+  const RobotInfo robot = info(*shipped("hexapod.yaml").robot);
+  const std::vector<Leg> legs = find_legs(robot);
+  EXPECT_EQ(central_spine_joint(robot, legs), 5U);  // the paper's; joint 4 is as near to the middle, further to the rear
+  RobotInfo turned = robot;
+  for (JointInfo& joint : turned.joints) joint.axis = {0, 0, 1};
+  EXPECT_EQ(central_spine_joint(turned, legs), 5U) << "no joint bends it up and down: the middle one";
+}
+
+struct Shown {
+  explicit Shown(const std::string& name) : scenario(shipped(name, {"duration=4"})), record(run(scenario)) {}
+  Scenario scenario;
+  Recording record;
+};
+
+const Shown& shown_hexapod() {
+  static const Shown walked("hexapod.yaml");
+  return walked;
+}
+
+TEST(Footfall, LoadsAreTheSumsOfTheContactColumns) {
+  const Robot& robot = *shown_hexapod().scenario.robot;
+  const Recording& r = shown_hexapod().record;
+  const Table table(r.trace);
+  const auto contacts = contact_elements(robot, ContactSet::feet);
+  double most = 0;
+  for (std::size_t tick = 0; tick < r.rows(); ++tick) {
+    std::vector<double> sum(robot.modules.size(), 0.0);
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      sum[robot.bodies[contacts[c].body].module] += table.at(tick, fmt::format("contact.{}.fn", c));
+    }
+    for (std::size_t m = 0; m < sum.size(); ++m) {
+      most = std::max(most, sum[m]);
+      const Series load = r.series(fmt::format("load.{}", m));
+      ASSERT_EQ(load.empty() ? 0.0 : load[tick], sum[m]) << tick << " m" << m;
+    }
+  }
+  EXPECT_GT(most, 5);
+}
+
+TEST(Footfall, FigureOfAHexapodShowsItsGait) {
+  const auto& [scenario, record] = shown_hexapod();
+  const Summary summary = summarise(scenario, record, 0);
+  const std::string svg = run_figure(scenario, record, summary);
+  EXPECT_EQ(svg, run_figure(scenario, record, summary));
+  for (const std::string part :
+       {"joint 5 (m2/passive), middle of the spine", ">m9 front left<", ">m10 front right<", ">m7 middle left<",
+        ">m8 middle right<", ">m5 rear left<", ">m6 rear right<", "load above 2 % of the weight", "forward is right",
+        ", most loaded", "arrow: m", "centre of mass", "far side"}) {
+    EXPECT_NE(svg.find(part), std::string::npos) << part;
+  }
+  // Five views, a fifth of the 2 s cycle apart; without a limit cycle (a ramp of 1 s, 4 s) likewise.
+  for (const std::string part : {">2 s<", ">2.4 s<", ">2.8 s<", ">3.2 s<", ">3.6 s<"})
+    EXPECT_NE(svg.find(part), std::string::npos) << part;
+  EXPECT_EQ(count(svg, "paint-order"), 5U * 33U);
+}
+
+TEST(Footfall, LongPeriodsAreCutAndEarlyEndsDrawn) {
+  const auto& [scenario, record] = shown_hexapod();
+  Summary summary = summarise(scenario, record, 0);
+  summary.limit_cycle = {true, 0, 6, 0.001};  // a multiple of the gait's period
+  const std::string svg = run_figure(scenario, record, summary);
+  for (const std::string part : {">0 s<", ">0.8 s<", ">3.2 s<", "side view over the last 4 s"})
+    EXPECT_NE(svg.find(part), std::string::npos) << part;
+  Recording first = record;  // a run that ended at its first row
+  for (Trace* table : {&first.trace, &first.rest}) table->values.resize(table->columns.size());
+  summary.simulated = 0;
+  summary.limit_cycle = {};
+  EXPECT_EQ(count(run_figure(scenario, first, summary), "paint-order"), 33U);
+}
+
+TEST(Footfall, WithoutContactsTheFigureIsTheCommonOne) {
+  Scenario scenario = shown_hexapod().scenario;
+  scenario.contact.on = ContactSet::none;
+  const Summary summary = summarise(shown_hexapod().scenario, shown_hexapod().record, 0);
+  const std::string svg = run_figure(scenario, shown_hexapod().record, summary);
+  EXPECT_EQ(svg.find("footfall"), std::string::npos);
+  EXPECT_NE(svg.find("side view (arrow: m"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gaitlab::test

@@ -1,0 +1,121 @@
+// Figures of studies: what is marked, and the same bytes twice.
+#include "report/figures/study/study_figure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "report/verdict/figures.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace report;
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++n;
+  return n;
+}
+
+StudyFigure small_map() {
+  StudyFigure figure;
+  figure.title = "a <map>";
+  figure.x = {"cpg.amplitude", "", false};
+  figure.y = {"cpg.phase_lag", "", false};
+  figure.value = {"speed", "m/s"};
+  figure.map = figure.grid = true;
+  for (int k = 0; k < 6; ++k) {
+    StudyPoint point{0.2 + 0.1 * (k % 3), 1.0 + k / 3, 0.1 * k, 0.1 * k, 0.1 * k, PointState::feasible};
+    if (k == 1) point.state = PointState::infeasible;
+    if (k == 2) {
+      point.state = PointState::failed;
+      point.value = std::nan("");
+    }
+    figure.points.push_back(point);
+  }
+  figure.best = 5;
+  return figure;
+}
+
+TEST(StudyFigure, AMapMarksWhatIsNotFeasibleAndTheBest) {
+  const StudyFigure figure = small_map();
+  const std::string svg = study_svg(figure);
+  EXPECT_EQ(svg, study_svg(figure));
+  EXPECT_TRUE(contains(svg, "a &lt;map&gt;"));
+  EXPECT_TRUE(contains(svg, ">infeasible<"));
+  EXPECT_TRUE(contains(svg, ">failed<"));
+  EXPECT_TRUE(contains(svg, ">best<"));
+  EXPECT_EQ(occurrences(svg, "nan"), 0U);
+  EXPECT_EQ(
+      study_csv(figure).substr(0, 111),
+      "cpg.amplitude,cpg.phase_lag,speed,least,largest,state,best\n0.2,1,0,0,0,feasible,0\n0.30000000000000004,1,0.1,0.1");
+}
+
+/// A point alone, one value everywhere, nothing known, no feasible point: no figure is not a number.
+TEST(StudyFigure, ItsCornersAreDrawn) {
+  for (const bool two : {false, true}) {
+    for (const std::size_t points : {0U, 1U, 6U}) {
+      StudyFigure figure = small_map();
+      figure.map = two;
+      figure.points.resize(points);
+      figure.best = points;
+      for (StudyPoint& point : figure.points) {
+        point.value = point.low = point.high = std::nan("");
+        point.state = PointState::failed;
+      }
+      EXPECT_EQ(occurrences(study_svg(figure), "nan"), 0U) << two << points;
+      for (StudyPoint& point : figure.points) {
+        point.value = point.low = point.high = 3;
+        point.state = PointState::infeasible;
+      }
+      EXPECT_EQ(occurrences(study_svg(figure), "nan"), 0U) << two << points;
+    }
+  }
+}
+
+TEST(StudyFigure, HasAtMostTwentyThousandMarks) {
+  StudyFigure figure = small_map();
+  figure.grid = false;
+  figure.points.assign(70000, figure.points[0]);
+  figure.best = 69999;
+  EXPECT_LE(occurrences(study_svg(figure), "<circle"), 20010U);
+}
+
+TEST(Figures, AreTheNumbersOfTheSummary) {
+  const Scenario scenario = shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=0.5"});
+  const Recording record = run(scenario);
+  const Summary summary = summarise(scenario, record, 1);
+  const RunData data{scenario, record, summary};
+  std::set<std::string> names;
+  for (const Figure& figure : figures()) {
+    EXPECT_TRUE(names.insert(figure.name).second) << figure.name;
+    EXPECT_FALSE(std::isinf(figure.value(data))) << figure.name;
+    if (figure.name == "speed") {
+      EXPECT_EQ(figure.value(data), summary.speed);
+    }
+    if (figure.name == "limit_cycle.found") {
+      EXPECT_EQ(figure.value(data), summary.limit_cycle.found ? 1 : 0);
+    }
+    // The whole robot's, not the largest of the joints.
+    if (figure.name == "energy.electrical") {
+      EXPECT_EQ(figure.value(data), record.ledger.electrical);
+    }
+    if (figure.name != "torque.peak") continue;
+    double most = 0;
+    for (std::size_t j = 0; j < record.joints.size(); ++j) {
+      const double one = joint_figure("torque.peak", *scenario.robot, j)->value(data);
+      EXPECT_EQ(one, record.joints[j].torque_peak);
+      most = std::max(most, one);
+    }
+    EXPECT_EQ(figure.value(data), most);
+  }
+  EXPECT_TRUE(names.contains("torque.peak") && names.contains("fell") && !names.contains("trace_hash") &&
+              !names.contains("wall_time"));
+  EXPECT_FALSE(joint_figure("speed", *scenario.robot, 0).has_value());
+}
+
+}  // namespace
+}  // namespace gaitlab::test

@@ -1,0 +1,145 @@
+#include "report/plot/svg.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "report/plot/axes.h"
+
+namespace gaitlab::report {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::string> labels(const Ticks& ticks) {
+  std::vector<std::string> labels;
+  for (const double value : ticks.values()) labels.push_back(ticks.label(value));
+  return labels;
+}
+
+TEST(Svg, IsAWholeDocument) {
+  Svg svg(100, 50.5);
+  svg.line({0, 0}, {10, 20.126}, {.stroke = colour::kBlue});
+  EXPECT_EQ(svg.finish(),
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100\" height=\"50.5\" viewBox=\"0 0 100 50.5\" "
+            "font-family=\"sans-serif\">\n"
+            "<rect x=\"0\" y=\"0\" width=\"100\" height=\"50.5\" fill=\"#FFFFFF\"/>\n"
+            "<path d=\"M0,0L10,20.13\" fill=\"none\" stroke=\"#0072B2\" stroke-width=\"1\"/>\n"
+            "</svg>\n");
+}
+
+TEST(Svg, NumbersHaveTwoDecimalsAtMost) {
+  Svg svg(1, 1);
+  svg.polyline(std::vector<Point>{{-0.001, 1.10}, {1.0 / 3, 1000}}, {.stroke = colour::kInk});
+  EXPECT_NE(svg.finish().find("M0,1.1 0.33,1000\""), std::string::npos);
+}
+
+TEST(Svg, PolylinesBreakWhereThereIsNoNumber) {
+  Svg svg(1, 1);
+  svg.polyline(std::vector<Point>{{0, 0}, {1, 1}, {2, kNan}, {3, 3}, {4, 4}}, {.stroke = colour::kInk});
+  svg.polyline(std::vector<Point>{{kNan, 0}}, {.stroke = colour::kInk});
+  svg.circle({kNan, 0}, 1, {});
+  EXPECT_NE(svg.finish().find("\"M0,0 1,1M3,3 4,4\""), std::string::npos);
+  EXPECT_EQ(svg.finish().find("nan"), std::string::npos);
+}
+
+TEST(Svg, TextIsEscaped) {
+  EXPECT_EQ(xml_escaped("a<b> & \"c\" 'd'"), "a&lt;b&gt; &amp; &quot;c&quot; &#39;d&#39;");
+  EXPECT_EQ(xml_escaped("Grüße \xE2\x82\xAC \xF0\x9F\xA6\xBF"), "Grüße \xE2\x82\xAC \xF0\x9F\xA6\xBF");
+  EXPECT_EQ(xml_escaped("a\nb\tc"), "a b c");
+  const std::string bad = "\xEF\xBF\xBD";
+  EXPECT_EQ(xml_escaped(std::string_view("\0\x01", 2)), bad + bad);
+  EXPECT_EQ(xml_escaped("x\xFF\xC3"), "x" + bad + bad);
+  EXPECT_EQ(xml_escaped("\xC0\x80"), bad + bad);                      // overlong
+  EXPECT_EQ(xml_escaped("\xED\xA0\x80"), bad + bad + bad);            // a surrogate
+  EXPECT_EQ(xml_escaped("\xEF\xBF\xBE"), bad + bad + bad);            // U+FFFE, which XML forbids
+  EXPECT_EQ(xml_escaped("\xF4\x90\x80\x80"), bad + bad + bad + bad);  // beyond Unicode
+}
+
+TEST(Axes, StepsAreOneTwoOrFive) {
+  EXPECT_DOUBLE_EQ(nice_step(1), 1);
+  EXPECT_DOUBLE_EQ(nice_step(1.1), 2);
+  EXPECT_DOUBLE_EQ(nice_step(2.5), 5);
+  EXPECT_DOUBLE_EQ(nice_step(7), 10);
+  EXPECT_DOUBLE_EQ(nice_step(0.2), 0.2);
+  EXPECT_DOUBLE_EQ(nice_step(0.0031), 0.005);
+  EXPECT_DOUBLE_EQ(nice_step(1234), 2000);
+}
+
+TEST(Axes, TicksCoverTheRange) {
+  EXPECT_EQ(labels(ticks_around(-0.61, 0.51, 6)),
+            (std::vector<std::string>{"-0.8", "-0.6", "-0.4", "-0.2", "0.0", "0.2", "0.4", "0.6"}));
+  // A peak that sticks out by a hair costs no step.
+  EXPECT_EQ(labels(ticks_around(-0.6001, 0.6001, 6)).size(), 7U);
+  EXPECT_EQ(labels(ticks_within(12, 20, 8)).front(), "12");
+  EXPECT_EQ(labels(ticks_within(0.13, 0.41, 5)), (std::vector<std::string>{"0.2", "0.3", "0.4"}));
+}
+
+TEST(Axes, EmptyRangesAreWidened) {
+  EXPECT_EQ(labels(ticks_around(0, 0, 4)), (std::vector<std::string>{"-0.010", "-0.005", "0.000", "0.005", "0.010"}));
+  const Ticks at = ticks_around(0.2, 0.2, 6);
+  EXPECT_LT(at.lo, 0.2);
+  EXPECT_GT(at.hi, 0.2);
+  EXPECT_FALSE(ticks_around(kNan, kNan, 6).values().empty());
+  EXPECT_FALSE(ticks_around(1e300, -1e300, 6).values().empty());
+  EXPECT_FALSE(ticks_around(-1.7e308, 1.7e308, 6).values().empty());
+}
+
+TEST(Axes, TwinZerosMeet) {
+  for (const auto& [lo, hi] :
+       std::vector<std::pair<double, double>>{{-0.61, 0.51}, {-2, 2}, {0.1, 1.2}, {-0.9, -0.1}, {0, 0}, {-1e-3, 30}}) {
+    const auto [a, b] = twin_ticks(-0.6, 0.6, lo, hi);
+    EXPECT_NEAR(a.lo / a.step, b.lo / b.step, 1e-9);
+    EXPECT_NEAR(a.hi / a.step, b.hi / b.step, 1e-9);
+    EXPECT_LE(a.lo, -0.6 + 1e-2 * a.step);
+    EXPECT_LE(b.lo, lo + 1e-2 * b.step);
+    EXPECT_GE(b.hi, hi - 1e-2 * b.step);
+    EXPECT_LE(a.values().size(), 11U);
+  }
+  // The first axis stays away from zero: each its own.
+  const auto [a, b] = twin_ticks(0.78, 0.82, -1, 1);
+  EXPECT_GT(a.lo, 0.7);
+  EXPECT_LE(b.lo, -1);
+}
+
+/// An angle above zero and a torque below it would each have half of the paper.
+TEST(Axes, TwinAxesOfOppositeSignsPart) {
+  const auto [a, b] = twin_ticks(0, 0.016, -0.65, 0.02);
+  EXPECT_LE(a.hi - a.lo, 1.5 * 0.016);
+  EXPECT_LE(b.hi - b.lo, 1.5 * 0.67);
+}
+
+TEST(Axes, ThinningKeepsPeaks) {
+  std::vector<Point> points;
+  for (int i = 0; i < 100000; ++i) points.push_back({i * 0.008, i == 54321 ? -7.0 : i == 54399 ? 9.0 : 0.0});
+  const std::vector<Point> thin = thinned(points);
+  EXPECT_LE(thin.size(), 1602U);
+  double lo = 0;
+  double hi = 0;
+  for (std::size_t i = 0; i < thin.size(); ++i) {
+    lo = std::min(lo, thin[i].y);
+    hi = std::max(hi, thin[i].y);
+    if (i > 0) {
+      EXPECT_GE(thin[i].x, thin[i - 1].x);
+    }
+  }
+  EXPECT_EQ(lo, -7);
+  EXPECT_EQ(hi, 9);
+  const std::vector<Point> few(points.begin(), points.begin() + 3);
+  EXPECT_EQ(thinned(few).size(), 3U);
+}
+
+TEST(Axes, ThinningKeepsGaps) {
+  std::vector<Point> points;
+  for (int i = 0; i < 1000; ++i) points.push_back({i * 0.01, i == 500 ? kNan : 1.0});
+  int gaps = 0;
+  for (const Point& point : thinned(points)) gaps += std::isnan(point.y) ? 1 : 0;
+  EXPECT_EQ(gaps, 1);
+}
+
+}  // namespace
+}  // namespace gaitlab::report

@@ -1,0 +1,260 @@
+// Whether a run says how far its numbers can be trusted: estimate of the torque error, warnings with their remedy, summary.
+#include "report/verdict/trust.h"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "report/analysis/summary.h"
+#include "report/verdict/number_texts.h"
+#include "report/verdict/summary_text.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace report;
+
+nlohmann::json summary_of(const Scenario& s) {
+  const Recording r = run(s);
+  return nlohmann::json::parse(to_json(summarise(s, r, 1), s, r));
+}
+
+/// A run of 1 s of two joints, nothing wrong with it: peaks 1 and 0.01 N m, 10 J drawn.
+struct Doubts : testing::Test {
+  Doubts() {
+    r.joints.resize(s.robot->joints.size());
+    r.simulated = 1;
+    r.tally.estimated = true;
+    r.tally.torque_error.assign(r.joints.size(), 0.0);
+    r.tally.torque_peak.assign(r.joints.size(), 0.0);
+    r.tally.torque_peak[0] = 1;
+    r.tally.torque_peak[1] = 0.01;
+    r.ledger.electrical = r.ledger.copper = 10;
+  }
+  [[nodiscard]] static Scenario hexapod(const std::vector<std::string>& sets) { return shipped("hexapod.yaml", sets); }
+  [[nodiscard]] std::string only() const {
+    const std::vector<std::string> warnings = trust_warnings(s, r);
+    return warnings.size() == 1 ? warnings[0] : fmt::format("{} warnings", warnings.size());
+  }
+  Scenario s = hexapod({"physics.engine=articulated"});
+  Recording r;
+};
+
+TEST_F(Doubts, AreNoneWhereNothingIsWrong) { EXPECT_EQ(only(), "0 warnings"); }
+
+TEST_F(Doubts, NameTheJointWhoseTorqueIsOff) {
+  r.tally.torque_error[0] = 0.0099;
+  EXPECT_EQ(only(), "0 warnings");
+  r.tally.torque_error[0] = 0.0201;
+  EXPECT_EQ(only(),
+            "the torque of joint m0/active is off by about 2 % of its peak, estimated from other steps; take physics.accuracy: "
+            "0.002");
+  r.tally.torque_error[1] = 0.001;  // a small joint is judged by 2 % of the largest peak
+  EXPECT_EQ(only(),
+            "the torque of joint m0/passive is off by about 5 % of its peak, estimated from other steps; take "
+            "physics.accuracy: 0.001");
+  r.tally.estimated = false;
+  EXPECT_EQ(only(), "0 warnings");
+}
+
+TEST_F(Doubts, OfferAStepThatFits) {
+  r.tally.torque_error[0] = 0.04;
+  s = hexapod({"physics.engine=articulated", "physics.step=1e-3"});
+  EXPECT_EQ(s.physics.integrator->name, "implicit");
+  // Order 1: an eighth of 1 ms for half of 1 %, and all periods are whole multiples of 0.125 ms.
+  EXPECT_EQ(only(),
+            "the torque of joint m0/active is off by about 4 % of its peak, estimated from other steps; take physics.step: "
+            "0.000125, or physics.integrator: adaptive without a step");
+  s = hexapod({"physics.engine=articulated", "physics.integrator=extrapolated", "physics.step=1e-3"});
+  EXPECT_TRUE(contains(only(), "; take physics.step: 0.00025, or")) << only();  // order 2: 1 ms / sqrt(8) = 0.35 ms
+  s = hexapod({"physics.step=2.5e-5"});
+  EXPECT_TRUE(contains(only(), "; take physics.step: 2.5e-06")) << only();  // an eighth is 3.1 us
+  EXPECT_FALSE(contains(only(), "adaptive")) << only();
+}
+
+TEST_F(Doubts, AllowTheAccuracyThatWasAskedFor) {
+  s = hexapod({"physics.engine=articulated", "physics.accuracy=0.05"});
+  r.tally.torque_error[0] = 0.049;
+  EXPECT_EQ(only(), "0 warnings");
+  r.tally.torque_error[0] = 0.051;
+  EXPECT_TRUE(contains(only(), "take physics.accuracy: 0.004")) << only();
+  s = hexapod({"physics.engine=articulated", "physics.accuracy=0.001"});
+  r.tally.torque_error[0] = 0.009;  // more than asked for, and no reason to doubt
+  EXPECT_EQ(only(), "0 warnings");
+}
+
+TEST_F(Doubts, SayWhatEnergyIsMissing) {
+  r.ledger.electrical = 10.09;
+  EXPECT_EQ(only(), "0 warnings");
+  for (const double missing : {0.2, -0.2}) {
+    r.ledger.electrical = r.ledger.copper + missing;
+    EXPECT_EQ(only(), fmt::format("the energy does not add up: 0.2 J are missing of {:.3g} J drawn; take a smaller "
+                                  "physics.accuracy",
+                                  r.ledger.electrical));
+  }
+  s = hexapod({});
+  EXPECT_TRUE(contains(only(), "take a smaller physics.step")) << only();
+}
+
+TEST_F(Doubts, NameWhatIsNotFinite) {
+  EXPECT_TRUE(not_finite(s, r).empty());
+  r.ledger.gear = std::numeric_limits<double>::infinity();
+  r.joints[1].torque_rms = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(not_finite(s, r), (std::vector<std::string>{"energy.gear", "torque_rms of m0/passive"}));
+  EXPECT_EQ(texts::without_nan("RMS -nan N m; nan, inf and (nan %)\n"), "RMS    - N m;   -,   - and (  - %)\n");
+  EXPECT_EQ(texts::without_nan("nancy: inf/x 1"), "nancy: inf/x 1");
+}
+
+TEST_F(Doubts, SayWhatIsOffItsLaw) {
+  r.tally.off = 3;
+  EXPECT_EQ(only(),
+            "3 joint-steps ended off the law of their motor or stop: the torques there are wrong; does the torque of the "
+            "actuator fall with the joint's speed, as it must?");
+}
+
+TEST_F(Doubts, SayWhereTheShortestStepsWereTooLong) {
+  r.tally.coarse = 0.09;
+  EXPECT_EQ(only(), "0 warnings");
+  r.tally.coarse = 0.12;
+  EXPECT_TRUE(contains(only(), "in 12 % of the time the shortest steps of the integrator did not reach the accuracy 1 %"))
+      << only();
+}
+
+TEST(Trust, AStepThatIsTooLongIsSaidAndItsRemedyHelps) {
+  const std::string gait = "' --quiet --set duration=0.75 --set physics.engine=articulated";
+  const Folder folder;
+  const auto warnings = [&](const std::string& more, const std::string& out) {
+    const Result r = gaitlab("run '" + kScenarios + "hexapod.yaml" + gait + more + " --out " + out, folder / "");
+    EXPECT_EQ(r.code, 0) << r.err;
+    return r.err;
+  };
+  const std::string said = warnings(" --set physics.step=5e-3", "long");
+  EXPECT_TRUE(contains(said, "--set physics.step=5e-3: warning: the torque of joint m")) << said;
+  const std::size_t from = said.find("physics.step: ");
+  ASSERT_NE(from, std::string::npos) << said;
+  EXPECT_TRUE(contains(said, ", or physics.integrator: adaptive without a step\n")) << said;
+  const std::string remedy = said.substr(from + 14, said.find(',', from) - from - 14);
+  const auto error = [&](const std::string& run) {
+    return nlohmann::json::parse(read(folder / (run + "/summary.json"))).at("torque_error").at("worst").get<double>();
+  };
+  warnings(" --set physics.step=" + remedy, "short");
+  EXPECT_LT(error("short"), error("long") / 2);  // an estimate of an estimate: feet that land do not halve with the step
+  EXPECT_EQ(warnings(" --set physics.integrator=adaptive", "adaptive"), "");
+}
+
+/// Where even this fires, a user would learn to skip it.
+TEST(Trust, NothingIsSaidOfShippedScenarios) {
+  for (const char* engine : {"articulated", "bullet"}) {
+    for (const auto& file : std::filesystem::directory_iterator(kScenarios)) {
+      if (file.path().extension() != ".yaml") continue;
+      // Bullet's steps take too long for a test of all of it.
+      std::vector<std::string> sets{std::string("physics.engine=") + engine};
+      if (sets[0] == "physics.engine=bullet") sets.emplace_back("duration=0.6");
+      const Scenario s = shipped(file.path().filename(), sets);
+      const Recording r = run(s);
+      for (const std::string& warning : trust_warnings(s, r)) ADD_FAILURE() << engine << ", " << s.name << ": " << warning;
+      EXPECT_EQ(r.tally.off, 0) << s.name;
+      EXPECT_EQ(r.tally.estimated, s.actuator.entry != nullptr) << s.name;
+    }
+  }
+}
+
+TEST(Trust, TheSummarySaysHowItWasStepped) {
+  const auto json = summary_of(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=0.3"}));
+  EXPECT_EQ(json.at("step"), 0.005);
+  EXPECT_EQ(json.at("step_setting"), "auto");
+  EXPECT_EQ(json.at("integrator"), "adaptive");
+  EXPECT_EQ(json.at("accuracy"), 0.01);
+  EXPECT_GT(json.at("solves"), 60 * 3);  // at least second order: three solves in each of 60 steps
+  EXPECT_EQ(json.at("off_law"), 0);
+  EXPECT_GT(json.at("torque_error").at("worst"), 0);
+  EXPECT_EQ(json.at("torque_error").at("per_joint").size(), 22U);
+  const std::string joint = json.at("torque_error").at("joint");
+  EXPECT_GT(json.at("torque_error").at("per_joint").at(joint), 0);
+
+  const auto fixed = summary_of(shipped("hexapod.yaml", {"physics.engine=articulated", "physics.step=1e-3", "duration=0.3"}));
+  EXPECT_EQ(fixed.at("step"), 0.001);
+  EXPECT_EQ(fixed.at("step_setting"), 0.001);
+  EXPECT_EQ(fixed.at("integrator"), "implicit");
+  EXPECT_TRUE(fixed.at("accuracy").is_null());
+
+  const auto bullet = summary_of(shipped("hexapod.yaml", {"duration=0.3"}));
+  EXPECT_EQ(bullet.at("step_setting"), 2.5e-5);
+  EXPECT_EQ(bullet.at("solves"), 0);  // not counted
+  EXPECT_GT(bullet.at("torque_error").at("worst"), 0);
+}
+
+/// The columns say what the summary says, of the time until then.
+TEST(Trust, ColumnsGrowIntoTheSummary) {
+  const Scenario s = shipped("hexapod.yaml", {"physics.engine=articulated", "physics.step=5e-3", "duration=0.6",
+                                              "trace.columns=['torque_error.*', 'steps.*']"});
+  const Recording r = run(s);
+  const Table table(r.trace);
+  const std::size_t last = r.trace.rows() - 1;
+  EXPECT_EQ(table.at(last, "steps.solves"), r.tally.solves);
+  EXPECT_EQ(table.at(last, "steps.off"), 0);
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    EXPECT_EQ(table.at(last, fmt::format("torque_error.{}", j)), r.tally.torque_error[j]);
+    EXPECT_EQ(table.at(0, fmt::format("torque_error.{}", j)), 0);
+  }
+  for (std::size_t k = 1; k <= last; ++k) EXPECT_GT(table.at(k, "steps.solves"), table.at(k - 1, "steps.solves"));
+}
+
+/// A motor that jumps to its limit at the start gives a peak that no later torque comes near: the error is not relative to it.
+TEST(Trust, AnErrorIsRelativeToTheTorquesOfTheWholeRun) {
+  const Recording r = run(scenario(
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]], base: fixed, on_ground: false}\nground: {type: none}\n"
+      "contact: {on: none}\nphysics: {engine: articulated, gravity: [0, 0, 0]}\ninitial: {angles: 0.02}\n"
+      "cpg: {type: sine, frequency: 0, amplitude: 0}\nduration: 0.3\n"));
+  // The last joint moves next to nothing, and is where it should be after some milliseconds.
+  // At t = 0 the motor takes 2 V, 0.76 N m at rest; from 5 ms on, where the error is asked for, it needs 0.015 N m.
+  EXPECT_GT(r.joints[3].torque_peak, 0.4);
+  EXPECT_GT(r.tally.torque_peak[3], 0.001);
+  EXPECT_LT(r.tally.torque_peak[3], 0.1);
+}
+
+/// The torque of an ideal source depends on no speed: that two runs agree in it says nothing of their steps.
+TEST(Trust, NothingIsEstimatedOfTorqueSources) {
+  const std::string text =
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nactuator: {type: torque, limit: 1.9}\n"
+      "controller: {type: pid, unit: N m, Kp: 5, Kd: 0.05}\ncpg: {type: sine, frequency: 0.5, amplitude: 0.4}\nduration: 0.6\n";
+  for (const char* engine : {"articulated", "bullet"}) {
+    const Scenario s = scenario(text, {std::string("physics.engine=") + engine});
+    const Recording r = run(s);
+    EXPECT_TRUE(contains(steps_text(s, r), "; torque error not estimated")) << steps_text(s, r);
+    EXPECT_TRUE(nlohmann::json::parse(to_json(summarise(s, r, 1), s, r)).at("torque_error").is_null());
+  }
+}
+
+/// Torque that rises with the speed: an implicit step has many solutions, any of which is on the law. Dry friction: none where
+/// the joint sticks. Neither may pass unsaid.
+TEST(Trust, AnActuatorThatAnImplicitStepCannotSolveIsNeverSilent) {
+  const Folder folder;
+  std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
+  folder.write("rises.yaml",
+               "gaitlab: 1\nplugins: [" + std::string(GAITLAB_BINARY_DIR) +
+                   "/plugins/rises.so]\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]], base: fixed, on_ground: "
+                   "false}\nground: {type: none}\ncontact: {on: none}\nphysics: {engine: articulated}\n"
+                   "actuator: {type: rises}\ncontroller: {type: pid, unit: N m, Kp: 0.5, Ki: 0, Kd: 0}\n"
+                   "cpg: {type: sine, frequency: 0.5, amplitude: 0.4}\nduration: 0.3\n");
+  int runs = 0;
+  const auto said = [&](const std::string& sets) {
+    return gaitlab(fmt::format("run rises.yaml --quiet --out out{}{}", ++runs, sets), folder / "").err;
+  };
+  for (const char* rise : {"0.05", "1", "10"}) {
+    for (const char* steps : {"integrator=implicit", "step=5e-3", "integrator=extrapolated", "step=auto"}) {
+      const std::string text = said(fmt::format(" --set actuator.rise={} --set physics.{}", rise, steps));
+      EXPECT_TRUE(contains(text, "rises.yaml: warning: the torque of joint m") || contains(text, "error: diverged at step ") ||
+                  contains(text, "did not reach the accuracy 1 %"))
+          << rise << " " << steps << ": " << text;
+    }
+  }
+  const std::string text = said(" --set actuator.dry=0.1 --set physics.step=5e-3 --set duration=0.05");
+  EXPECT_TRUE(contains(text, " joint-steps ended off the law of their motor or stop: the torques there are wrong")) << text;
+  const auto json = nlohmann::json::parse(read(folder / fmt::format("out{}/summary.json", runs)));
+  EXPECT_GT(json.at("off_law"), 0);
+  EXPECT_FALSE(contains(said(" --set actuator.rise=-0.05"), " joint-steps ended off"));  // one that falls
+}
+
+}  // namespace
+}  // namespace gaitlab::test

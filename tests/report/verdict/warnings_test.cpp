@@ -1,0 +1,193 @@
+// Every rule is heard on a scenario made for it, and none on the shipped ones.
+#include "report/verdict/warnings.h"
+
+#include "report/analysis/summary.h"
+#include "report/verdict/trust.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace report;
+
+const std::vector<std::string> kShipped{
+    "caterpillar.yaml", "caterpillar-equations.yaml", "hexapod.yaml", "octopod.yaml", "pendulum.yaml", "rubble.yaml"};
+
+std::vector<Warning> of(const std::string& file, const std::vector<std::string>& sets) {
+  return setup_warnings(shipped(file, sets));
+}
+
+/// The one finding.
+void expect_one(const std::vector<Warning>& found, bool severe, const std::string& part) {
+  ASSERT_EQ(found.size(), 1U) << part;
+  EXPECT_EQ(found[0].severe, severe);
+  EXPECT_TRUE(contains(found[0].text, part)) << found[0].text;
+}
+
+TEST(SetupWarnings, AreSilentOnShippedScenarios) {
+  for (const std::string& file : kShipped) {
+    for (const Warning& doubt : of(file, {})) ADD_FAILURE() << file << ": " << doubt.text;
+  }
+}
+
+TEST(SetupWarnings, TellASlipOfUnits) {
+  // 3.95 mN m/A written without the milli: a factor of 1000 to Ks.
+  expect_one(of("caterpillar.yaml", {"actuator.Kt=3.95"}), true, "differ by a factor of 1e+03");
+  expect_one(of("caterpillar.yaml", {"actuator.Ks=0.0053"}), true, "differ by a factor of 1.34");
+  EXPECT_TRUE(of("caterpillar.yaml", {"actuator.Ks=0.005"}).empty()) << "1.27: of a data sheet";
+}
+
+TEST(SetupWarnings, TellAMotorWithoutTorque) {
+  for (const char* const key : {"Kt", "u_max", "i_max"}) {
+    const std::vector<Warning> found = of("caterpillar.yaml", {std::string("actuator.") + key + "=0"});
+    expect_one(found, true, std::string("m0/active makes no torque: ") + key + " is 0");
+  }
+}
+
+TEST(SetupWarnings, TellAMotorThatMakesEnergy) {
+  expect_one(of("caterpillar.yaml", {"actuator.Kt=0.0045", "actuator.efficiency=1"}), true, "makes energy");
+  EXPECT_TRUE(of("caterpillar.yaml", {"actuator.efficiency=1"}).empty()) << "an ideal motor";
+  EXPECT_TRUE(of("caterpillar.yaml", {"actuator.Kt=0.0045"}).empty()) << "efficiency 0.7: 0.00315 < 0.00395";
+}
+
+/// Kp period / (Ks gear) = 1 at Kp = 0.00395 * 594 / 0.015 = 156.4 V/rad.
+TEST(SetupWarnings, TellALoopThatCannotSettle) {
+  EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=156"}).empty());
+  expect_one(of("caterpillar.yaml", {"controller.Kp=157"}), false, "overshoots; take Kp: 150 or less");
+  expect_one(of("caterpillar.yaml", {"controller.Kp=312"}), false, "is 1.99");
+  expect_one(of("caterpillar.yaml", {"controller.Kp=314"}), true, "cannot settle; take Kp: 150 or less");
+  EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=314", "controller.period=0.005"}).empty());
+  expect_one(of("caterpillar.yaml", {"controller.Kp={default: 100, m3/active: 400}"}), true, "of joint m3/active");
+}
+
+/// Without back-EMF nothing slows the motor down, and the rule's loop is another.
+TEST(SetupWarnings, DoNotJudgeAMotorWithoutBackEmf) {
+  EXPECT_TRUE(of("caterpillar.yaml", {"actuator.Ks=0", "controller.Kp=1000"}).empty());
+}
+
+/// 20 * 3000 / (20 + 3000 * 0.015) = 923 V/rad in the first tick: the derivative moves the bound, and nothing is said.
+TEST(SetupWarnings, DoNotJudgeALoopWithADerivativeGain) {
+  EXPECT_TRUE(of("caterpillar.yaml", {"controller.Kp=400", "controller.Kd=20", "controller.N=3000"}).empty());
+}
+
+TEST(SetupWarnings, TellDegrees) {
+  expect_one(of("caterpillar.yaml", {"cpg.phase_lag=70"}), false, "70 degrees are 1.222 rad");
+  expect_one(of("caterpillar.yaml", {"robot.orientation=[0, 0, 90]"}), false, "90 degrees are 1.571 rad");
+  EXPECT_TRUE(of("caterpillar.yaml", {"cpg.phase_lag=-6.3", "robot.orientation=[0, 0, 6.3]"}).empty());
+}
+
+TEST(SetupWarnings, TellARobotBesideItsField) {
+  const std::string field =
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]%s}\nduration: 0.1\n"
+      "ground: {type: heightfield, heightfield: {values: [[0, 0], [0, 0]], origin: [5, 5, 0], spacing: 0.5}}\n";
+  const auto with = [&](const std::string& place) {
+    std::string text = field;
+    return text.replace(text.find("%s"), 2, place);
+  };
+  expect_one(setup_warnings(scenario(with(""))), true, "beside the heightfield");
+  EXPECT_TRUE(setup_warnings(scenario(with(", position: [5.2, 5.2]"))).empty());
+}
+
+std::string warnings_of(const Scenario& s) {
+  const Recording r = run(s);
+  std::string text;
+  for (const Warning& doubt : run_warnings(s, r, overlaps(s, r))) text += doubt.text + "\n";
+  return text;
+}
+
+TEST(RunWarnings, AreSilentOnShippedScenarios) {
+  for (const std::string& file : kShipped)
+    EXPECT_EQ(warnings_of(shipped(file, {"duration=4", "physics.engine=articulated"})), "") << file;
+}
+
+/// A robot without joints runs with the default columns, and has no energy balance of motors that could be off.
+TEST(RunWarnings, AreSilentOnAStone) {
+  const Scenario stone = scenario(
+      "gaitlab: 1\nrobot: {modules: {name: rigid, bodies: {block: {mass: 1, com: [0, 0, 0], inertia: [1, 1, 1, 0, 0, 0]}}}}\n"
+      "contact: {on: none}\nduration: 0.1\n");
+  EXPECT_EQ(warnings_of(stone), "");
+  EXPECT_EQ(trust_warnings(stone, run(stone)), std::vector<std::string>{});
+}
+
+TEST(RunWarnings, TellANegativeCostOfTransportHoweverSmall) {
+  const Scenario s = shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=1"});
+  Recording r = run(s);
+  double drawn = 0;
+  for (const JointStatistics& joint : r.joints) drawn += joint.electrical;
+  ASSERT_GT(drawn, 0);
+  ASSERT_GT(travelled(r).distance, 0);
+  r.joints[0].electrical -= drawn + 1e-9;
+  r.ledger.electrical = -1e-9;  // far less than lifts the robot by 1 mm
+  EXPECT_LT(summarise(s, r, 1).cost_electrical, 0);
+  expect_one(run_warnings(s, r, {}), true, "so that the cost of transport is negative");
+}
+
+TEST(RunWarnings, TellASetPointThatJumps) {
+  const std::vector<std::string> sine{"duration=0.3", "physics.engine=articulated", "cpg.type=sine"};
+  const auto with = [&](const std::string& set) {
+    std::vector<std::string> sets = sine;
+    sets.push_back(set);
+    return warnings_of(shipped("caterpillar.yaml", sets));
+  };
+  EXPECT_TRUE(contains(with("cpg.amplitude=0.6"), "0.598 rad from its angle at t = 0"));
+  EXPECT_FALSE(contains(with("cpg.model.ramp=1"), "at t = 0"));
+  EXPECT_TRUE(contains(with("cpg.offset=0.3"), "at t = 0"));
+}
+
+/// `ramp` ramps the offset, too: a scenario with both has no jump.
+TEST(RunWarnings, ARampIsOfTheOffset) {
+  const Scenario s = shipped("caterpillar.yaml", {"duration=0.1", "physics.engine=articulated", "cpg.type=sine",
+                                                  "cpg.offset=0.3", "cpg.model.ramp=1"});
+  EXPECT_FALSE(contains(warnings_of(s), "at t = 0"));
+}
+
+TEST(RunWarnings, TellACpgThatMovesNothing) {
+  const std::vector<std::string> sets{"duration=0.1", "physics.engine=articulated"};
+  EXPECT_TRUE(contains(warnings_of(shipped("caterpillar.yaml", {sets[0], sets[1], "cpg.type=keyframes"})),
+                       "cpg keyframes moves no joint"));
+  EXPECT_TRUE(contains(warnings_of(shipped("caterpillar.yaml", {sets[0], sets[1], "cpg.amplitude=0"})), "moves no joint"));
+}
+
+TEST(RunWarnings, TellJointsBeyondTheirRange) {
+  const std::string text =
+      warnings_of(shipped("caterpillar.yaml", {"duration=3", "physics.engine=articulated", "cpg.amplitude=1.9"}));
+  EXPECT_TRUE(contains(text, "is beyond its range for")) << text;
+}
+
+TEST(RunWarnings, TellARobotThatLeavesItsField) {
+  const Scenario s = scenario(
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]], position: [0, 0, 0.5]}\nduration: 0.3\n"
+      "initial: {base_velocity: [3, 0, 0]}\nphysics: {engine: articulated}\nactuator: {type: none}\n"
+      "ground: {type: heightfield, heightfield: {values: [[0, 0], [0, 0]], origin: [-0.5, -0.5, 0], spacing: 1}}\n");
+  EXPECT_TRUE(contains(warnings_of(s), "leaves its heightfield at t = 0.1"));
+}
+
+/// Seven modules in a row coil up: hinges at 1.2 rad close a ring of 2 pi / 1.2 = 5.2 modules' halves.
+TEST(RunWarnings, TellBodiesThatPassThroughOneAnother) {
+  const char* const coil =
+      "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 3, 4, 2, 0]], position: [0, 0, 1]}\n"
+      "initial: {angles: {default: %s}}\nduration: 0.02\nphysics: {engine: articulated, gravity: [0, 0, 0]}\n"
+      "actuator: {type: none}\nground: {type: none}\n";
+  const auto with = [&](const std::string& angle, const std::string& more) {
+    std::string text = coil;
+    return warnings_of(scenario(text.replace(text.find("%s"), 2, angle) + more));
+  };
+  const std::string text = with("1.2", "");
+  EXPECT_TRUE(contains(text, "bodies m0/passive and m3/active pass through one another from t = 0.00 s on")) << text;
+  EXPECT_EQ(with("0.6", ""), "");
+}
+
+/// Two modules stand on their end faces and lift their middle, or lower it: feet are at the ends alone.
+TEST(RunWarnings, TellBodiesThatGoThroughTheGround) {
+  const auto with = [&](const std::string& on) {
+    return warnings_of(
+        scenario("gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 1\nphysics: {engine: articulated}\n"
+                 "cpg: {type: sine, amplitude: 0.5, phase_lag: 1.2, frequency: 0.5, model: {ramp: 0.5}}\ncontact: {on: " +
+                 on + "}\n"));
+  };
+  EXPECT_TRUE(contains(with("feet"), "mm into the ground (some body from t = ")) << with("feet");
+  EXPECT_EQ(with("all"), "");
+}
+
+}  // namespace
+}  // namespace gaitlab::test

@@ -1,0 +1,46 @@
+// Draws against published values and moments.
+#include "studies/plan/draws.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gaitlab::studies {
+namespace {
+
+/// Outputs of the authors' splitmix64.c from the state 0; and the FNV authors' own vectors of 128 bit.
+TEST(Draws, AreThePublishedHashes) {
+  EXPECT_EQ(hash64({0}), 0xe220a8397b1dcdafU);
+  EXPECT_EQ(hash64({0x9e3779b97f4a7c15U}), 0x6e789e6aa1b965f4U);
+  EXPECT_EQ(digest(""), "6c62272e07bb014262b821756295c58d");
+  EXPECT_EQ(digest("a"), "d228cb696f1a8caf78912b704e4a8964");
+  EXPECT_EQ(digest("foobar"), "343e1662793c64bf6f0d3597ba446f18");
+}
+
+TEST(Draws, OrderOfWordsCounts) { EXPECT_NE(hash64({1, 2}), hash64({2, 1})); }
+
+/// Moments of n draws lie within four standard errors: of the mean sqrt(v / n), of the variance about v sqrt(2 / n).
+TEST(Draws, HaveTheirMoments) {
+  constexpr std::uint64_t kDraws = 100000;
+  double u = 0;
+  double u2 = 0;
+  double z = 0;
+  double z2 = 0;
+  for (std::uint64_t k = 0; k < kDraws; ++k) {
+    const double one = uniform({7, k});
+    ASSERT_TRUE(one >= 0 && one < 1);
+    u += one;
+    u2 += one * one;
+    const double other = normal({8, k});
+    z += other;
+    z2 += other * other;
+  }
+  const double n = kDraws;
+  EXPECT_NEAR(u / n, 0.5, 4 * std::sqrt(1 / 12.0 / n));
+  EXPECT_NEAR(u2 / n, 1 / 3.0, 4 * std::sqrt(4 / 45.0 / n));
+  EXPECT_NEAR(z / n, 0, 4 / std::sqrt(n));
+  EXPECT_NEAR(z2 / n, 1, 4 * std::sqrt(2 / n));
+}
+
+}  // namespace
+}  // namespace gaitlab::studies

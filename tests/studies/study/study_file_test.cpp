@@ -1,0 +1,208 @@
+// Wrong studies, each with its message, before anything runs.
+#include "studies/study/study_file.h"
+
+#include "app/study/study_figures.h"
+#include "studies/plan/plan.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+class StudyFile : public ::testing::Test {
+ protected:
+  StudyFile() {
+    std::filesystem::create_directory_symlink(kScenarios + "modules", folder_ / "modules");
+    folder_.write("two.yaml",
+                  "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nphysics: {engine: articulated}\n"
+                  "cpg: {type: phase_oscillator, frequency: 1}\nduration: 0.1\n");
+  }
+
+  /// Reads a study of two.yaml and binds it; its errors without the folder's name.
+  std::string error(const std::string& text) { return error_of(folder_.write("s.yaml", text), studies::Purpose::sweep); }
+  std::string error_of(const std::string& file, studies::Purpose purpose) {
+    try {
+      const studies::Plan plan(studies::read_study(file, purpose), app::figure_offer(), catalog());
+    } catch (const InputError& error) {
+      std::string what = error.what();
+      for (std::size_t at; (at = what.find(folder_.path().string() + "/")) != std::string::npos;)
+        what.erase(at, folder_.path().string().size() + 1);
+      return what;
+    }
+    return "taken";
+  }
+  /// Of a search, of which these lines are wrong.
+  std::string search(const std::string& lines) {
+    const std::string file = folder_.write("s.yaml",
+                                           "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.frequency: {low: 0.5, "
+                                           "high: 1}}\n" +
+                                               lines);
+    return error_of(file, studies::Purpose::optimize);
+  }
+  /// The same of a study that is right but for these lines.
+  std::string with(const std::string& lines) {
+    return error("gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.frequency: {low: 0.5, high: 1, count: 3}}\n" + lines);
+  }
+  /// Of its parameters.
+  std::string parameters(const std::string& text, const std::string& more = "") {
+    return error("gaitlab_study: 1\nscenario: two.yaml\nparameters: {" + text + "}\n" + more);
+  }
+
+  Folder folder_;
+};
+
+TEST_F(StudyFile, IsTaken) {
+  EXPECT_EQ(with(""), "taken");
+  EXPECT_EQ(with("objective: {minimize: \"torque.peak[m0/active] / max(speed, 1e-6)\"}\nconstraints: [torque.rms <= 0.6]\n"
+                 "guards: {range.share: 0.2}\nreplicates: {count: 3, vary: {actuator.R: {times: {uniform: [0.9, 1.1]}}}}\n"),
+            "taken");
+}
+
+TEST_F(StudyFile, ItsRulesForStoppingAreChecked) {
+  EXPECT_EQ(with("stop: [fell, saturated.voltage > 0.3 after 4, \"torque.peak[m0/active] > 2\"]\n"), "taken");
+  EXPECT_EQ(with("stop: [feel]\n"), "s.yaml:4:8: error: unknown figure 'feel'; did you mean 'fell'?");
+  EXPECT_EQ(with("stop: [fell after noon]\n"),
+            "s.yaml:4:8: error: a rule ends with after 'noon'; expected a number of seconds: fell after 2");
+  EXPECT_TRUE(
+      contains(with("stop: [limit_cycle.found]\n"),
+               "s.yaml:4:8: error: limit_cycle.found is known when a run has ended; while it runs there are simulated, "));
+  EXPECT_EQ(with("stop: fell\n"), "s.yaml:4:7: error: stop is 'fell'; expected a list of texts");
+}
+
+TEST_F(StudyFile, ItsSensitivityIsChecked) {
+  const std::string both = "cpg.frequency: {low: 0.5, high: 1}";
+  EXPECT_EQ(parameters(both, "method: {type: morris, trajectories: 4}\n"), "taken");
+  EXPECT_EQ(parameters(both, "method: {type: sobol_indices, samples: 8}\n"), "taken");
+  EXPECT_EQ(parameters(both, "method: {type: morris}\nbudget: {runs: 100}\n"),
+            "s.yaml:1:1: error: method morris takes no budget of runs; expected method: {trajectories: N}");
+  EXPECT_EQ(parameters("cpg.frequency: {values: [0.5, 1]}", "method: {type: morris}\n"),
+            "s.yaml:3:14: error: cpg.frequency has values one by one; method morris needs low and high");
+}
+
+TEST_F(StudyFile, ItsParametersAreChecked) {
+  EXPECT_EQ(parameters("cpg.frequency: {low: 1 Hz, high: 2, count: 3}"),
+            "s.yaml:3:35: error: low is '1 Hz'; expected a number");
+  EXPECT_EQ(parameters("cpg.frequency: {low: 2, high: 1, count: 3}"),
+            "s.yaml:3:14: error: cpg.frequency: low is 2, not below high, 1");
+  EXPECT_EQ(parameters("cpg.frequency: {low: 0, high: 1, scale: log, count: 3}"),
+            "s.yaml:3:14: error: cpg.frequency: low is 0; expected more than 0 for a logarithm");
+  EXPECT_EQ(parameters("cpg.frequency: {low: 0.1, count: 3}"), "s.yaml:3:29: error: missing key 'high'");
+  EXPECT_EQ(parameters("cpg.frequency: {values: [1, fast]}"),
+            "s.yaml:3:38: error: cpg.frequency.values mixes numbers and words; expected one or the other");
+  EXPECT_EQ(parameters("cpg.frequency: {values: [1, 2, 1.0]}"), "s.yaml:3:45: error: cpg.frequency.values holds '1' twice");
+  EXPECT_EQ(parameters("cpg.frequency: {values: []}"),
+            "s.yaml:3:38: error: cpg.frequency.values is empty; expected a list of values: [0.5, 1, 2]");
+  EXPECT_EQ(parameters("cpg.frequency: {low: 1, high: 2, cuont: 3}"),
+            "s.yaml:3:47: error: unknown key 'cuont'; did you mean 'count'?");
+  EXPECT_EQ(parameters("cpg.frequancy: {low: 1, high: 2, count: 3}"),
+            "s.yaml:3:14: error: unknown key 'frequancy'; did you mean 'frequency'?");
+  EXPECT_EQ(parameters("cpg.frequency: {low: 1, high: 2}", "method: {type: grid}\n"),
+            "s.yaml:3:14: error: cpg.frequency has no count; expected one for a grid, or method: {type: random} or sobol");
+  EXPECT_EQ(parameters("cpg.frequency: {low: 1, high: 2}"),
+            "s.yaml:1:1: error: missing budget: {runs: N}, which method random needs");
+  EXPECT_EQ(parameters("cpg.frequency: {low: 1, high: 2, count: 3}", "method: {type: sobol}\nbudget: {runs: 9}\n"),
+            "s.yaml:3:14: error: cpg.frequency has a count, which a grid takes; method.type is sobol");
+  EXPECT_EQ(
+      parameters("cpg.frequency: {low: 1, high: 2}", "method: {type: random}\nbudget: {runs: 2}\nreplicates: {count: 3}\n"),
+      "s.yaml:1:1: error: a budget of 2 runs is less than the 3 replicates of one point");
+}
+
+TEST_F(StudyFile, ItsExpressionsAreChecked) {
+  EXPECT_EQ(with("objective: {maximize: spee}\n"), "s.yaml:4:23: error: unknown figure 'spee'; did you mean 'speed'?");
+  EXPECT_EQ(with("objective: {maximize: speed + }\n"),
+            "s.yaml:4:30: error: found the end of the text; expected a number, a name or '('");
+  EXPECT_EQ(with("objective: {maximize: 2*lg(speed)}\n"), "s.yaml:4:25: error: unknown function 'lg'; did you mean 'log'?");
+  EXPECT_EQ(with("objective: {maximize: min(speed)}\n"), "s.yaml:4:23: error: min takes 2 arguments, found 1");
+  EXPECT_EQ(with("objective: {maximise: speed}\n"), "s.yaml:4:13: error: unknown key 'maximise'; did you mean 'maximize'?");
+  EXPECT_EQ(with("constraints: [torque.rms]\n"),
+            "s.yaml:4:15: error: 'torque.rms' is not a constraint; expected a <= b, a >= b or a == b");
+  EXPECT_EQ(with("constraints: ['torque.rms[m9/active] <= 1']\n"),
+            "s.yaml:4:16: error: no joint is called 'm9/active'; did you mean 'm0/active'?");
+  EXPECT_EQ(with("constraints: ['speed[m0/active] <= 1']\n"),
+            "s.yaml:4:16: error: 'speed' is of the whole robot; expected it without [m0/active]");
+  EXPECT_EQ(with("guards: {range.shar: 0.1}\n"), "s.yaml:4:10: error: unknown guard 'range.shar'; did you mean 'range.share'?");
+  EXPECT_EQ(with("guards: walk\n"),
+            "s.yaml:4:9: error: guards is 'walk'; expected gait, none, or limits by name: {range.share: 0.1}");
+}
+
+TEST_F(StudyFile, ASearchIsChecked) {
+  EXPECT_EQ(search("budget: {runs: 16}\n"), "taken");
+  EXPECT_EQ(search("budget: {runs: 64}\nobjective: [{maximize: speed}, {minimize: torque.peak}]\n"), "taken");
+  EXPECT_EQ(search(""), "s.yaml:1:1: error: missing budget: {runs: N}, which method cma needs");
+  EXPECT_EQ(search("budget: {runs: 15}\n"),
+            "s.yaml:1:1: error: a budget of 15 runs is less than the 16 of the searches' first generation");
+  EXPECT_EQ(search("budget: {runs: 63}\nmethod: {type: cma, instances: 2}\nreplicates: {count: 2}\n"),
+            "s.yaml:1:1: error: a budget of 63 runs is less than the 64 of the searches' first generation");
+  EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: cmaes}\n"),
+            "s.yaml:5:16: error: type 'cmaes' is unknown; known names: grid, random, sobol, morris, sobol_indices, cma, xnes, "
+            "sade, pso, nsga2");
+  EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: cma, population: 4}\n"),
+            "s.yaml:1:1: error: a population of 4 is too small for method cma; expected at least 5");
+  EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: cma, popul: 8}\n"),
+            "s.yaml:5:21: error: unknown key 'popul'; did you mean 'population'?");
+  EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: cma, sigma: 2}\n").substr(0, 28), "s.yaml:5:28: error: sigma is");
+  EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: nsga2}\n"),
+            "s.yaml:1:1: error: method nsga2 is for two or three objectives; expected cma, xnes, sade or pso");
+  EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: pso}\nobjective: [{maximize: speed}, {minimize: torque.peak}]\n"),
+            "s.yaml:1:1: error: method pso is for one objective; expected nsga2");
+  EXPECT_EQ(search("budget: {runs: 64}\nmethod: {type: nsga2, population: 18}\nobjective: [{maximize: speed}, {minimize: "
+                   "torque.peak}]\n"),
+            "s.yaml:1:1: error: a population of 18 does not suit method nsga2; expected a multiple of 4 from 8");
+  EXPECT_EQ(search("budget: {runs: 64, wall: 1 h}\n"), "s.yaml:4:20: error: unknown key 'wall'; known keys: runs");
+  EXPECT_EQ(search("budget: {runs: 64}\nverify: {engine: bulet}\n"),
+            "s.yaml:5:18: error: verify.engine 'bulet' is not known; did you mean 'bullet'?");
+  EXPECT_EQ(
+      search("budget: {runs: 64}\nverify: {engine: articulated}\n"),
+      "s.yaml:5:18: error: verify.engine articulated is the engine of the study itself; expected another, or none: known are "
+      "bullet, articulated");
+  EXPECT_EQ(search("budget: {runs: 64}\nverify: {best: 0}\n").substr(0, 27), "s.yaml:5:16: error: best is");
+  EXPECT_EQ(parameters("cpg.type: {values: [hopf, sine]}", "method: {type: cma}\nbudget: {runs: 64}\n"),
+            "s.yaml:1:1: error: method cma has nothing to search: no parameter has low and high");
+}
+
+TEST_F(StudyFile, TheSeedBelongsToTheReplicates) {
+  constexpr const char* kWhy = "seed cannot be chosen here; expected replicates: {count: N}, whose runs differ in their seed";
+  EXPECT_EQ(parameters("seed: {values: [3, 4]}", ""), std::string("s.yaml:3:14: error: ") + kWhy);
+  EXPECT_EQ(with("replicates: {count: 3, vary: {seed: {values: [1, 2]}}}\n"), std::string("s.yaml:4:31: error: ") + kWhy);
+}
+
+TEST_F(StudyFile, ItsReplicatesAreChecked) {
+  EXPECT_EQ(with("replicates: {vary: {ground.friction: {normal: [0.8]}}}\n"),
+            "s.yaml:4:47: error: ground.friction is not normal: [MEAN, DEVIATION]\ns.yaml:4:13: error: missing key 'count'");
+  EXPECT_EQ(
+      with("replicates: {count: 3, vary: {ground.friction: {normal: [0.8, 0.1], uniform: [0, 1]}}}\n"),
+      "s.yaml:4:48: error: ground.friction has several laws; expected one of normal: [MEAN, DEVIATION], uniform: [LOW, HIGH], "
+      "values: [...]");
+  EXPECT_EQ(
+      with("replicates: {count: 3, vary: {cpg.frequency: {uniform: [0.5, 1]}}}\n"),
+      "s.yaml:3:14: error: cpg.frequency is a parameter and drawn for every replicate; expected vary: {cpg.frequency: {times: "
+      "...}}, or one of the two");
+  EXPECT_EQ(with("replicates: {count: 3, combine: best}\n"),
+            "s.yaml:4:33: error: combine is 'best'; expected mean, worst, median, quantile(Q) with Q from 0 to 1");
+  EXPECT_EQ(with("replicates: {count: 3, vary: {robot.modules: {times: {uniform: [1, 2]}}}}\n").substr(0, 20),
+            "s.yaml:4:31: error: ");
+}
+
+TEST_F(StudyFile, ThoseThatComeWithTheProgramAreTaken) {
+  std::size_t searches = 0;
+  for (const auto& file : std::filesystem::directory_iterator(kScenarios + "studies")) {
+    const std::string name = file.path().string();
+    const auto method = studies::read_study(name, studies::Purpose::sweep).method;
+    searches += studies::is_search(method) ? 1 : 0;
+    const auto purpose = studies::is_search(method) ? studies::Purpose::optimize : studies::Purpose::sweep;
+    EXPECT_EQ(error_of(name, purpose), "taken") << name;
+  }
+  EXPECT_GE(searches, 4U);
+  const studies::Study robust = studies::read_study(kScenarios + "studies/hexapod-robust.yaml", studies::Purpose::optimize);
+  EXPECT_EQ(robust.method, studies::Method::cma);
+  EXPECT_EQ(robust.replicates.count, 8);
+  EXPECT_EQ(robust.replicates.combine, studies::Combine::worst);
+}
+
+TEST_F(StudyFile, AllThatIsWrongIsToldAtOnce) {
+  EXPECT_EQ(error("gaitlab_study: 1\nscenari: two.yaml\nparameters: {a: {low: 1, high: x}}\nseed: -1\n").substr(0, 7),
+            "s.yaml:");
+  EXPECT_EQ(error("gaitlab_study: 2\n"), "s.yaml:1:16: error: gaitlab_study is 2; this program reads format version 1");
+}
+
+}  // namespace
+}  // namespace gaitlab::test
