@@ -120,7 +120,7 @@ TEST(Gltf, KeyframesAreRowsAtLeastASixtiethApartAndTheLastOne) {
     const Scenario s =
         shipped("caterpillar.yaml", {std::string("trace.period=") + period, std::string("duration=") + duration});
     const Recording recording = run(s);
-    const std::vector<double> read = exported(s, &recording).times();
+    std::vector<double> read = exported(s, &recording).times();
     EXPECT_EQ(read.size(), to_gltf(s, &recording, kLook).frames);
     return read;
   };
@@ -148,7 +148,7 @@ TEST(Gltf, TimesGrowAfterDays) {
     values.resize(24, 0.01 * row);
     recording.trace.values.insert(recording.trace.values.end(), values.begin(), values.end());
   }
-  const std::vector<double> read = exported(s, &recording).times();
+  std::vector<double> read = exported(s, &recording).times();
   EXPECT_GT(read.size(), 50U);
   for (std::size_t k = 1; k < read.size(); ++k) EXPECT_GT(read[k], read[k - 1]);
 }

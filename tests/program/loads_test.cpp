@@ -240,9 +240,10 @@ TEST(Loads, ChangeNothingElseAndDependOnNoRowsAndNoOtherLane) {
   for (const char* const period : {"5e-4", "0.0137", "0.1"})
     EXPECT_EQ(hash(run_with_loads(walk(period, "[t, reaction.*]")).loads), hash(with.loads)) << period;
   std::vector<Scenario> lanes(4, one);
-  for (std::size_t l = 1; l < lanes.size(); ++l)
+  for (std::size_t l = 1; l < lanes.size(); ++l) {
     lanes[l] =
         shipped("caterpillar.yaml", {"duration=0.2", "physics.engine=articulated", fmt::format("cpg.amplitude=0.{}", l)});
+  }
   Simulation together(lanes, Loads::recorded);
   together.run();
   EXPECT_EQ(hash(together.take_recording(0).loads), hash(with.loads));

@@ -18,8 +18,6 @@
 namespace gaitlab::test {
 namespace {
 
-using actuators::ServoActuator;
-
 /// AX-12 at 10 V: 16.5 kgf cm, 0.196 s per 60 degrees, 0.9 A (its manual). SG92R at 4.8 V: 2.5 kgf cm, 0.12 s per 60 degrees.
 const std::string kAx12 = "voltage: 10, stall_torque: 1.618, no_load_speed: 5.343, stall_current: 0.9";
 const std::string kSg92r = "voltage: 4.8, stall_torque: 0.24517, no_load_speed: 8.7266";

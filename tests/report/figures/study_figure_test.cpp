@@ -28,7 +28,7 @@ StudyFigure small_map() {
   figure.value = {"speed", "m/s"};
   figure.map = figure.grid = true;
   for (int k = 0; k < 6; ++k) {
-    StudyPoint point{0.2 + 0.1 * (k % 3), 1.0 + k / 3, 0.1 * k, 0.1 * k, 0.1 * k, PointState::feasible};
+    StudyPoint point{0.2 + 0.1 * (k % 3), k < 3 ? 1.0 : 2.0, 0.1 * k, 0.1 * k, 0.1 * k, PointState::feasible};
     if (k == 1) point.state = PointState::infeasible;
     if (k == 2) {
       point.state = PointState::failed;

@@ -115,6 +115,7 @@ TEST(Axes, TwinAxesOfOppositeSignsPart) {
 
 TEST(Axes, ThinningKeepsPeaks) {
   std::vector<Point> points;
+  points.reserve(100000);
   for (int i = 0; i < 100000; ++i) points.push_back({i * 0.008, i == 54321 ? -7.0 : i == 54399 ? 9.0 : 0.0});
   const std::vector<Point> thin = thinned(points);
   EXPECT_LE(thin.size(), 1602U);
@@ -135,6 +136,7 @@ TEST(Axes, ThinningKeepsPeaks) {
 
 TEST(Axes, ThinningKeepsGaps) {
   std::vector<Point> points;
+  points.reserve(1000);
   for (int i = 0; i < 1000; ++i) points.push_back({i * 0.01, i == 500 ? kNan : 1.0});
   int gaps = 0;
   for (const Point& point : thinned(points)) gaps += std::isnan(point.y) ? 1 : 0;

@@ -61,13 +61,12 @@ struct Plain {
   [[nodiscard]] std::pair<Vector, Vector> get_bounds() const { return {Vector(10, -5.0), Vector(10, 5.0)}; }
 };
 
-void expect_pagmo(Method method, const pagmo::algorithm& algorithm, Function function, std::size_t objectives) {
+void expect_pagmo(Method method, pagmo::algorithm algorithm, Function function, std::size_t objectives) {
   constexpr unsigned kSeed = 7;
   constexpr int kGenerations = 60;
   const pagmo::population first(pagmo::problem(Plain{function, objectives}), 20, kSeed);
   pagmo::population serial = first;
-  pagmo::algorithm pagmos = algorithm;
-  for (int g = 0; g < kGenerations; ++g) serial = pagmos.evolve(serial);
+  for (int g = 0; g < kGenerations; ++g) serial = algorithm.evolve(serial);
 
   const auto ours = evolution({.algorithm = method,
                                .low = Vector(10, -5.0),
@@ -102,6 +101,7 @@ std::vector<Vector> asked(Search& search, Function function, std::size_t most) {
     const std::vector<Vector> points = search.ask();
     if (points.empty()) break;
     std::vector<Vector> values;
+    values.reserve(points.size());
     for (const Vector& point : points) values.push_back(function(point));
     all.insert(all.end(), points.begin(), points.end());
     search.tell(values);
@@ -146,6 +146,7 @@ TEST(Search, StartsAgainWithTwiceThePopulationAndEnds) {
     restarts = std::max(restarts, search.restart());
     largest = std::max(largest, points.size());
     std::vector<Vector> values;
+    values.reserve(points.size());
     for (const Vector& point : points) values.push_back({std::abs(point[0] - 0.3)});
     search.tell(values);
   }

@@ -68,7 +68,7 @@ TEST(Sensitivity, MorrisOfALinearFunctionIsExact) {
     for (std::size_t k = 0; k < 4; ++k) sum += kCoefficients[k] * shares[k];
     return sum;
   };
-  const Sensitivity found = morris(7, 4, answers(20 * 5, design, linear));
+  const Sensitivity found = morris(7, 4, answers(20UL * 5, design, linear));
   constexpr double kRounding = 1e-13;
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_NEAR(found.measures[0].of[k].value, std::abs(kCoefficients[k]), kRounding);
@@ -82,7 +82,7 @@ TEST(Sensitivity, MorrisOfALinearFunctionIsExact) {
 TEST(Sensitivity, SigmaTellsWhatIsNotLinear) {
   const auto design = [](std::uint64_t point) { return morris_shares(1, 2, point); };
   const auto product = [](const Shares& s) { return (2 * s[0] - 1) * (2 * s[1] - 1); };
-  const Sensitivity found = morris(1, 2, answers(400 * 3, design, product));
+  const Sensitivity found = morris(1, 2, answers(400UL * 3, design, product));
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_GT(found.measures[2].of[k].value, 1);
     EXPECT_LT(std::abs(found.measures[1].of[k].value), 0.3);
@@ -111,8 +111,8 @@ TEST(Sensitivity, OneStepOfATrajectoryChangesOneParameter) {
 /// A run that failed takes its trajectory or row along, and nothing else.
 TEST(Sensitivity, LeavesOutWhatHoldsAFailedRun) {
   const auto design = [](std::uint64_t point) { return saltelli_shares(2, point); };
-  std::vector<double> values = answers(64 * 4, design, [](const Shares& s) { return s[0] + 2 * s[1]; });
-  const Sensitivity whole = sobol_indices(2, std::span(values).first(63 * 4));
+  std::vector<double> values = answers(64UL * 4, design, [](const Shares& s) { return s[0] + 2 * s[1]; });
+  const Sensitivity whole = sobol_indices(2, std::span(values).first(63UL * 4));
   values[63 * 4 + 2] = kMissing;
   const Sensitivity found = sobol_indices(2, values);
   EXPECT_EQ(found.used, 63U);
@@ -122,10 +122,10 @@ TEST(Sensitivity, LeavesOutWhatHoldsAFailedRun) {
 
 /// Nothing left, one left, a function that does not vary: not known, and no number that looks like one.
 TEST(Sensitivity, IsNotKnownWhereNothingVaries) {
-  const std::vector<double> none(8 * 4, kMissing);
+  const std::vector<double> none(8UL * 4, kMissing);
   EXPECT_TRUE(std::isnan(sobol_indices(2, none).measures[0].of[0].value));
   EXPECT_TRUE(std::isnan(morris(1, 3, none).measures[0].of[0].value));
-  const std::vector<double> flat(8 * 4, 0.3);
+  const std::vector<double> flat(8UL * 4, 0.3);
   EXPECT_TRUE(std::isnan(sobol_indices(2, flat).measures[0].of[0].value));
   EXPECT_EQ(morris(1, 3, flat).measures[0].of[0].value, 0);
   std::vector<double> one = none;

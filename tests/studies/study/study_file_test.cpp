@@ -24,7 +24,7 @@ class StudyFile : public ::testing::Test {
       const studies::Plan plan(studies::read_study(file, purpose), app::figure_offer(), catalog());
     } catch (const InputError& error) {
       std::string what = error.what();
-      for (std::size_t at; (at = what.find(folder_.path().string() + "/")) != std::string::npos;)
+      for (std::size_t at = 0; (at = what.find(folder_.path().string() + "/")) != std::string::npos;)
         what.erase(at, folder_.path().string().size() + 1);
       return what;
     }
