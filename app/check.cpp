@@ -39,7 +39,7 @@ struct CheckArguments : ScenarioArguments {
 void write_page(const Scenario& s, const std::string& file) {
   const Recording start = report::start_row(s);
   report::Verdict verdict;
-  verdict.word = "not judged";
+  verdict.word = report::Word::not_judged;
   write_file(file, report::page(report::page_data(s, start, report::summarise(s, start, 0), verdict)), Existing::refused);
 }
 

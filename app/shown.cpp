@@ -66,13 +66,13 @@ report::Verdict judged(const Scenario& scenario, const Recording& recording, con
 
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {
   if (!shown.fail_infeasible) return 0;
-  return verdict.word == "failed" ? 1 : verdict.word == "infeasible" ? 3 : 0;
+  return verdict.word == report::Word::feasible ? 0 : verdict.word == report::Word::failed ? 1 : 3;
 }
 
 void add_shown(CLI::App& command, SummaryOptions& shown) {
   command.add_flag("--joints", shown.joints, "print a row per joint, the most loaded first");
   command.add_flag("--fail-infeasible", shown.fail_infeasible,
-                   "exit code 3 where the verdict is infeasible, 1 where the run failed");
+                   "exit code 3 unless the verdict is feasible, 1 where the run failed");
   command.add_flag("--demand", shown.demand,
                    "simulate once more without the limits of the motors where joints reach them, and tell how much is missing");
   command.add_flag("--verbose", shown.verbose, "print the energy ledger and the limit of the step, too");

@@ -186,8 +186,8 @@ report::CurvesInput figure(const std::vector<Swapped>& all) {
 
 void print_verdicts(const std::vector<Swapped>& all) {
   for (const Swapped& one : all) {
-    const auto first = std::ranges::find(one.verdict.checks, report::CheckStatus::fail, &report::Check::status);
-    fmt::print("{}: {}{}\n", one.cpg, one.verdict.word, first == one.verdict.checks.end() ? "" : ": " + first->text);
+    const std::string why = one.verdict.why();
+    fmt::print("{}: {}{}\n", one.cpg, name_of(one.verdict.word), why.empty() ? "" : ": " + why);
   }
 }
 

@@ -277,7 +277,7 @@ void add_test(Commands& commands) {
             ->check(not_empty);
         command.add_option("--out", arguments.out, "folder for figures and pages of what failed (default runs/test)");
         command.add_flag("--fail-infeasible", arguments.fail_infeasible,
-                         "exit code 3 where the verdict on a run is infeasible, and nothing worse came up");
+                         "exit code 3 where the verdict on a run with motors is not feasible, and nothing worse came up");
         command.add_flag("--strict", arguments.strict, "in a folder, too, a scenario without a golden is an error");
       });
 }

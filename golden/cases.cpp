@@ -217,7 +217,7 @@ void run_cases(std::vector<GoldenCase>& cases, const TestArguments& arguments, c
     if (!c.scenario) continue;
     judge(c, *outcome);
     if (c.verdict == Verdict::passed && !outcome->infeasible.empty())
-      c.fail(Verdict::infeasible, fmt::format("{}: infeasible: {}", c.file, outcome->infeasible));
+      c.fail(Verdict::infeasible, fmt::format("{}: {}", c.file, outcome->infeasible));
     ++outcome;
   }
 }

@@ -83,12 +83,12 @@ std::uint64_t splitmix64(std::uint64_t counter) {
 // In [-1, 1).
 double symmetric(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-52 - 1; }
 
-/// What the verdict says where it is infeasible.
+/// Why the verdict is not `feasible`; empty: it is, or no motor drives the robot.
 std::string infeasible(const Scenario& scenario, const Recording& record) {
   const report::Verdict verdict =
       report::verdict(scenario, record, report::summarise(scenario, record, 0), report::overlaps(scenario, record));
-  if (verdict.word != "infeasible") return "";
-  return std::ranges::find(verdict.checks, report::CheckStatus::fail, &report::Check::status)->text;
+  if (verdict.word == report::Word::feasible || !report::has_motors(scenario)) return "";
+  return std::string(name_of(verdict.word)) + ": " + verdict.why();
 }
 
 GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>& progress, std::string* why) {

@@ -15,11 +15,14 @@ namespace {
 constexpr const char* kExcess = "verdict_excess";
 
 double verdict_excess(const report::Verdict& verdict) {
-  if (verdict.word == "not judged") return std::nan("");
+  const auto known = [](const report::Check& check) {
+    return check.status == report::CheckStatus::fail || (check.group == "motor" && check.status != report::CheckStatus::not_judged);
+  };
+  if (std::ranges::none_of(verdict.checks, known)) return std::nan("");
   constexpr double kLeast = 1e-6;  // of a check that fails at its limit
   double sum = 0;
   for (const report::Check& check : verdict.checks) {
-    if (check.status != report::CheckStatus::fail || check.group == "trust") continue;
+    if (check.status != report::CheckStatus::fail) continue;
     const double beyond = std::abs(check.value - check.limit) / (check.limit == 0 ? 1 : std::abs(check.limit));
     sum += std::isfinite(beyond) ? std::max(beyond, kLeast) : 1;
   }
@@ -108,7 +111,7 @@ studies::Measure figure_measure(const std::vector<studies::FigureName>& columns,
                                : excess   ? verdict_excess(verdict)
                                           : std::nan(""));
     }
-    judged.verdict = verdict.word;
+    judged.verdict = name_of(verdict.word);
     return judged;
   };
 }

@@ -45,12 +45,14 @@ Posture posture(const Scenario& scenario, const Recording& r, const Judged& judg
   const double weight = scenario.robot->mass * scenario.physics.gravity.norm();
   std::size_t rows = 0;
   std::size_t airborne = 0;
+  double borne = 0;    // N, sum over the ticks
   double upright = 1;  // least cosine of the tilt
   for (std::size_t row = 0; row < time.size(); ++row) {
     if (!(time[row] > judged.from) || time[row] > judged.to) continue;
     double load = 0;
     for (const Series& one : loads) load += one[row];
     airborne += load < kAirborne * weight ? 1 : 0;
+    borne += load;
     found.height_min = rows == 0 ? z[row] : std::min(found.height_min, z[row]);
     found.height_max = rows == 0 ? z[row] : std::max(found.height_max, z[row]);
     // Of the turned z axis, the part along world z.
@@ -59,7 +61,9 @@ Posture posture(const Scenario& scenario, const Recording& r, const Judged& judg
   }
   if (rows == 0) return found;
   found.tilt_max = std::acos(std::clamp(upright, -1.0, 1.0));
-  if (!loads.empty() && weight > 0) found.airborne_share = static_cast<double>(airborne) / static_cast<double>(rows);
+  if (loads.empty() || !(weight > 0)) return found;
+  found.airborne_share = static_cast<double>(airborne) / static_cast<double>(rows);
+  found.borne_share = borne / (weight * static_cast<double>(rows));
   return found;
 }
 

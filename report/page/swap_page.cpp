@@ -43,15 +43,14 @@ std::string typeset(const std::string& text) {
 }
 
 std::string verdict_cell(const Verdict& verdict) {
-  const bool bad = verdict.word == "infeasible" || verdict.word == "failed";
-  const auto first = std::ranges::find(verdict.checks, CheckStatus::fail, &Check::status);
-  std::string why = first != verdict.checks.end() ? first->text : "";
+  const bool bad = verdict.word == Word::infeasible || verdict.word == Word::failed;
+  std::string why = verdict.why();
   if (verdict.count(CheckStatus::warn) > 0)
     why += fmt::format("{}{} warning{}", why.empty() ? "" : "; ", verdict.count(CheckStatus::warn),
                        verdict.count(CheckStatus::warn) == 1 ? "" : "s");
-  const char* const mark = bad ? "fail" : verdict.word == "feasible" ? "pass" : "open";
-  const char* const sign = bad ? "✕" : verdict.word == "feasible" ? "✓" : "?";
-  return fmt::format("<b class=\"{}\">{} {}</b><small>{}</small>", mark, sign, verdict.word, xml_escaped(why));
+  const char* const mark = bad ? "fail" : verdict.word == Word::feasible ? "pass" : "open";
+  const char* const sign = bad ? "✕" : verdict.word == Word::feasible ? "✓" : "?";
+  return fmt::format("<b class=\"{}\">{} {}</b><small>{}</small>", mark, sign, name_of(verdict.word), xml_escaped(why));
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include "report/analysis/envelope.h"
 #include "report/analysis/fall.h"
 #include "report/analysis/motors.h"
+#include "report/verdict/evidence.h"
+#include "report/verdict/trust.h"
 #include "report/verdict/verdict.h"
 
 namespace gaitlab::report {
@@ -21,6 +23,8 @@ struct CheckedRun {
   bool has_dc_motors = report::dc_motors(scenario);
   std::string motor_source = report::motor_source(scenario);
   std::optional<Fall> fall = report::fall(scenario, record);
+  Evidence evidence = report::evidence(scenario, record, summary);
+  std::vector<double> torque_errors = report::torque_errors(record);  ///< of each joint, share of its largest torque
 
   [[nodiscard]] const std::string& joint(std::size_t j) const { return scenario.robot->joints[j].name; }
   [[nodiscard]] const Limits& limits() const { return scenario.limits; }
@@ -31,6 +35,10 @@ struct CheckedRun {
 
 /// Up to `pass` a pass, up to `warn` a warning, above it, and where it is not a number, a failure.
 CheckStatus graded(double value, double pass, double warn);
+
+/// A limit within the error of the value makes the status `too close` of a check that passes, warns or fails by less than that;
+/// the text then has the range and the remedy. error: share of the value.
+void widen(const Scenario& scenario, double error, double limit, Check& made);
 
 /// Who says a threshold of the section `limits`; all of their defaults are chosen.
 std::string threshold(const char* key, double value, double preset);
@@ -53,6 +61,8 @@ void stops(const CheckedRun& run, Check& made);
 void collision(const CheckedRun& run, Check& made);
 void battery(const CheckedRun& run, Check& made);
 void in_ground(const CheckedRun& run, Check& made);
+void progress(const CheckedRun& run, Check& made);
+void evidence(const CheckedRun& run, Check& made);
 void torque_error(const CheckedRun& run, Check& made);
 void ledger(const CheckedRun& run, Check& made);
 void created(const CheckedRun& run, Check& made);

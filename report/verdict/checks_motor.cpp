@@ -111,16 +111,19 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
   }
 }
 
-/// Of every joint a value and what it may be; not a number: not known, not finite or 0: not stated.
+/// Of every joint a value and its limit; not a number: not known, not finite or 0: not stated.
 struct Rated {
   double value, limit, time;
 };
 
-/// The joint that comes nearest to its limit, or is farthest beyond it. none: what is said where no joint has a limit.
+/// The joint that comes nearest to its limit, or is farthest beyond it, which is returned. none: what is said where no joint
+/// has a limit.
 template <class Rate>
-void rated(const CheckedRun& run, Check& made, TickColumn column, const char* none, double pass, double warn, Rate rate) {
+std::size_t rated(const CheckedRun& run, Check& made, TickColumn column, const char* none, double pass, double warn,
+                  Rate rate) {
   made.text = run.unknown(column);
-  if (!made.text.empty()) return;
+  std::size_t found = 0;
+  if (!made.text.empty()) return found;
   made.text = none;
   double worst = -1;
   for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
@@ -131,15 +134,22 @@ void rated(const CheckedRun& run, Check& made, TickColumn column, const char* no
     if (share > (std::isfinite(warn) ? warn : pass)) ++made.joints;
     if (share <= kLarger * worst) continue;
     worst = share;
+    found = j;
     made.value = of.value;
     made.limit = of.limit;
     made.joint = run.joint(j);
     made.from = made.to = of.time;
   }
-  if (worst < 0) return;
+  if (worst < 0) return found;
   made.status = graded(worst, pass, warn);
   made.source = run.motor_source;
   made.text.clear();
+  return found;
+}
+
+/// Share by which the torque of a joint, and so its current, may be off; 0: not estimated.
+double error_of(const CheckedRun& run, std::size_t joint) {
+  return joint < run.torque_errors.size() ? run.torque_errors[joint] : 0;
 }
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -187,32 +197,38 @@ void speed(const CheckedRun& run, Check& made) {
 }
 
 void heat(const CheckedRun& run, Check& made) {
-  rated(run, made, kCurrentSquare, "nobody states the continuous current of the motors (actuator.i_continuous)",
-        run.limits().margin, 1, [&](std::size_t j) {
-          return Rated{run.summary.judged.joints[j].current_rms, run.motors.joint(j).continuous.value_or(0), kNoTime};
-        });
+  const std::size_t worst =
+      rated(run, made, kCurrentSquare, "nobody states the continuous current of the motors (actuator.i_continuous)",
+            run.limits().margin, 1, [&](std::size_t j) {
+              return Rated{run.summary.judged.joints[j].current_rms, run.motors.joint(j).continuous.value_or(0), kNoTime};
+            });
   if (made.status == CheckStatus::not_judged) return;
   made.text = fmt::format("the motor of joint {} takes {:.3g} A RMS, {} of what it bears for good", made.joint, made.value,
                           texts::percent(made.value / made.limit));
+  widen(run.scenario, error_of(run, worst), made.limit, made);
 }
 
 void gear_peak(const CheckedRun& run, Check& made) {
-  rated(run, made, kTorquePeak, "nobody states the largest torque of the gears (actuator.gear_torque_peak)",
-        run.limits().margin, 1, [&](std::size_t j) {
-          const JudgedJoint& joint = run.summary.judged.joints[j];
-          return Rated{joint.torque_peak, run.motors.joint(j).gear_peak.value_or(0), joint.torque_peak_time};
-        });
+  const std::size_t worst =
+      rated(run, made, kTorquePeak, "nobody states the largest torque of the gears (actuator.gear_torque_peak)",
+            run.limits().margin, 1, [&](std::size_t j) {
+              const JudgedJoint& joint = run.summary.judged.whole[j];
+              return Rated{joint.torque_peak, run.motors.joint(j).gear_peak.value_or(0), joint.torque_peak_time};
+            });
   if (made.status == CheckStatus::not_judged) return;
   made.text = fmt::format("the gear of joint {} takes up to {:.3g} N m of {:.3g} N m", made.joint, made.value, made.limit);
+  widen(run.scenario, error_of(run, worst), made.limit, made);
 }
 
 void gear_continuous(const CheckedRun& run, Check& made) {
-  rated(run, made, kTorqueSquare, "nobody states the continuous torque of the gears (actuator.gear_torque_continuous)",
-        run.limits().margin, 1, [&](std::size_t j) {
-          return Rated{run.summary.judged.joints[j].torque_rms, run.motors.joint(j).gear_continuous.value_or(0), kNoTime};
-        });
+  const std::size_t worst =
+      rated(run, made, kTorqueSquare, "nobody states the continuous torque of the gears (actuator.gear_torque_continuous)",
+            run.limits().margin, 1, [&](std::size_t j) {
+              return Rated{run.summary.judged.joints[j].torque_rms, run.motors.joint(j).gear_continuous.value_or(0), kNoTime};
+            });
   if (made.status == CheckStatus::not_judged) return;
   made.text = fmt::format("the gear of joint {} takes {:.3g} N m RMS of {:.3g} N m", made.joint, made.value, made.limit);
+  widen(run.scenario, error_of(run, worst), made.limit, made);
 }
 
 }  // namespace checks

@@ -42,6 +42,8 @@ struct Window {
   const Trace& loads;
   std::size_t start = 0;
 
+  /// The whole run.
+  explicit Window(const Recording& record) : loads(record.loads) {}
   /// Rows are those of Recording::ticks.
   Window(const Recording& record, const Summary& summary)
       : loads(record.loads), start(std::min(summary.judged.first_row, std::max<std::size_t>(record.loads.rows(), 1) - 1)) {}
@@ -114,12 +116,12 @@ std::vector<double> dock_limits(const Robot& robot, DockQuantity quantity) {
   return limits;
 }
 
-void judge_docks(const Scenario& scenario, const Recording& record, const Summary& summary, DockQuantity quantity,
-                 const std::vector<double>& limits, Check& made) {
+void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity quantity, const std::vector<double>& limits,
+                 Check& made) {
   const std::size_t modules = scenario.robot->modules.size();
   made.text = modules < 2 ? "the robot has no dock" : unknown(scenario, record);
   if (!made.text.empty()) return;
-  const Window window(record, summary);
+  const Window window(record);  // a dock that opens once has opened
   std::vector<DockPeak> peaks;
   for (std::size_t m = 1; m < modules; ++m)
     peaks.push_back(peak_of(window, m, quantity, m < limits.size() ? limits[m] : kUnknown));

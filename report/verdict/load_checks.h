@@ -12,10 +12,10 @@ enum class DockQuantity { tension, shear, bending, torsion };
 /// NaN, and all where it is empty: nobody states it.
 std::vector<double> dock_limits(const Robot& robot, DockQuantity quantity);
 
-/// The largest load of any dock in the judged window against `limits`: of the dock that comes nearest to its limit, or where no
+/// The largest load of any dock in the whole run against `limits`: of the dock that comes nearest to its limit, or where no
 /// limit is stated the largest at all, not judged. Of a tension only the pull counts, of a torsion either way.
-void judge_docks(const Scenario& scenario, const Recording& record, const Summary& summary, DockQuantity quantity,
-                 const std::vector<double>& limits, Check& made);
+void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity quantity, const std::vector<double>& limits,
+                 Check& made);
 
 /// How far the robot's weight slid on its feet over how far the robot went, in the judged window; warns above Limits::slip.
 void judge_slip(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made);

@@ -129,10 +129,7 @@ std::string swap_json(const std::vector<NamedRun>& runs) {
 
 std::string why_not(const MatrixRun& one) {
   if (broke_off(one.named)) return in_one_line(one.named.run.summary.outcome);
-  const std::vector<Check>& checks = one.verdict.checks;
-  const auto fails = [](const Check& check) { return check.status == CheckStatus::fail && check.group != "trust"; };
-  const auto first = std::find_if(checks.begin(), checks.end(), fails);
-  return first == checks.end() ? "" : in_one_line(first->text);
+  return in_one_line(one.verdict.why());
 }
 
 std::string matrix_table(const std::vector<MatrixRun>& runs) {
@@ -153,8 +150,8 @@ std::string matrix_table(const std::vector<MatrixRun>& runs) {
                      row(
                          "cpg", "scenario", [](const SummaryNumber& number) { return number.swap.under; }, "feasible");
   for (const MatrixRun& one : runs) {
-    const std::string& word = one.verdict.word;
-    const char* mark = word == "feasible" ? "y" : word == "not judged" ? "-" : "n";
+    const Word word = one.verdict.word;
+    const char* mark = word == Word::feasible ? "y" : word == Word::not_judged ? "-" : "n";
     const auto cell = [&](const SummaryNumber& number) { return broke_off(one.named) ? "-" : number.swap.cell(one.named.run); };
     text += row(one.named.name, one.scenario, cell, fmt::format("{}  {}", mark, why_not(one)));
   }
@@ -164,8 +161,8 @@ std::string matrix_table(const std::vector<MatrixRun>& runs) {
 std::string matrix_csv(const std::vector<MatrixRun>& runs) {
   std::string text = csv_head("cpg,scenario,verdict,why");
   for (const MatrixRun& one : runs) {
-    const std::string first = fmt::format("{},{},{},{}", quoted(one.named.name), quoted(one.scenario), quoted(one.verdict.word),
-                                          quoted(why_not(one)));
+    const std::string first = fmt::format("{},{},{},{}", quoted(one.named.name), quoted(one.scenario),
+                                          quoted(name_of(one.verdict.word)), quoted(why_not(one)));
     text += csv_numbers(first, one.named);
   }
   return text;
@@ -175,7 +172,7 @@ std::string matrix_json(const std::vector<MatrixRun>& runs) {
   Json all = Json::object();
   for (const MatrixRun& one : runs) {
     Json& cell = all[one.named.name][one.scenario] = json_numbers(one.named);
-    cell["verdict"] = one.verdict.word;
+    cell["verdict"] = name_of(one.verdict.word);
     cell["why"] = why_not(one);
   }
   return all.dump(2) + "\n";

@@ -29,8 +29,9 @@ double one_digit(double value) {
   return std::floor(value / decade) * decade;
 }
 
-/// What brings the torque error from `share` to kGood.
-std::string remedy(const Scenario& s, double share) {
+}  // namespace
+
+std::string torque_remedy(const Scenario& s, double share) {
   const Physics& physics = s.physics;
   const double ratio = kGood / share / kMargin;
   if (physics.adapts()) {
@@ -45,16 +46,21 @@ std::string remedy(const Scenario& s, double share) {
   return text;
 }
 
-}  // namespace
+std::vector<double> torque_errors(const Recording& r) {
+  double largest = 0;
+  for (const double peak : r.tally.torque_peak) largest = std::max(largest, peak);
+  if (!r.tally.estimated || !(largest > 0)) return {};
+  std::vector<double> shares;
+  for (std::size_t j = 0; j < r.joints.size(); ++j)
+    shares.push_back(r.tally.torque_error[j] / std::max(r.tally.torque_peak[j], kLeastPeak * largest));
+  return shares;
+}
 
 TorqueError torque_error(const Recording& r) {
   TorqueError worst;
-  double largest = 0;
-  for (const double peak : r.tally.torque_peak) largest = std::max(largest, peak);
-  if (!r.tally.estimated || !(largest > 0)) return worst;
-  for (std::size_t j = 0; j < r.joints.size(); ++j) {
-    const double share = r.tally.torque_error[j] / std::max(r.tally.torque_peak[j], kLeastPeak * largest);
-    if (share > worst.share) worst = {true, share, j};
+  const std::vector<double> shares = torque_errors(r);
+  for (std::size_t j = 0; j < shares.size(); ++j) {
+    if (shares[j] > worst.share) worst = {true, shares[j], j};
   }
   worst.estimated = worst.share > 0;  // else both took the same steps, which says nothing
   return worst;
@@ -121,7 +127,7 @@ std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
   if (error.share > torque_error_limit(s)) {
     warnings.push_back(fmt::format("the torque of joint {} is off by about {} of its peak, estimated from other steps; take {}",
                                    s.robot->joints[error.joint].name, texts::rough_percent(error.share),
-                                   remedy(s, error.share)));
+                                   torque_remedy(s, error.share)));
   }
   if (s.physics.adapts() && r.tally.coarse > kOftenCoarse * r.simulated) {
     warnings.push_back(

@@ -15,9 +15,14 @@ struct TorqueError {
   std::size_t joint = 0;
 };
 TorqueError torque_error(const Recording& record);
+/// The same of each joint; empty where it was not estimated.
+std::vector<double> torque_errors(const Recording& record);
 
 /// Share that torque_error may have: 1 %, or the accuracy that the scenario asks for, if that is more.
 double torque_error_limit(const Scenario& scenario);
+
+/// The setting that brings the torque error from `share` to 1 %: `physics.accuracy: 0.003`.
+std::string torque_remedy(const Scenario& scenario, double share);
 
 /// `step auto (at most 0.005 s), accuracy 1 %`, or `step 2.5e-05 s`.
 std::string step_text(const Physics& physics);

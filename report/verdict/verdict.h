@@ -1,4 +1,4 @@
-// Whether the actual robot can do the gait of a run: every limit that is known, checked in the judged window.
+// The verdict on a run: can the actual robot do this gait? Every known limit, checked in the judged window or the whole run.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace gaitlab::report {
 
-enum class CheckStatus { pass, warn, fail, not_judged };
+enum class CheckStatus { pass, warn, fail, too_close, not_judged };
+enum class Word { feasible, infeasible, not_judged, failed };
 
 /// A limit, and the number of the run that is held against it. NaN: the number is not known.
 struct Check {
@@ -34,10 +35,13 @@ struct JointDemand {
 };
 
 struct Verdict {
-  /// feasible: no check outside of `trust` fails. infeasible: one does. failed: the run ended early. not judged: nothing is
-  /// known of the motors.
-  std::string word;
-  double from = 0, to = 0;  ///< s, the judged window
+  /// failed: the run ended early. infeasible: a check fails. feasible: none fails, none is too close to its limit, at least one
+  /// limit of the motors was judged, of a robot on a ground `fall` and `in_ground` too, and there is evidence (evidence.h).
+  /// not judged: all else; also where a check fails that more time could pass, and the run is too short.
+  Word word = Word::not_judged;
+  std::string reason = {};    ///< of `not judged`: what is missing, and what to set
+  std::string rests_on = {};  ///< of the evidence: `3 periods of 4 s`
+  double from = 0, to = 0;    ///< s, the judged window
   std::vector<Check> checks;
   /// Whether a check that was judged rests on figures of motors that are chosen, not a maker's.
   bool chosen_motors = false;
@@ -49,6 +53,8 @@ struct Verdict {
   std::vector<JointDemand> demands = {};  ///< empty: no joint reaches a limit, or nobody asked
   std::string demand_doubt = {};          ///< why demands are not known, or doubtful
   [[nodiscard]] std::size_t count(CheckStatus status) const;
+  /// One sentence behind the word: the reason of `not judged`, else the first check that fails; empty of `feasible`.
+  [[nodiscard]] std::string why() const;
 };
 
 /// Shares, peaks and spans are of all steps (Recording::ticks), or of rows (row_statistics.h). A limit that nobody states is
@@ -57,11 +63,14 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
 
 /// `pass`, `not judged` ...
 const char* name_of(CheckStatus status);
+/// `feasible` ...
+const char* name_of(Word word);
 
 /// The text of verdict.json.
 std::string to_json(const Verdict& verdict);
 
-/// `infeasible: ` and what fails first, then the names of all that fails, warns and was not judged; at most 64 columns each.
+/// `infeasible: ` and the first check that fails, or `not judged: ` and the reason; then the names of the checks that fail,
+/// warn and were not judged; at most 64 columns each.
 std::vector<std::string> to_lines(const Verdict& verdict);
 
 }  // namespace gaitlab::report

@@ -26,6 +26,21 @@ const char* name_of(CheckStatus status) {
       return "warn";
     case CheckStatus::fail:
       return "fail";
+    case CheckStatus::too_close:
+      return "too close";
+    default:
+      return "not judged";
+  }
+}
+
+const char* name_of(Word word) {
+  switch (word) {
+    case Word::feasible:
+      return "feasible";
+    case Word::infeasible:
+      return "infeasible";
+    case Word::failed:
+      return "failed";
     default:
       return "not judged";
   }
@@ -35,7 +50,9 @@ std::string to_json(const Verdict& verdict) {
   using Json = nlohmann::ordered_json;
   Json json;
   json["format"] = 1;
-  json["verdict"] = verdict.word;
+  json["verdict"] = name_of(verdict.word);
+  json["reason"] = verdict.reason;
+  json["rests_on"] = verdict.rests_on;
   json["chosen_motors"] = verdict.chosen_motors;
   json["chosen_docks"] = verdict.chosen_docks;
   json["statistics"] = verdict.of_rows.empty() ? "all steps" : "rows";
@@ -43,7 +60,8 @@ std::string to_json(const Verdict& verdict) {
   json["window"] = {{"from", verdict.from}, {"to", verdict.to}};
   json["first"] = verdict.first_joint.empty() ? Json() : Json{{"joint", verdict.first_joint}, {"time", verdict.first_time}};
   Json counts;
-  for (const CheckStatus status : {CheckStatus::pass, CheckStatus::warn, CheckStatus::fail, CheckStatus::not_judged})
+  for (const CheckStatus status :
+       {CheckStatus::pass, CheckStatus::warn, CheckStatus::fail, CheckStatus::too_close, CheckStatus::not_judged})
     counts[name_of(status)] = verdict.count(status);
   json["counts"] = counts;
   for (const Check& c : verdict.checks) {
@@ -87,13 +105,12 @@ std::vector<std::string> to_lines(const Verdict& verdict) {
     }
     return fmt::format("{}", fmt::join(ids, ", "));
   };
-  std::string text = verdict.word;
-  const auto first = std::ranges::find(verdict.checks, CheckStatus::fail, &Check::status);
-  if (first != verdict.checks.end()) {
-    text += ": " + first->text;
-    if (!first->missing.empty()) text += "; missing: " + first->missing;
+  std::string text = name_of(verdict.word);
+  if (const std::string why = verdict.why(); !why.empty()) text += ": " + why;
+  if (verdict.word == Word::feasible) {
+    text += " with these motors";
+    if (!verdict.rests_on.empty()) text += ", over " + verdict.rests_on;
   }
-  if (verdict.word == "feasible") text += " with these motors";
   std::vector<std::string> lines;
   const auto wrap = [&](const std::string& whole) {
     const std::string broken = wrapped(whole, 0, kWidth);
@@ -109,6 +126,7 @@ std::vector<std::string> to_lines(const Verdict& verdict) {
   if (verdict.chosen_motors) wrap("rests on chosen figures of the motors, not on a maker's");
   if (verdict.chosen_docks) wrap("rests on chosen figures of what docks hold");
   if (verdict.count(CheckStatus::fail) > 1) wrap("fails: " + names(CheckStatus::fail));
+  if (verdict.count(CheckStatus::too_close) > 0) wrap("too close: " + names(CheckStatus::too_close));
   if (verdict.count(CheckStatus::warn) > 0) wrap("warns: " + names(CheckStatus::warn));
   if (verdict.count(CheckStatus::not_judged) > 0) wrap("not judged: " + names(CheckStatus::not_judged));
   return lines;

@@ -1,0 +1,150 @@
+#include "report/verdict/evidence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/laws/dc_motor.h"
+#include "core/plugin/plugin_instance.h"
+#include "core/plugin/robot_info.h"
+#include "core/recording/limit_cycle.h"
+#include "core/settings/wording.h"
+#include "report/analysis/motors.h"
+#include "report/analysis/settings_numbers.h"
+#include "report/verdict/number_texts.h"
+#include "report/verdict/trust.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kRelative = 1e-9;  // rounding
+
+/// Hz: the least frequency above 0 of a driven joint; 0: the settings have none.
+double least_frequency(const Scenario& s) {
+  double least = 0;
+  if (s.cpg.entry == nullptr) return least;
+  const SettingsNumbers settings(s.cpg);
+  for (const SettingsNumbers::Found& one : settings.all()) {
+    if (one.unit != "Hz") continue;
+    for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+      const double frequency = one.value[j];
+      if (s.robot->joints[j].driven() && frequency > 0 && (least == 0 || frequency < least)) least = frequency;
+    }
+  }
+  return least;
+}
+
+std::vector<Series> set_points(const Scenario& s, const Recording& r) {
+  std::vector<Series> found;
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    if (const Series one = r.joint(j, "setpoint"); !one.empty() && s.robot->joints[j].driven()) found.push_back(one);
+  }
+  return found;
+}
+
+bool moves(const std::vector<Series>& set_points) {
+  for (const Series& one : set_points) {
+    for (std::size_t k = 1; k < one.size(); ++k) {
+      if (one[k] != one[0]) return true;
+    }
+  }
+  return false;
+}
+
+void judge_length(const Scenario& s, const Recording& r, const Summary& summary, Evidence& made) {
+  const MotionCycle& cycle = summary.limit_cycle;
+  const double judged = summary.judged.to - summary.judged.from;
+  if (cycle.found && cycle.error <= kSettled && summary.judged.periods > 0) {
+    made.rests_on = fmt::format("{} of {:.4g} s", counted(summary.judged.periods, "period"), cycle.period);
+    return;
+  }
+  const double period = slowest_period(s, r);
+  if (period > 0) {
+    const double held = r.simulated / period;
+    made.rests_on = fmt::format("{:.3g} periods of {:.4g} s; the motion does not settle", held, period);
+    if (held < kPeriodsNeeded * (1 - kRelative)) {
+      made.too_short = fmt::format("{:.3g} s are {:.2g} of a gait's {:g} periods of {:.4g} s; take duration: {:.4g}",
+                                   r.simulated, held, kPeriodsNeeded, period, kPeriodsNeeded * period);
+    }
+    return;
+  }
+  made.rests_on = fmt::format("the last {:.3g} s; the set points do not repeat", judged);
+  if (r.simulated < kLeastTime * (1 - kRelative))
+    made.too_short = fmt::format("{:.3g} s are less than {:g} s; take a longer duration", r.simulated, kLeastTime);
+}
+
+void judge_support(const Scenario& s, const Summary& summary, Evidence& made) {
+  if (s.base != Base::floating || s.contact.solver()) return;  // a solver's impulses are not recorded
+  const double share = summary.posture.borne_share;
+  if (share >= kBorne || std::isnan(share)) return;
+  made.not_borne = fmt::format("the ground carries {} of the weight on average, less than {}: the robot is not on it",
+                               texts::percent(share), texts::percent(kBorne));
+}
+
+/// The motor that makes energy by itself; empty: none.
+std::string makes_energy(const Scenario& s) {
+  if (s.actuator.entry == nullptr || s.robot->joints.empty()) return "";
+  const std::unique_ptr<Actuator> actuator = make_actuator(s.actuator, info(*s.robot));
+  const DcMotor* const motors = actuator->dc_motors();
+  for (std::size_t j = 0; motors != nullptr && j < s.robot->joints.size(); ++j) {
+    const DcMotor& m = motors[j];
+    if (!s.robot->joints[j].driven() || !(m.efficiency * m.Kt > (1 + kRelative) * m.Ks)) continue;
+    return fmt::format(
+        "the motor of joint {} makes energy: efficiency x Kt {:.4g} N m/A exceeds Ks {:.4g} V s/rad; take Kt = Ks",
+        s.robot->joints[j].name, m.efficiency * m.Kt, m.Ks);
+  }
+  return "";
+}
+
+void judge_trust(const Scenario& s, const Recording& r, Evidence& made) {
+  const TorqueError error = torque_error(r);
+  const double residual = r.joints.empty() ? 0 : std::abs(r.ledger.residual()) / energy_scale(s, r);
+  const double coarse = s.physics.adapts() && r.simulated > 0 ? r.tally.coarse / r.simulated : 0;
+  const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
+  const std::vector<Series> asked = set_points(s, r);
+  if (made.not_trusted = makes_energy(s); !made.not_trusted.empty()) return;
+  if (error.estimated && error.share > kTrustedTorque) {
+    made.not_trusted = fmt::format("the torque of joint {} is off by about {} of its peak, more than {}; take {}",
+                                   s.robot->joints[error.joint].name, texts::rough_percent(error.share),
+                                   texts::percent(kTrustedTorque), torque_remedy(s, error.share));
+  } else if (driven && !(residual <= kTrustedResidual)) {  // also where it is not a number
+    made.not_trusted = fmt::format("{} of the energy is unaccounted for, more than {}; take {}", texts::percent(residual),
+                                   texts::percent(kTrustedResidual),
+                                   s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step");
+  } else if (coarse > kTrustedCoarse) {
+    made.not_trusted = fmt::format("in {} of the time the shortest steps do not reach the accuracy {}",
+                                   texts::rough_percent(coarse), texts::rough_percent(s.physics.accuracy));
+  } else if (driven && s.cpg.entry != nullptr && !asked.empty() && !moves(asked)) {
+    made.not_trusted = fmt::format("no set point changes: cpg {} moves no joint, so that there is no gait", s.cpg.entry->name);
+  }
+}
+
+}  // namespace
+
+double slowest_period(const Scenario& s, const Recording& r) {
+  const double frequency = least_frequency(s);
+  // Two periods show a repetition, but not where the amplitude grows at the start.
+  if (frequency > 0 && r.simulated * frequency < kPeriodsNeeded * (1 - kRelative)) return 1 / frequency;
+  const std::vector<Series> columns = set_points(s, r);
+  if (columns.empty()) return 0;
+  const auto rows = std::min(r.rows(), static_cast<std::size_t>(std::floor(r.simulated / s.trace.period + 1e-9)) + 1);
+  std::vector<double> all;
+  all.reserve(rows * columns.size());
+  for (std::size_t k = 0; k < rows; ++k) {
+    for (const Series& column : columns) all.push_back(column[k]);
+  }
+  const MotionCycle cycle = find_limit_cycle(all, columns.size(), s.trace.period);
+  return cycle.found ? cycle.period : 0;
+}
+
+Evidence evidence(const Scenario& s, const Recording& r, const Summary& summary) {
+  Evidence made;
+  judge_length(s, r, summary, made);
+  judge_support(s, summary, made);
+  judge_trust(s, r, made);
+  return made;
+}
+
+}  // namespace gaitlab::report
