@@ -111,7 +111,7 @@ void warn(const JudgedRun& run) {
   const Recording& recording = run.recording();
   for (const std::string& missing : run.read.stored.missing) say(run.name, "note", missing);
   if (recording.outcome != "done") say(run.name, "note", "this run ended early: " + recording.outcome);
-  warn_of_run(run.read.scenario, recording, run.summary, run.overlaps);
+  warn_of_run(run.read.scenario, recording, run.verdict);
 }
 
 int report_one(const ReportArguments& arguments) {

@@ -137,7 +137,7 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
                one_line(folder.path().string()), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
     if (!arguments.no_page) print_page(folder.path() / kPageFile);
   }
-  warn_of_run(scenario, recording, summary, overlaps);
+  warn_of_run(scenario, recording, verdict);
   const bool sound = report::not_finite(scenario, recording).empty();
   if (failure.empty()) return files.lost_any() || !sound ? 1 : exit_code(verdict, arguments.shown);
   say(scenario.file, "error", fmt::format("{}; what was simulated until then is in {}", failure, folder.path().string()));

@@ -16,7 +16,6 @@
 #include "report/verdict/number_texts.h"
 #include "report/verdict/summary_text.h"
 #include "report/verdict/trust.h"
-#include "report/verdict/warnings.h"
 
 namespace gaitlab::app {
 
@@ -97,22 +96,17 @@ void draw_joints(Scenario& scenario, const std::vector<std::string>& joints) {
   scenario.figure.joints = joints_meant(joints, known);
 }
 
-void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
-                 const report::Overlaps& overlaps) {
-  if (const std::string fall = report::fall_warning(scenario, recording); !fall.empty()) say(scenario.file, "warning", fall);
-  const std::string where = to_string(scenario.place("physics.step"));
-  const std::string warning = report::stability_warning(summary, scenario, recording);
-  if (!warning.empty()) say(where, "warning", warning);
-  for (const report::Warning& doubt : report::run_warnings(scenario, recording, overlaps))
-    say(to_string(doubt.place), "warning", doubt.text);
+void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Verdict& verdict) {
+  for (const report::Check& check : verdict.checks) {
+    if (check.status == report::CheckStatus::pass || check.remedy.empty()) continue;
+    say(to_string(check.place), "warning", check.text + "; " + check.remedy);
+  }
   if (const std::vector<std::string> names = report::not_finite(scenario, recording); !names.empty()) {
     say(scenario.file, "warning",
         fmt::format("no finite number came out for {}; they are - here and null in summary.json; are masses, lengths and gains "
                     "those of a robot?",
                     joined(names)));
   }
-  if (recording.outcome != "done") return;
-  for (const std::string& doubt : report::trust_warnings(scenario, recording)) say(where, "warning", doubt);
 }
 
 }  // namespace gaitlab::app

@@ -39,6 +39,7 @@ class ScenarioReader {
     if (!root) raise();
     root_ = std::move(*root);
     const std::vector<Retyped> retyped = apply_sets(root_, sets, problems_);
+    rename_old_keys();
     if (root_.find("gaitlab_module") != nullptr) {
       problems_.add(root_.place,
                     fmt::format("this is a module type, not a scenario; what is in it: gaitlab explain module {}", path_));
@@ -72,6 +73,7 @@ class ScenarioReader {
     if (sets.empty()) return scenario_;
     ScenarioReader own = *this;
     apply_sets(own.root_, sets, own.problems_);
+    own.rename_old_keys();
     own.raise();
     for (const std::string& set : sets) own.touched_.push_back(set.substr(0, set.find_first_of(".=")));
     own.follow_dependencies();
@@ -84,6 +86,19 @@ class ScenarioReader {
  private:
   void raise() const {
     if (!problems_.empty()) throw InputError(in_order(problems_.list(), path_));
+  }
+
+  /// Gives keys of earlier editions their present names.
+  void rename_old_keys() {
+    const auto section = std::ranges::find(root_.keys, "limits", [](const auto& key) { return key.first; });
+    if (section == root_.keys.end()) return;
+    Node& limits = root_.items[static_cast<std::size_t>(section - root_.keys.begin())];
+    for (auto& [key, place] : limits.keys) {
+      if (key != "margin") continue;
+      if (limits.find("warn_share") != nullptr)
+        problems_.add(place, "limits.margin is the old name of limits.warn_share, which is given, too; expected one of them");
+      key = "warn_share";
+    }
   }
 
   /// Where the touched keys are given, as far as that differs from the template's own.

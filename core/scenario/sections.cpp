@@ -180,10 +180,10 @@ void FigureSettings::fields(Fields& f) {
 }
 
 void Limits::fields(Fields& f) {
-  f.number(
-      "margin", margin,
-      {"", 0, 1,
-       "Share of what motor and gear have (torque at that speed, ratings) above which the verdict warns. Default: chosen."});
+  f.number("warn_share", warn_share,
+           {"", 0, 1,
+            "Share of what motors, gears and docks have (torque at that speed, ratings) above which the verdict warns. "
+            "Default: chosen."});
   f.number("tracking_error", tracking_error,
            {"rad", kPositive, 1000,
             "Largest difference of a set point and its angle; up to twice that is a warning, more a failure. Default: what the "
@@ -227,6 +227,14 @@ void Limits::fields(Fields& f) {
       "slip", slip,
       {"", 0, 1e6,
        "Share of its way that a robot may slide on its feet, weighted by their loads; more is a warning. Default: chosen."});
+  f.number("torque_error", torque_error,
+           {"", kPositive, 1,
+            "Estimated error of a joint's torque, share of its largest, above which a run is no evidence of a gait. Default: "
+            "chosen."});
+  f.number("progress", progress,
+           {"", 0, 1000,
+            "Least travel per period, share of the robot's extent; less is a failure. Default: 0, with which less than a "
+            "hundredth is a warning."});
 }
 
 SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type)

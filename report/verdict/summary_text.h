@@ -19,10 +19,4 @@ std::string joint_table(const Summary& summary, const Scenario& scenario);
 /// touch the ground.
 std::string start_warning(const Scenario& scenario);
 
-/// The warning about a robot that fell (the centre of mass came below Limits::height), or "".
-std::string fall_warning(const Scenario& scenario, const Recording& record);
-
-/// The warning about a step that was too long for more than 1 % of the control ticks, or "".
-std::string stability_warning(const Summary& summary, const Scenario& scenario, const Recording& record);
-
 }  // namespace gaitlab::report

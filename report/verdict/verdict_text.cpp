@@ -33,6 +33,23 @@ const char* name_of(CheckStatus status) {
   }
 }
 
+const char* name_of(CheckSpan span) { return span == CheckSpan::window ? "window" : "whole run"; }
+
+const char* name_of(Part part) {
+  switch (part) {
+    case Part::joint:
+      return "joint";
+    case Part::body:
+      return "body";
+    case Part::dock:
+      return "dock";
+    case Part::foot:
+      return "foot";
+    default:
+      return "none";
+  }
+}
+
 const char* name_of(Word word) {
   switch (word) {
     case Word::feasible:
@@ -49,9 +66,11 @@ const char* name_of(Word word) {
 std::string to_json(const Verdict& verdict) {
   using Json = nlohmann::ordered_json;
   Json json;
-  json["format"] = 1;
+  json["format"] = 2;
   json["verdict"] = name_of(verdict.word);
   json["reason"] = verdict.reason;
+  const Check* const tightest = verdict.tightest();
+  json["tightest"] = tightest == nullptr ? Json() : Json(tightest->id);
   json["rests_on"] = verdict.rests_on;
   json["chosen_motors"] = verdict.chosen_motors;
   json["chosen_docks"] = verdict.chosen_docks;
@@ -69,13 +88,21 @@ std::string to_json(const Verdict& verdict) {
                               {"group", c.group},
                               {"title", c.title},
                               {"status", name_of(c.status)},
+                              {"span", name_of(c.span)},
+                              {"can_fail", c.can_fail},
                               {"value", json_number(c.value)},
                               {"limit", json_number(c.limit)},
+                              {"least", c.least},
                               {"unit", c.unit},
-                              {"joint", c.joint.empty() ? Json() : Json(c.joint)},
-                              {"joints", c.joints},
+                              {"margin", json_number(c.margin)},
+                              {"error", json_number(c.error)},
+                              {"part", name_of(c.part)},
+                              {"worst", c.worst.empty() ? Json() : Json(c.worst)},
+                              {"parts", c.parts},
                               {"from", json_number(c.from)},
                               {"to", json_number(c.to)},
+                              {"first", json_number(c.first)},
+                              {"remedy", c.remedy},
                               {"missing", c.missing},
                               {"definition", c.definition},
                               {"source", c.source},
