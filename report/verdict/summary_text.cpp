@@ -42,10 +42,9 @@ std::string to_json(const Summary& s, const Scenario& scenario, const Recording&
   return numbers_json({scenario, r, s}).dump(2) + "\n";
 }
 
-std::string to_text(const Summary& s, const Scenario& scenario, const Recording& r, bool verbose) {
+std::string to_text(const Summary& s, const Scenario& scenario, const Recording& r) {
   std::string text;
   for (const SummaryNumber* number : placed(&SummaryNumber::line)) {
-    if (number->line.verbose && !verbose) continue;
     const char* title = number->line.title;
     for (const std::string& line : number->line.text({scenario, r, s})) {
       text += title == nullptr ? line + "\n" : fmt::format("  {:<13} {}\n", title, line);

@@ -119,8 +119,4 @@ const char* name_of(Part part);
 /// The text of verdict.json.
 std::string to_json(const Verdict& verdict);
 
-/// `infeasible: ` and the first check that fails, or `not judged: ` and the reason; then the names of the checks that fail,
-/// warn and were not judged; at most 64 columns each.
-std::vector<std::string> to_lines(const Verdict& verdict);
-
 }  // namespace gaitlab::report

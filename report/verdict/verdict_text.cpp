@@ -1,11 +1,10 @@
-// The verdict as a file and as lines.
+// The verdict as a file.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/settings/wording.h"
 #include "report/verdict/verdict.h"
 
 namespace gaitlab::report {
@@ -121,42 +120,6 @@ std::string to_json(const Verdict& verdict) {
     }
   }
   return json.dump(2) + "\n";
-}
-
-std::vector<std::string> to_lines(const Verdict& verdict) {
-  constexpr std::size_t kWidth = 64;
-  const auto names = [&](CheckStatus status) {
-    std::vector<std::string> ids;
-    for (const Check& c : verdict.checks) {
-      if (c.status == status) ids.push_back(c.id);
-    }
-    return fmt::format("{}", fmt::join(ids, ", "));
-  };
-  std::string text = name_of(verdict.word);
-  if (const std::string why = verdict.why(); !why.empty()) text += ": " + why;
-  if (verdict.word == Word::feasible) {
-    text += " with these motors";
-    if (!verdict.rests_on.empty()) text += ", over " + verdict.rests_on;
-  }
-  std::vector<std::string> lines;
-  const auto wrap = [&](const std::string& whole) {
-    const std::string broken = wrapped(whole, 0, kWidth);
-    for (std::size_t at = 0; at < broken.size();) {
-      const std::size_t end = std::min(broken.find('\n', at), broken.size());
-      lines.push_back(broken.substr(at, end - at));
-      at = end + 1;
-    }
-  };
-  wrap(text);
-  if (!verdict.demand_doubt.empty()) wrap("demand: " + verdict.demand_doubt);
-  if (!verdict.of_rows.empty()) wrap(verdict.of_rows);
-  if (verdict.chosen_motors) wrap("rests on chosen figures of the motors, not on a maker's");
-  if (verdict.chosen_docks) wrap("rests on chosen figures of what docks hold");
-  if (verdict.count(CheckStatus::fail) > 1) wrap("fails: " + names(CheckStatus::fail));
-  if (verdict.count(CheckStatus::too_close) > 0) wrap("too close: " + names(CheckStatus::too_close));
-  if (verdict.count(CheckStatus::warn) > 0) wrap("warns: " + names(CheckStatus::warn));
-  if (verdict.count(CheckStatus::not_judged) > 0) wrap("not judged: " + names(CheckStatus::not_judged));
-  return lines;
 }
 
 }  // namespace gaitlab::report
