@@ -18,7 +18,9 @@ namespace {
 enum class Over { window, whole_run };
 
 struct CheckKind {
-  const char *id, *group, *unit, *title, *definition;
+  const char* id;
+  CheckGroup group;
+  const char *unit, *title, *definition;
   void (*judge)(const CheckedRun& run, Check& made);
   Over span = Over::window;
 };
@@ -35,64 +37,67 @@ void slip(const CheckedRun& run, Check& made) {
 }
 void stability(const CheckedRun& run, Check& made) { judge_stability(run.scenario, run.record, run.summary, made); }
 
+using Group = CheckGroup;
+
 constexpr CheckKind kChecks[] = {
-    {"outcome", "run", "s", "Run finished", "simulated time against the duration", checks::outcome},
-    {"fall", "run", "", "Does not fall", "least height of the centre of mass over that at the start, at control ticks",
+    {"outcome", Group::run, "s", "Run finished", "simulated time against the duration", checks::outcome},
+    {"fall", Group::run, "", "Does not fall", "least height of the centre of mass over that at the start, at control ticks",
      checks::height, Over::whole_run},
-    {"progress", "run", "m", "Goes somewhere",
+    {"progress", Group::run, "m", "Goes somewhere",
      "travel of the centre of mass per period against a hundredth of the robot's extent, or heading against 0.01 rad",
      checks::progress},
-    {"tilt", "run", "rad", "Stays upright", "largest turn of the base away from its start, at control ticks", checks::tilt},
-    {"voltage", "motor", "", "Voltage suffices", "share of the window at the limit of the voltage, over all steps",
+    {"tilt", Group::run, "rad", "Stays upright", "largest turn of the base away from its start, at control ticks",
+     checks::tilt},
+    {"voltage", Group::motor, "", "Voltage suffices", "share of the window at the limit of the voltage, over all steps",
      checks::voltage},
-    {"current", "motor", "", "Current suffices", "share of the window at the limit of the current, over all steps",
+    {"current", Group::motor, "", "Current suffices", "share of the window at the limit of the current, over all steps",
      checks::current},
-    {"envelope", "motor", "", "Torque within reach",
+    {"envelope", Group::motor, "", "Torque within reach",
      "largest torque over what the actuator has at that speed in that direction, over all steps", checks::envelope},
-    {"speed", "motor", "rad/s", "Speed within reach",
+    {"speed", Group::motor, "rad/s", "Speed within reach",
      "largest speed against the speed at which the actuator has no torque left, or the rated one, over all "
      "steps",
      checks::speed},
-    {"heat", "motor", "A", "Motors stay cool", "RMS current over the window against the continuous rating, over all steps",
+    {"heat", Group::motor, "A", "Motors stay cool", "RMS current over the window against the continuous rating, over all steps",
      checks::heat},
-    {"gear_peak", "motor", "N m", "Gears bear the peaks",
+    {"gear_peak", Group::motor, "N m", "Gears bear the peaks",
      "largest torque of the whole run against the rating of the gear, over all steps", checks::gear_peak, Over::whole_run},
-    {"gear_continuous", "motor", "N m", "Gears last",
+    {"gear_continuous", Group::motor, "N m", "Gears last",
      "RMS torque over the window against the rating of the gear, over all steps", checks::gear_continuous},
-    {"tracking", "motion", "rad", "Joints follow their set points",
+    {"tracking", Group::motion, "rad", "Joints follow their set points",
      "largest set point minus angle in the window, over all steps", checks::tracking},
-    {"stops", "motion", "rad", "Joints keep their ranges",
+    {"stops", Group::motion, "rad", "Joints keep their ranges",
      "farthest beyond the range of the hinge, of the whole run, over all steps", checks::stops, Over::whole_run},
-    {"collision", "structure", "m", "Bodies keep apart",
+    {"collision", Group::structure, "m", "Bodies keep apart",
      "depth of two bodies in one another, but for bodies on one hinge, of the whole run, at control ticks", checks::collision,
      Over::whole_run},
-    {"dock_tension", "structure", "N", "Docks are not pulled apart",
+    {"dock_tension", Group::structure, "N", "Docks are not pulled apart",
      "largest tension of a dock against its rating, of the whole run, at control ticks", dock<DockQuantity::tension>,
      Over::whole_run},
-    {"dock_shear", "structure", "N", "Docks do not shear",
+    {"dock_shear", Group::structure, "N", "Docks do not shear",
      "largest shear force of a dock against its rating, of the whole run, at control ticks", dock<DockQuantity::shear>,
      Over::whole_run},
-    {"dock_bending", "structure", "N m", "Docks are not bent open",
+    {"dock_bending", Group::structure, "N m", "Docks are not bent open",
      "largest bending moment of a dock against its rating, of the whole run, at control ticks", dock<DockQuantity::bending>,
      Over::whole_run},
-    {"dock_torsion", "structure", "N m", "Docks are not twisted",
+    {"dock_torsion", Group::structure, "N m", "Docks are not twisted",
      "largest torsion moment of a dock against its rating, of the whole run, at control ticks", dock<DockQuantity::torsion>,
      Over::whole_run},
-    {"battery", "structure", "A", "Batteries suffice", "current of each module against the rating of its battery",
+    {"battery", Group::structure, "A", "Batteries suffice", "current of each module against the rating of its battery",
      checks::battery},
-    {"in_ground", "ground", "m", "Bodies stay above the ground",
+    {"in_ground", Group::ground, "m", "Bodies stay above the ground",
      "depth of a body in a plane, of the whole run, at control ticks", checks::in_ground, Over::whole_run},
-    {"slip", "ground", "", "Feet hold",
+    {"slip", Group::ground, "", "Feet hold",
      "way that the loaded feet slide over the way of the centre of mass, both at control ticks", slip},
-    {"stability", "ground", "m", "Stands on its feet",
+    {"stability", Group::ground, "m", "Stands on its feet",
      "least distance of the centre of mass to the edge of the support polygon, inside positive", stability},
-    {"evidence", "trust", "s", "Long enough, borne and to be trusted",
+    {"evidence", Group::trust, "s", "Long enough, borne and to be trusted",
      "judged time, the ground's share of the weight, and the errors of torques and energy", checks::evidence},
-    {"torque_error", "trust", "", "Torques are accurate", "estimated error of a joint's torque over its peak",
+    {"torque_error", Group::trust, "", "Torques are accurate", "estimated error of a joint's torque over its peak",
      checks::torque_error},
-    {"ledger", "trust", "", "Energy adds up",
+    {"ledger", Group::trust, "", "Energy adds up",
      "residual of the energy over what was drawn (or stored, or lifts the robot by 1 mm, if that is more)", checks::ledger},
-    {"created", "trust", "", "Gears create no energy", "energy that back-driven gears give (eq. 2) over the same",
+    {"created", Group::trust, "", "Gears create no energy", "energy that back-driven gears give (eq. 2) over the same",
      checks::created},
 };
 
@@ -121,7 +126,7 @@ std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) 
   if (!found.not_borne.empty()) return found.not_borne;
   if (const Check* const close = first_of(checks, CheckStatus::too_close)) return close->text;
   const auto judged = [](const Check& c) { return c.status != CheckStatus::not_judged; };
-  if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == "motor" && judged(c); }))
+  if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == CheckGroup::motor && judged(c); }))
     return run.driven() ? "no limit of the motors is known" : "nothing drives the joints";
   if (run.scenario.base != Base::floating || run.scenario.ground.kind == Ground::Kind::none || run.scenario.contact.solver())
     return "";
@@ -178,7 +183,7 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
     kind.judge(run, check);
     check.text = without_folders(std::move(check.text), scenario.plugins);
     const bool judged = check.status != CheckStatus::not_judged;
-    made.chosen_motors = made.chosen_motors || (judged && check.group == "motor" && chosen(run.motor_source));
+    made.chosen_motors = made.chosen_motors || (judged && check.group == CheckGroup::motor && chosen(run.motor_source));
     made.chosen_docks = made.chosen_docks || (judged && check.id.starts_with("dock_") && chosen(check.source));
     made.checks.push_back(std::move(check));
   }

@@ -3,19 +3,48 @@
 #include <string>
 #include <vector>
 
+#include "core/names.h"
 #include "report/analysis/collisions.h"
 #include "report/analysis/summary.h"
 
-namespace gaitlab::report {
+namespace gaitlab {
+
+namespace report {
 
 enum class CheckStatus { pass, warn, fail, too_close, not_judged };
+enum class CheckGroup { run, motor, motion, structure, ground, trust };
 enum class Word { feasible, infeasible, not_judged, failed };
+
+}  // namespace report
+
+template <>
+struct EnumNames<report::CheckStatus> {
+  using enum report::CheckStatus;
+  static constexpr EnumName<report::CheckStatus> kTable[] = {
+      {pass, "pass"}, {warn, "warn"}, {fail, "fail"}, {too_close, "too close"}, {not_judged, "not judged"}};
+};
+
+template <>
+struct EnumNames<report::CheckGroup> {
+  using enum report::CheckGroup;
+  static constexpr EnumName<report::CheckGroup> kTable[] = {
+      {run, "run"}, {motor, "motor"}, {motion, "motion"}, {structure, "structure"}, {ground, "ground"}, {trust, "trust"}};
+};
+
+template <>
+struct EnumNames<report::Word> {
+  using enum report::Word;
+  static constexpr EnumName<report::Word> kTable[] = {
+      {feasible, "feasible"}, {infeasible, "infeasible"}, {not_judged, "not judged"}, {failed, "failed"}};
+};
+
+namespace report {
 
 /// A limit, and the number of the run that is held against it. NaN: the number is not known.
 struct Check {
-  std::string id;     ///< `voltage`
-  std::string group;  ///< run, motor, motion, structure, ground; trust: whether the run is to be believed
-  std::string title;  ///< `Voltage suffices`
+  std::string id;                      ///< `voltage`
+  CheckGroup group = CheckGroup::run;  ///< trust: whether the run is to be believed
+  std::string title;                   ///< `Voltage suffices`
   CheckStatus status = CheckStatus::not_judged;
   double value, limit;       ///< of the worst joint; what it may be, both in `unit`
   std::string unit;          ///< "" of shares
@@ -61,11 +90,6 @@ struct Verdict {
 /// not judged, never assumed kept. Thresholds: the scenario's `limits`.
 Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps);
 
-/// `pass`, `not judged` ...
-const char* name_of(CheckStatus status);
-/// `feasible` ...
-const char* name_of(Word word);
-
 /// The text of verdict.json.
 std::string to_json(const Verdict& verdict);
 
@@ -73,4 +97,5 @@ std::string to_json(const Verdict& verdict);
 /// warn and were not judged; at most 64 columns each.
 std::vector<std::string> to_lines(const Verdict& verdict);
 
-}  // namespace gaitlab::report
+}  // namespace report
+}  // namespace gaitlab
