@@ -111,7 +111,7 @@ void warn_of_run(const Scenario& scenario, const Recording& recording, const rep
                     "those of a robot?",
                     joined(names)));
   }
-  if (recording.outcome != "done") return;
+  if (!recording.outcome.done()) return;
   for (const std::string& doubt : report::trust_warnings(scenario, recording)) say(where, "warning", doubt);
 }
 

@@ -323,17 +323,13 @@ Row Plan::row(std::uint64_t run) const {
 
 void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording, const Measure& measure) const {
   row.simulated = recording.simulated;
-  if (recording.outcome != "done") {
-    // As SimulationError says it: of numbers that were left, or of a plugin that threw; or by a rule of the study.
-    row.outcome = recording.outcome.starts_with("diverged") ? "diverged"
-                  : StopRules::ended(recording.outcome)     ? "stopped"
-                                                            : "plugin";
-    row.message = recording.outcome;
+  row.outcome = name_of(recording.outcome.ended);
+  if (!recording.outcome.done()) {
+    row.message = recording.outcome.message;
     row.verdict = "failed";
     return;
   }
   Judged judged = measure(scenario, recording);
-  row.outcome = "done";
   row.figures = std::move(judged.figures);
   row.verdict = std::move(judged.verdict);
   row.score = judge_->score(scenario, row.figures);

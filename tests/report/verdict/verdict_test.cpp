@@ -68,7 +68,7 @@ TEST(Verdict, TellsTheNumberThatDecided) {
 TEST(Verdict, NamesNoFolder) {
   Case made = walk();
   made.scenario.plugins = {{"/home/somebody/build/wave.so", "hash"}};
-  made.record.outcome = "stopped at step 3: cpg 'wave' (/home/somebody/build/wave.so): no luck";
+  made.record.outcome = {Ended::plugin, "stopped at step 3: cpg 'wave' (/home/somebody/build/wave.so): no luck"};
   EXPECT_EQ(made.check("outcome").text, "stopped at step 3: cpg 'wave' (wave.so): no luck");
   EXPECT_FALSE(contains(to_json(made.judged()), "/home"));
 }
@@ -117,7 +117,7 @@ TEST(Verdict, JudgesStopsFallsAndTheEnd) {
   tilted.scenario.limits.tilt = 0.01;
   EXPECT_EQ(tilted.status("tilt"), CheckStatus::warn);
   Case early = walk();
-  early.record.outcome = "diverged at step 3";
+  early.record.outcome = {Ended::diverged, "diverged at step 3"};
   EXPECT_EQ(early.judged().word, report::Word::failed);
 }
 
