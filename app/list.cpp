@@ -49,7 +49,7 @@ std::vector<std::string> kinds() {
 std::vector<std::string> names(const std::string& kind, const Catalog& catalog) {
   if (const PluginKind* plugin = find_kind(kind)) return catalog.names(plugin->kind);
   if (kind == "engine") return catalog.engines();
-  if (kind == "figure") return to_strings(report::kPanelKinds);
+  if (kind == "figure") return to_strings(enum_names<report::PanelKind>());
   std::vector<std::string> found;
   if (kind == "check") {
     for (const report::CheckKind& check : report::check_kinds()) found.emplace_back(check.id);
@@ -57,10 +57,6 @@ std::vector<std::string> names(const std::string& kind, const Catalog& catalog) 
   }
   for (const auto& [name, path] : shipped_files(kind)) found.push_back(name);
   return found;
-}
-
-report::PanelKind panel_kind(const std::string& name) {
-  return static_cast<report::PanelKind>(std::ranges::find(report::kPanelKinds, name) - report::kPanelKinds.begin());
 }
 
 /// nullptr: no check has that id.
@@ -77,7 +73,7 @@ std::string about(const std::string& kind, const std::string& name, Catalog& cat
     return first_line(entry.manual) + (entry.origin == kBuiltIn ? "" : fmt::format(" ({})", entry.origin));
   }
   if (kind == "engine") return first_line(catalog.engine(name)->manual);
-  if (kind == "figure") return first_line(report::about_panel(panel_kind(name)));
+  if (kind == "figure") return first_line(report::about_panel(*named<report::PanelKind>(name)));
   if (kind == "check") return check_kind(name)->title;
   const std::string file = shipped_files(kind).at(name);
   return kind == "module" ? module_row(read_module(file, catalog)) : file;
@@ -148,7 +144,7 @@ int explain(const ManualArguments& arguments) {
                wrapped(fmt::format("integrators: {} (default {}); default step {}", fmt::join(engine.integrator_names(), ", "),
                                    engine.integrators.front().name, default_step(engine))));
   }
-  if (kind == "figure") fmt::print("{}", report::explain_panel(panel_kind(name)));
+  if (kind == "figure") fmt::print("{}", report::explain_panel(*named<report::PanelKind>(name)));
   if (kind == "check") fmt::print("{}", report::explain_check(*check_kind(name)));
   if (kind == "robot") fmt::print("{}", read_text(shipped_files(kind).at(name)));
   return 0;

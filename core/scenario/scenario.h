@@ -10,6 +10,7 @@
 #include "core/laws/contact.h"
 #include "core/laws/ground.h"
 #include "core/model/robot.h"
+#include "core/names.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/settings/node.h"
 
@@ -36,6 +37,12 @@ struct Physics {
 };
 
 enum class ContactLaw { penalty, solver };  ///< forces of penetration and velocity, or constraints of the engine's own solver
+
+template <>
+struct EnumNames<ContactLaw> {
+  using enum ContactLaw;
+  static constexpr EnumName<ContactLaw> kTable[] = {{penalty, "penalty"}, {solver, "bullet"}};
+};
 
 struct ContactSettings {
   ContactLaw law = ContactLaw::penalty;

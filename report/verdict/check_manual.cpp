@@ -77,7 +77,7 @@ std::string verdict_page() {
   text += "| check | group | value | over | fails | warns | setting | remedy |\n|---|---|---|---|---|---|---|---|\n";
   for (const CheckKind& kind : check_kinds()) {
     text +=
-        fmt::format("| `{}` | {} | {}{} | {} | {} | {} | `{}` | {} |\n", kind.id, kind.group, kind.definition,
+        fmt::format("| `{}` | {} | {}{} | {} | {} | {} | `{}` | {} |\n", kind.id, name_of(kind.group), kind.definition,
                     *kind.unit == '\0' ? "" : fmt::format(", {}", kind.unit), of(kind.span),
                     kind.can_fail() ? kind.fails : "never", *kind.warns == '\0' ? "never" : kind.warns, kind.key, kind.remedy);
   }

@@ -49,8 +49,8 @@ namespace checks {
 void outcome(const CheckedRun& run, Check& made) {
   made.value = run.record.simulated;
   made.limit = run.scenario.duration;
-  made.status = run.record.outcome == "done" ? CheckStatus::pass : CheckStatus::fail;
-  made.text = run.record.outcome == "done" ? "the run came to its end" : run.record.outcome;
+  made.status = run.record.outcome.done() ? CheckStatus::pass : CheckStatus::fail;
+  made.text = run.record.outcome.done() ? "the run came to its end" : run.record.outcome.text();
 }
 
 void height(const CheckedRun& run, Check& made) {

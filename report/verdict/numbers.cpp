@@ -150,7 +150,7 @@ std::vector<SummaryNumber> list() {
       {.key = "outcome",
        .definition = "`done`, or why the run ended early.",
        .words = true,
-       .value = [](R r) { return r.summary.outcome; },
+       .value = [](R r) { return r.summary.outcome.text(); },
        .compare = {.place = 70, .if_different = true}},
       {.key = "simulated",
        .unit = "s",

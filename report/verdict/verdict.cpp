@@ -39,7 +39,7 @@ std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) 
   if (!found.not_borne.empty()) return found.not_borne;
   if (const Check* const close = first_of(checks, CheckStatus::too_close)) return close->text;
   const auto judged = [](const Check& c) { return c.status != CheckStatus::not_judged; };
-  if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == "motor" && judged(c); }))
+  if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == CheckGroup::motor && judged(c); }))
     return run.driven() ? "no limit of the motors is known" : "nothing drives the joints";
   if (run.scenario.base != Base::floating || run.scenario.ground.kind == Ground::Kind::none || run.scenario.contact.solver())
     return "";
@@ -127,7 +127,7 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
     if (check.status == CheckStatus::not_judged || check.id == "outcome") check.margin = kNone;
     check.text = without_folders(std::move(check.text), scenario.plugins);
     const bool judged = check.status != CheckStatus::not_judged;
-    made.chosen_motors = made.chosen_motors || (judged && check.group == "motor" && chosen(run.motor_source));
+    made.chosen_motors = made.chosen_motors || (judged && check.group == CheckGroup::motor && chosen(run.motor_source));
     made.chosen_docks = made.chosen_docks || (judged && check.id.starts_with("dock_") && chosen(check.source));
     made.checks.push_back(std::move(check));
   }

@@ -17,51 +17,6 @@ nlohmann::ordered_json json_number(double value) {
 
 }  // namespace
 
-const char* name_of(CheckStatus status) {
-  switch (status) {
-    case CheckStatus::pass:
-      return "pass";
-    case CheckStatus::warn:
-      return "warn";
-    case CheckStatus::fail:
-      return "fail";
-    case CheckStatus::too_close:
-      return "too close";
-    default:
-      return "not judged";
-  }
-}
-
-const char* name_of(CheckSpan span) { return span == CheckSpan::window ? "window" : "whole run"; }
-
-const char* name_of(Part part) {
-  switch (part) {
-    case Part::joint:
-      return "joint";
-    case Part::body:
-      return "body";
-    case Part::dock:
-      return "dock";
-    case Part::foot:
-      return "foot";
-    default:
-      return "none";
-  }
-}
-
-const char* name_of(Word word) {
-  switch (word) {
-    case Word::feasible:
-      return "feasible";
-    case Word::infeasible:
-      return "infeasible";
-    case Word::failed:
-      return "failed";
-    default:
-      return "not judged";
-  }
-}
-
 std::string to_json(const Verdict& verdict) {
   using Json = nlohmann::ordered_json;
   Json json;
@@ -84,7 +39,7 @@ std::string to_json(const Verdict& verdict) {
   json["counts"] = counts;
   for (const Check& c : verdict.checks) {
     json["checks"].push_back({{"id", c.id},
-                              {"group", c.group},
+                              {"group", name_of(c.group)},
                               {"title", c.title},
                               {"status", name_of(c.status)},
                               {"span", name_of(c.span)},

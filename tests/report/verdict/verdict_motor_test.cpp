@@ -130,11 +130,11 @@ TEST(Verdict, OfAnActuatorWithoutALimit) {
   const Verdict ideal = with("{type: torque}");
   EXPECT_EQ(status(ideal, "voltage"), CheckStatus::not_judged);
   EXPECT_EQ(status(ideal, "current"), CheckStatus::not_judged);
-  EXPECT_EQ(ideal.word, "not judged");
+  EXPECT_EQ(ideal.word, report::Word::not_judged);
   const Verdict real = with("{type: torque, limit: 100}");
   EXPECT_EQ(status(real, "voltage"), CheckStatus::not_judged);
   EXPECT_EQ(status(real, "current"), CheckStatus::pass);
-  EXPECT_EQ(real.word, "feasible");
+  EXPECT_EQ(real.word, report::Word::feasible);
 }
 
 }  // namespace
