@@ -127,7 +127,7 @@ std::string narrower_columns(const std::vector<Band>& columns, const Scenario& s
     scenarios.insert(scenarios.end(), 2, *other);
     scenarios.back().physics.refine(2);
   }
-  const std::vector<Outcome> runs = golden_runs(scenarios, jobs, progress);
+  const std::vector<Attempt> runs = golden_runs(scenarios, jobs, progress);
   const std::string own = runs[0].error
                               ? "a smaller step"
                               : finer_setting(scenario, widest(columns, &Band::halving), halving_band(halved, runs[0].run));

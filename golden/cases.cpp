@@ -128,7 +128,7 @@ void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog&
   }
 }
 
-void judge(GoldenCase& c, Outcome& outcome) {
+void judge(GoldenCase& c, Attempt& outcome) {
   c.seconds = outcome.seconds;
   try {
     if (outcome.error) std::rethrow_exception(outcome.error);
@@ -211,7 +211,7 @@ void run_cases(std::vector<GoldenCase>& cases, const TestArguments& arguments, c
   for (const GoldenCase& c : cases) {
     if (c.scenario) scenarios.push_back(*c.scenario);
   }
-  std::vector<Outcome> outcomes = golden_runs(scenarios, arguments.jobs, progress, arguments.fail_infeasible);
+  std::vector<Attempt> outcomes = golden_runs(scenarios, arguments.jobs, progress, arguments.fail_infeasible);
   auto outcome = outcomes.begin();
   for (GoldenCase& c : cases) {
     if (!c.scenario) continue;

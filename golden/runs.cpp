@@ -123,9 +123,9 @@ class Bar {
 
 }  // namespace
 
-std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs, const std::function<void(double)>& progress,
+std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int jobs, const std::function<void(double)>& progress,
                                  bool judged) {
-  std::vector<Outcome> outcomes(scenarios.size());
+  std::vector<Attempt> outcomes(scenarios.size());
   Bar bar(scenarios, progress);
   parallel(scenarios.size(), jobs, [&](std::size_t i) {
     const auto start = std::chrono::steady_clock::now();
