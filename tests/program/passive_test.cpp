@@ -14,7 +14,7 @@ constexpr double kInertia = 1.0 / 3;
 constexpr double kWeight = 9.81 / 2;  // N m at the horizontal
 
 struct Rod {
-  std::string engine, drive, physics = "integrator: rk4, step: 1e-4", angle = "1e-3", gravity = "[0, 0, -9.81]", contact;
+  std::string engine, drive, physics = "integrator: rk4, step: 1e-4", angle = "1e-3", gravity = "[0, 0, -9.81]", contact = {};
   double duration = 4;
   [[nodiscard]] Scenario read(const std::vector<std::string>& sets = {}) const {
     return scenario(fmt::format(R"(
