@@ -237,9 +237,9 @@ TEST_P(ActuatorContract, WithoutItsLimitTheLawIsTheSameOrMore) {
     const void* settings = s.actuator.settings.get();
     const std::unique_ptr<Actuator> actuator(static_cast<Actuator*>(s.actuator.entry->make(info(*s.robot), {&settings, 1})));
     int limited = 0;
-    for (int c = -12; c <= 12; ++c) {
-      for (int w = -12; w <= 12; ++w) {
-        const double command = 0.75 * c, speed = 0.5 * w;
+    for (int i = -12; i <= 12; ++i) {
+      for (int k = -12; k <= 12; ++k) {
+        const double command = 0.75 * i, speed = 0.5 * k;
         const std::vector<double> u(2, command), w(2, speed);
         std::vector<double> torque(2), slope(2), more(2), steeper(2);
         actuator->effort(u, w, torque, slope);
