@@ -4,6 +4,7 @@
 #include <limits>
 #include <string_view>
 
+#include "report/analysis/motion.h"
 #include "report/analysis/plugin_names.h"
 #include "report/analysis/row_statistics.h"
 #include "report/analysis/states.h"
@@ -170,6 +171,7 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
   made.from = summary.judged.from;
   made.to = summary.judged.to;
   made.of_rows = rows_sentence(record);
+  made.window_of_rows = motion_sentence(record);
   for (const CheckKind& kind : kChecks) {
     Check check{kind.id, kind.group, kind.title, CheckStatus::not_judged, kNone, kNone, kind.unit, "",
                 0,       kNone,      kNone,      kind.definition};

@@ -58,6 +58,7 @@ std::string to_json(const Verdict& verdict) {
   json["statistics"] = verdict.of_rows.empty() ? "all steps" : "rows";
   if (!verdict.of_rows.empty()) json["statistics_text"] = verdict.of_rows;
   json["window"] = {{"from", verdict.from}, {"to", verdict.to}};
+  if (!verdict.window_of_rows.empty()) json["window"]["text"] = verdict.window_of_rows;
   json["first"] = verdict.first_joint.empty() ? Json() : Json{{"joint", verdict.first_joint}, {"time", verdict.first_time}};
   Json counts;
   for (const CheckStatus status :
@@ -123,6 +124,7 @@ std::vector<std::string> to_lines(const Verdict& verdict) {
   wrap(text);
   if (!verdict.demand_doubt.empty()) wrap("demand: " + verdict.demand_doubt);
   if (!verdict.of_rows.empty()) wrap(verdict.of_rows);
+  if (!verdict.window_of_rows.empty()) wrap(verdict.window_of_rows);
   if (verdict.chosen_motors) wrap("rests on chosen figures of the motors, not on a maker's");
   if (verdict.chosen_docks) wrap("rests on chosen figures of what docks hold");
   if (verdict.count(CheckStatus::fail) > 1) wrap("fails: " + names(CheckStatus::fail));
