@@ -49,8 +49,8 @@ class Simulation {
   [[nodiscard]] bool done() const;  ///< every lane has ended
   /// How a lane ended.
   [[nodiscard]] const Outcome& outcome(std::size_t lane) const;
-  /// Asked of each lane that runs, once every simulated second, with what it has recorded so far: rows, statistics of joints
-  /// and time alone. Why the lane is to end there; "": it goes on. A lane is asked the same whatever the others are.
+  /// Asked of each lane that runs, once every simulated second, with what it has recorded so far: rows, ticks, statistics
+  /// of joints and time alone. Why the lane is to end there; "": it goes on. A lane is asked the same whatever the others are.
   void watch(std::function<std::string(std::size_t lane, const Recording& so_far)> watch) { watch_ = std::move(watch); }
   /// Steps to the end; `progress(share)` about 200 times; stops early (returns false) once `stop` is set.
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
@@ -97,6 +97,7 @@ class Simulation {
   [[nodiscard]] double energy(const Lane& lane) const;
   [[nodiscard]] static double stop_torque(const Lane& lane, const RobotState& state, std::size_t joint);
   static void take_passive(const Lane& lane, Sample& sample);
+  void read_state(Lane& lane, bool places);
   Sample& take_sample(Lane& lane, bool whole);
   template <class Work>
   void guard(Lane& lane, Work work);

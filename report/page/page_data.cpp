@@ -149,6 +149,7 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
     packing = packed(signals, r.rows(), stride);
   }
   if (!verdict.of_rows.empty()) missing.push_back(verdict.of_rows);
+  if (!verdict.window_of_rows.empty()) missing.push_back(verdict.window_of_rows);
   if (r.rows() > 1) std::ranges::move(left_out(scenario, signals), std::back_inserter(missing));
   if (stride > 1) {
     missing.push_back(fmt::format(

@@ -251,7 +251,7 @@ std::vector<SummaryNumber> list() {
        .swap = {10, "speed", "m/s", 10, texts::speed_cell}},
       {.key = "path_length",
        .unit = "m",
-       .definition = "Length of the horizontal path of the centre of mass, from trace tick to trace tick.",
+       .definition = "Length of the horizontal path of the centre of mass, from control tick to control tick.",
        .value = [](R r) { return r.summary.path_length; },
        .compare = {160},
        .golden = {40}},
@@ -273,7 +273,7 @@ std::vector<SummaryNumber> list() {
       {.key = "heading_change",
        .unit = "rad",
        .definition =
-           "Sum over the trace ticks of the base's turn about world z (the twist of the rotation from tick to tick; a "
+           "Sum over the control ticks of the base's turn about world z (the twist of the rotation from tick to tick; a "
            "full turn counts 2 pi).",
        .value = [](R r) { return r.summary.heading_change; },
        .compare = {170}},
@@ -474,12 +474,12 @@ std::vector<SummaryNumber> list() {
        .value = [](R r) { return fallen(r); }},
       {.key = "airborne_share",
        .definition =
-           "Share of the trace ticks in the judged window at which the ground bears less than 5 % of the weight; null "
+           "Share of the control ticks in the judged window at which the ground bears less than 5 % of the weight; null "
            "without gravity, of a base that does not float, or of a robot without contact elements.",
        .value = [](R r) { return held(r, &Posture::airborne_share); }},
       {.key = "height.min",
        .unit = "m",
-       .definition = "Least height of the centre of mass at the trace ticks in the judged window.",
+       .definition = "Least height of the centre of mass at the control ticks in the judged window.",
        .value = [](R r) { return held(r, &Posture::height_min); }},
       {.key = "height.max",
        .unit = "m",

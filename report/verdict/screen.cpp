@@ -108,7 +108,9 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict)
   std::string rests;
   if (verdict.chosen_motors) rests = "chosen figures of the motors, not a maker's";
   if (verdict.chosen_docks) rests += std::string(rests.empty() ? "" : "; ") + "chosen figures of what docks hold";
-  if (!verdict.of_rows.empty()) screen.add("rows", verdict.of_rows, Tone::doubtful);
+  for (const std::string& rows : {verdict.of_rows, verdict.window_of_rows}) {
+    if (!rows.empty()) screen.add("rows", rows, Tone::doubtful);
+  }
   if (!rests.empty()) screen.add("rests on", rests);
   return screen.lines;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string_view>
 
+#include "report/analysis/motion.h"
 #include "report/analysis/plugin_names.h"
 #include "report/analysis/row_statistics.h"
 #include "report/analysis/states.h"
@@ -105,6 +106,7 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
   made.from = summary.judged.from;
   made.to = summary.judged.to;
   made.of_rows = rows_sentence(record);
+  made.window_of_rows = motion_sentence(record);
   for (const CheckKind& kind : check_kinds()) {
     Check check{.id = kind.id,
                 .group = kind.group,

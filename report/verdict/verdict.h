@@ -47,6 +47,7 @@ struct Verdict {
   double first_time = 0;         ///< s, when that was
   /// That peaks, shares and spans are of the trace's rows, because the folder has nothing else; empty: they are of all steps.
   std::string of_rows = {};
+  std::string window_of_rows = {};        ///< motion_sentence of an older folder; empty: all else is of control ticks
   std::vector<JointDemand> demands = {};  ///< empty: no joint reaches a limit, or nobody asked
   std::string demand_doubt = {};          ///< why demands are not known, or doubtful
   [[nodiscard]] std::size_t count(CheckStatus status) const;

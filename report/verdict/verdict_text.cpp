@@ -31,6 +31,7 @@ std::string to_json(const Verdict& verdict) {
   json["statistics"] = verdict.of_rows.empty() ? "all steps" : "rows";
   if (!verdict.of_rows.empty()) json["statistics_text"] = verdict.of_rows;
   json["window"] = {{"from", verdict.from}, {"to", verdict.to}};
+  if (!verdict.window_of_rows.empty()) json["window"]["text"] = verdict.window_of_rows;
   json["first"] = verdict.first_joint.empty() ? Json() : Json{{"joint", verdict.first_joint}, {"time", verdict.first_time}};
   Json counts;
   for (const CheckStatus status :
