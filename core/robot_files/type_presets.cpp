@@ -23,6 +23,21 @@ std::string type_of(const Node* map, Kind kind) {
   return type == nullptr ? describe(kind).default_type : type->text;
 }
 
+/// The keys of a map but for those that are no figures.
+std::vector<std::string> figures_of(const Node* map) {
+  std::vector<std::string> keys;
+  if (map == nullptr) return keys;
+  for (const auto& [key, place] : map->keys) {
+    if (key != "type" && key != "source") keys.push_back(key);
+  }
+  return keys;
+}
+
+std::string source_of(const Node* map) {
+  const Node* source = map == nullptr ? nullptr : map->find("source");
+  return source == nullptr ? "" : source->text;
+}
+
 bool of_format_2(const Node& document) {
   const Node* format = document.find("gaitlab_module");
   return format != nullptr && read_integer(*format).value >= 2;
@@ -153,6 +168,20 @@ void TypePresets::choose_each(const Robot& robot, const std::vector<Node>& docum
   }
 }
 
+std::vector<std::string> TypePresets::sources() const {
+  std::vector<std::string> sources;
+  const auto add = [&](const std::string& source) {
+    if (std::ranges::find(sources, source) == sources.end()) sources.push_back(source);
+  };
+  for (const Maps& maps : kinds_) {
+    const bool of_hinge = !figures_of(maps.of_hinge).empty();
+    if (!of_hinge || !figures_of(maps.of_type).empty()) add(source_of(maps.of_type));
+    if (of_hinge) add(source_of(source_of(maps.of_hinge).empty() ? maps.of_type : maps.of_hinge));
+  }
+  if (kinds_.empty()) add("");
+  return sources;
+}
+
 void TypePresets::refuse(const SourceLocation& place, Problems& problems) const {
   Problem& problem = problems.add(place, fmt::format("{}; say which one holds: add {}: {{type: ...}}", why_, word(kind_)));
   for (const Node* map : said_) problem.notes.emplace_back(map->place, "one is here");
@@ -172,7 +201,7 @@ void TypePresets::read(const Entry& entry, const Maps& maps, void* settings, Joi
 }
 
 void TypePresets::fill(const Entry& entry, void* settings, JointNames joints, Problems& problems) const {
-  if (kinds_.empty() || !agreed() || entry.name != type_) return;
+  if (kinds_.empty() || !holds(entry)) return;
   read(entry, kinds_.front(), settings, joints, problems, problems);
   if (kinds_.size() == 1) return;
   std::vector<const Node*> told{kinds_.front().of_type};
@@ -198,6 +227,23 @@ void TypePresets::fill(const Entry& entry, void* settings, JointNames joints, Pr
       break;
     }
   }
+}
+
+std::vector<DroppedFigures> dropped_figures(Kind kind, const Robot& robot, const std::vector<Node>& documents,
+                                            const TypePresets& presets, const Entry& entry) {
+  std::vector<DroppedFigures> dropped;
+  for (std::size_t type = 0; type < documents.size() && !presets.holds(entry); ++type) {
+    const auto driven = [&](const Joint& joint) { return joint.driven() && robot.modules[joint.module].type == type; };
+    if (std::ranges::none_of(robot.joints, driven)) continue;
+    DroppedFigures of{robot.types[type].name, type_of(map_of(documents[type], kind), kind), {}};
+    for (const Node* map : preset_maps(documents[type], kind)) {
+      for (const std::string& key : figures_of(map)) {
+        if (std::ranges::find(of.keys, key) == of.keys.end()) of.keys.push_back(key);
+      }
+    }
+    if (!of.keys.empty()) dropped.push_back(std::move(of));
+  }
+  return dropped;
 }
 
 }  // namespace gaitlab

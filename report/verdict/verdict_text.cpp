@@ -55,6 +55,7 @@ std::string to_json(const Verdict& verdict) {
   json["rests_on"] = verdict.rests_on;
   json["chosen_motors"] = verdict.chosen_motors;
   json["chosen_docks"] = verdict.chosen_docks;
+  json["figures"] = verdict.figures;
   json["statistics"] = verdict.of_rows.empty() ? "all steps" : "rows";
   if (!verdict.of_rows.empty()) json["statistics_text"] = verdict.of_rows;
   json["window"] = {{"from", verdict.from}, {"to", verdict.to}};
@@ -123,12 +124,11 @@ std::vector<std::string> to_lines(const Verdict& verdict) {
   wrap(text);
   if (!verdict.demand_doubt.empty()) wrap("demand: " + verdict.demand_doubt);
   if (!verdict.of_rows.empty()) wrap(verdict.of_rows);
-  if (verdict.chosen_motors) wrap("rests on chosen figures of the motors, not on a maker's");
-  if (verdict.chosen_docks) wrap("rests on chosen figures of what docks hold");
   if (verdict.count(CheckStatus::fail) > 1) wrap("fails: " + names(CheckStatus::fail));
   if (verdict.count(CheckStatus::too_close) > 0) wrap("too close: " + names(CheckStatus::too_close));
   if (verdict.count(CheckStatus::warn) > 0) wrap("warns: " + names(CheckStatus::warn));
   if (verdict.count(CheckStatus::not_judged) > 0) wrap("not judged: " + names(CheckStatus::not_judged));
+  if (!verdict.figures.empty()) wrap(verdict.figures);
   return lines;
 }
 
