@@ -18,6 +18,17 @@ struct DroppedFigures {
   std::vector<std::string> keys;
 };
 
+/// A value per joint that a plugin has by default.
+struct DefaultFigure {
+  std::string key, unit;
+  double value;
+};
+/// The default figures of a plugin: settings other than 0, and limits. What is one for all joints is of its law, and no figure.
+std::vector<DefaultFigure> default_figures(const Entry& entry);
+
+/// `chosen: R, Kt by default of dc_motor`: a default is nobody's figure of a real motor.
+std::string by_default(const std::vector<std::string>& keys, const Entry& entry);
+
 /// The presets of one kind of plugin, actuator or controller. Every joint takes those of its own module type and, over them key
 /// by key, those of its hinge. Where no module type is of format 2, one motor serves all, and types that name different ones
 /// disagree, as they do where they name different types of plugin.
@@ -31,11 +42,12 @@ class TypePresets {
   [[nodiscard]] bool agreed() const { return why_.empty(); }
   /// Why the module types do not agree; empty: they do.
   [[nodiscard]] const std::string& why() const { return why_; }
-  /// Whether the joints get the presets where the scenario's plugin is this one.
-  [[nodiscard]] bool holds(const Entry& entry) const { return agreed() && entry.name == type_; }
-  /// Who says the presets: the `source` of each map that joints with a motor go by, each once; that of a hinge's map is its
-  /// type's where it has none. An empty one: nobody says some of them.
-  [[nodiscard]] std::vector<std::string> sources() const;
+  /// Whether the joints get presets where the scenario's plugin is this one.
+  [[nodiscard]] bool holds(const Entry& entry) const;
+  /// Who says the presets but for some keys, each text once: the `source` of the maps that joints with a motor go by, where
+  /// that of a hinge's map is its type's if it has none, and which figures are defaults of the plugin. An empty one: nobody
+  /// says some.
+  [[nodiscard]] std::vector<std::string> sources(const Entry& entry, const std::vector<std::string>& but) const;
   /// A problem at `place`: that the module types do not agree, and what each of them says.
   void refuse(const SourceLocation& place, Problems& problems) const;
   /// Into default settings of `entry`, where that is the type meant here. Findings go to `problems`.

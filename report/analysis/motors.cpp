@@ -92,11 +92,12 @@ std::string motor_source(const Scenario& scenario) {
   const TypePresets types(Kind::actuator, scenario.robot.get(), *scenario.module_documents);
   if (!types.holds(*scenario.actuator.entry)) return together({scenario.actuator_source});
   const std::vector<std::string> changed = changed_figures(scenario, types);
-  const std::string stated = together(types.sources());
+  const std::string stated = together(types.sources(*scenario.actuator.entry, changed));
   if (changed.empty()) return stated;
   const std::string keys = fmt::format("{} of the scenario", fmt::join(changed, ", "));
-  if (scenario.actuator_source.empty()) return fmt::format("{} for {}; the rest: {}", kNoSource, keys, stated);
-  const std::string given = fmt::format("{}: {}", keys, scenario.actuator_source);
+  const std::string& own = scenario.actuator_source;
+  const std::string given = own.empty() ? fmt::format("{} for {}", kNoSource, keys) : fmt::format("{}: {}", keys, own);
+  if (stated.empty()) return given;  // the scenario gives them all
   return !chosen(given) && chosen(stated) ? stated + "; " + given : fmt::format("{}; the rest: {}", given, stated);
 }
 

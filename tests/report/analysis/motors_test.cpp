@@ -48,7 +48,8 @@ std::string one(const std::string& motor, const std::string& more = "", const st
 }
 
 Scenario with_type(const std::string& motor, const std::string& actuator, const std::vector<std::string>& sets = {}) {
-  return scenario(one(motor, "actuator: {" + actuator + "}\n"), sets);
+  const bool torque = contains(actuator, "torque,") || actuator.ends_with("torque");
+  return scenario(one(motor, "actuator: {" + actuator + "}\n" + (torque ? "controller: {unit: N m}\n" : "")), sets);
 }
 
 std::string source(const std::string& text) { return motor_source(scenario(text)); }
@@ -99,7 +100,7 @@ TEST(MotorSource, OfFiguresThatTheScenarioGivesThereIsNoNote) {
   EXPECT_EQ(
       notes(with_type(kServo, "type: dc_motor, R: 2, Kt: 0.01, Ks: 0.01, gear: 50, efficiency: 0.8, u_max: 12")),
       std::vector<std::string>{
-          "test.yaml:18:18: note: the module type a states voltage, stall_torque, no_load_speed for actuator servo, which "
+          "test.yaml:19:18: note: the module type a states voltage, stall_torque, no_load_speed for actuator servo, which "
           "are dropped: actuator dc_motor takes its own default i_max 1.2 A; give this and source under actuator, or "
           "leave type out"});
   const std::string all = "type: dc_motor, R: 2, Kt: 0.01, Ks: 0.01, gear: 50, efficiency: 0.8, u_max: 12, i_max: 2";
@@ -171,12 +172,30 @@ TEST(MotorSource, OfHingesIsTheirTypesWhereTheyHaveNone) {
   EXPECT_EQ(source(one(stated, "", ", actuator: {stall_torque: 2}")), "data sheet 17");
   EXPECT_EQ(source(one(stated, "", ", actuator: {stall_torque: 2, source: bench}")), "data sheet 17; bench");
   EXPECT_EQ(source(one(kServo, "", ", actuator: {stall_torque: 2, source: bench}")), "chosen: no source stated; bench");
-  EXPECT_EQ(source(one("type: servo", "", ", actuator: {voltage: 5, stall_torque: 2, no_load_speed: 6, source: bench}")),
-            "bench");
-  EXPECT_EQ(notes(scenario(one("type: servo", "actuator: {type: torque}\n", ", actuator: {voltage: 5, stall_torque: 2}"))),
-            std::vector<std::string>{
-                "test.yaml:17:18: note: the module type a states voltage, stall_torque for actuator servo, which are dropped: "
-                "actuator torque takes its own default limit 0 N m; give this and source under actuator, or leave type out"});
+  EXPECT_EQ(source(one("type: dc_motor", "", ", actuator: {R: 2, Kt: 0.01, source: bench}")),
+            "chosen: Ks, gear, efficiency, u_max, i_max by default of dc_motor; bench");
+  const std::string rest = "Ks: 0.01, gear: 50, efficiency: 0.8, u_max: 12, i_max: 2";
+  EXPECT_EQ(source(one("type: dc_motor", "", ", actuator: {R: 2, Kt: 0.01, source: bench, " + rest + "}")), "bench");
+  EXPECT_EQ(
+      source(one("type: dc_motor", "actuator: {source: mine, " + rest + "}\n", ", actuator: {R: 2, Kt: 0.01, source: bench}")),
+      "Ks, gear, efficiency, u_max, i_max of the scenario: mine; the rest: bench");
+  EXPECT_EQ(
+      notes(scenario(one("type: dc_motor, gear: 50", "actuator: {type: torque}\ncontroller: {unit: N m}\n",
+                         ", actuator: {R: 2, Kt: 0.01}"))),
+      std::vector<std::string>{
+          "test.yaml:19:18: note: the module type a states gear, R, Kt for actuator dc_motor, which are dropped: actuator "
+          "torque takes its own default limit 0 N m; give this and source under actuator, or leave type out"});
+}
+
+/// Whose module types state no motor gets all of it from the scenario.
+TEST(MotorSource, OfTheScenarioAlone) {
+  const std::string most = "R: 2, Kt: 0.01, Ks: 0.01, gear: 50, efficiency: 0.7, u_max: 12";
+  EXPECT_EQ(motor_source(with_type("", most + ", i_max: 2, source: maxon 118752")), "maxon 118752") << "0.7 is stated";
+  EXPECT_EQ(motor_source(with_type("", most + ", source: maxon 118752")),
+            "chosen: i_max by default of dc_motor; the rest: maxon 118752");
+  EXPECT_EQ(motor_source(with_type("", std::string(kServo) + ", source: data sheet 17")), "data sheet 17");
+  EXPECT_EQ(motor_source(with_type("", kServo)), "chosen: no source stated");
+  EXPECT_TRUE(notes(with_type("", "type: dc_motor")).empty()) << "nothing is dropped";
 }
 
 TEST(MotorSource, OfSeveralModuleTypes) {
@@ -252,7 +271,7 @@ TEST(MotorSource, OfPlugins) {
   EXPECT_EQ(
       notes(with(kServo, "actuator: {type: pushes}\n")),
       std::vector<std::string>{
-          "test.yaml:17:18: note: the module type a states voltage, stall_torque, no_load_speed for actuator servo, which "
+          "test.yaml:19:18: note: the module type a states voltage, stall_torque, no_load_speed for actuator servo, which "
           "are dropped: actuator pushes has none of them; give its keys and source under actuator, or leave type out"});
   EXPECT_TRUE(notes(with(kServo, "actuator: {type: pushes, most: 3}\n")).empty());
 }
