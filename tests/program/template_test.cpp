@@ -186,8 +186,9 @@ TEST(Template, DropsTheSourceOfOtherFigures) {
                                         "actuator: {type: dc_motor, R: 5, source: data sheet 3}\n");
   for (const Sets& common : {Sets{}, Sets{"actuator.Ks=0.004"}, Sets{"actuator.source=data sheet 4"}}) {
     const ScenarioTemplate from(file, common, catalog());
-    for (const Sets& own : {Sets{}, Sets{"actuator.Kt=0.004"}, Sets{"cpg.frequency=0.4"}, Sets{"actuator.source=mine"},
-                            Sets{"actuator.Kt=0.004", "actuator.source=mine"}, Sets{"actuator.type=torque"}}) {
+    for (const Sets& own :
+         {Sets{}, Sets{"actuator.Kt=0.004"}, Sets{"cpg.frequency=0.4"}, Sets{"actuator.source=mine"},
+          Sets{"actuator.Kt=0.004", "actuator.source=mine"}, Sets{"actuator={type: dc_motor, R: 6, source: mine}"}}) {
       Sets both = common;
       both.insert(both.end(), own.begin(), own.end());
       const Scenario again = read_scenario(file, both, catalog());

@@ -267,7 +267,8 @@ TEST(MotorSource, OfPlugins) {
   EXPECT_EQ(motor_source(with("type: pushes, most: 3", "")), "chosen: no source stated");
   EXPECT_EQ(motor_source(with("type: pushes, most: 3, source: bench", "")), "bench");
   EXPECT_EQ(motor_source(with("type: pushes, most: 3, source: bench", "actuator: {most: 4}\n")),
-            "chosen: no source stated for most of the scenario; the rest: bench");
+            "chosen: no source stated for most of the scenario")
+      << "it has no other figure";
   EXPECT_EQ(
       notes(with(kServo, "actuator: {type: pushes}\n")),
       std::vector<std::string>{
