@@ -58,7 +58,7 @@ class ScenarioReader {
     attempt([&] {
       for (std::string& note : drop_old_keys(root_, retyped, catalog_)) add_note(std::move(note));
     });
-    add_note(drop_source(root_, sets));
+    tell_dropped_source(sets);
     read_name(head);
     read_body();
     read_sections();
@@ -77,7 +77,7 @@ class ScenarioReader {
     ScenarioReader own = *this;
     apply_sets(own.root_, sets, own.problems_);
     own.raise();
-    own.add_note(drop_source(own.root_, sets));
+    own.tell_dropped_source(sets);
     for (const std::string& set : sets) own.touched_.push_back(set.substr(0, set.find_first_of(".=")));
     own.follow_dependencies();
     own.read_sections();
@@ -93,6 +93,13 @@ class ScenarioReader {
 
   void add_note(std::string text) {
     if (!text.empty()) scenario_.notes.push_back({{path_}, std::move(text)});
+  }
+
+  void tell_dropped_source(const std::vector<std::string>& sets) {
+    const auto another = [](const std::string& set) { return set.starts_with("actuator.source="); };
+    if (std::ranges::any_of(sets, another)) std::erase(scenario_.notes, source_note_);  // that of the template
+    source_note_ = {{path_}, drop_source(root_, sets)};
+    add_note(source_note_.text);
   }
 
   /// Where the touched keys are given, as far as that differs from the template's own.
@@ -358,7 +365,7 @@ class ScenarioReader {
   Node root_;
   Scenario scenario_;
   std::shared_ptr<const std::vector<std::string>> joints_;  ///< nullptr: the robot could not be read
-  Note cpg_note_;
+  Note cpg_note_, source_note_;
   std::vector<Note> motor_notes_;
   std::vector<std::string> touched_;  ///< sections to read; none: all
 };
