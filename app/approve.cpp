@@ -98,7 +98,7 @@ void check_finite(const GoldenRun& run, const std::string& which) {
 /// One each; nothing is written where one of them fails. `names` are for messages.
 std::vector<GoldenRun> simulate(const std::vector<Scenario>& scenarios, const std::vector<std::string>& names, int jobs) {
   std::vector<GoldenRun> runs;
-  std::vector<Outcome> outcomes;
+  std::vector<golden::Outcome> outcomes;
   {
     const Progress progress(false);
     outcomes = golden_runs(scenarios, jobs, std::cref(progress));

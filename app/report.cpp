@@ -95,9 +95,10 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
   Recording& recording = run.read.stored.recording;
   draw_joints(scenario, joints);
   // A CSV file alone does not have it.
-  const nlohmann::json told =
-      run.read.stored.origin.outcome.empty() ? summarised(trace.parent_path(), "outcome") : nlohmann::json(recording.outcome);
-  if (told.is_string()) recording.outcome = told;
+  if (run.read.stored.origin.outcome.empty()) {
+    const nlohmann::json told = summarised(trace.parent_path(), "outcome");
+    if (told.is_string()) recording.outcome = Outcome::of(told.get<std::string>());
+  }
   run.summary = report::summarise(scenario, recording, wall_time(trace.parent_path()));
   run.summary.build = run.read.stored.origin.build;
   run.overlaps = report::overlaps(scenario, recording);
@@ -110,8 +111,8 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
 void warn(const JudgedRun& run) {
   const Recording& recording = run.recording();
   for (const std::string& missing : run.read.stored.missing) say(run.name, "note", missing);
-  if (recording.outcome != "done") say(run.name, "note", "this run ended early: " + recording.outcome);
-  warn_of_run(run.read.scenario, recording, run.summary, run.overlaps);
+  if (!recording.outcome.done()) say(run.name, "note", "this run ended early: " + recording.outcome.text());
+  warn_of_run(run.read.scenario, recording, run.verdict);
 }
 
 int report_one(const ReportArguments& arguments) {

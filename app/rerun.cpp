@@ -40,10 +40,10 @@ constexpr std::size_t kColumnsShown = 10;
 struct Past {
   fs::path file;  ///< of the trace
   Trace trace;
-  std::string scenario;              ///< inside trace.h5, or ""
-  std::string build;                 ///< "" where nothing recorded it
-  std::optional<std::string> ended;  ///< summary.json: "done", or why it ended early; without one: nothing
-  std::string summary_hash;          ///< of the trace that summary.json is about, or ""
+  std::string scenario;          ///< inside trace.h5, or ""
+  std::string build;             ///< "" where nothing recorded it
+  std::optional<Outcome> ended;  ///< of summary.json; without one: nothing
+  std::string summary_hash;      ///< of the trace that summary.json is about, or ""
 };
 
 bool is_there(const fs::path& file) {
@@ -70,7 +70,7 @@ Past read_past(const fs::path& run) {
     const auto at = summary.find(key);
     return at != summary.end() && at->is_string() ? at->get<std::string>() : std::string();
   };
-  if (!text("outcome").empty()) past.ended = text("outcome");
+  if (!text("outcome").empty()) past.ended = Outcome::of(text("outcome"));
   past.summary_hash = text("trace_hash");
   if (past.build.empty()) past.build = text("build");
   return past;
@@ -80,7 +80,7 @@ double last_time(const Trace& trace) { return trace.at(trace.rows() - 1, 0); }
 
 /// A run that was killed while it wrote, or a trace file alone, has no summary: then its last row tells.
 bool ended_early(const Past& past, const Scenario& scenario) {
-  if (past.ended) return *past.ended != "done";
+  if (past.ended) return !past.ended->done();
   return last_time(past.trace) < scenario.duration - 0.5 * scenario.physics.step;
 }
 
@@ -188,7 +188,7 @@ int verify(const std::string& run, const PluginArguments& plugins) {
   const bool same = judge(run, past.trace, again);
   if (early) {
     fmt::print("  it ended early ({}): compared up to its last row, t = {:.6g} s\n",
-               past.ended.value_or("and no summary says why: the record is not whole"), last_time(past.trace));
+               past.ended ? past.ended->text() : "and no summary says why: the record is not whole", last_time(past.trace));
   }
   const std::vector<std::string> changed = changes(stored, past, scenario, again);
   for (const std::string& line : changed) fmt::print("  {}\n", line);

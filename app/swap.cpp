@@ -233,7 +233,7 @@ bool run_or_tell(const std::vector<Swapped*>& all, const SwapArguments& argument
 }
 
 bool any_broke_off(const std::vector<Swapped>& all) {
-  return std::ranges::any_of(all, [](const Swapped& s) { return s.summary.outcome != "done"; });
+  return std::ranges::any_of(all, [](const Swapped& s) { return !s.summary.outcome.done(); });
 }
 
 /// What is written of one scenario.

@@ -16,7 +16,8 @@ constexpr const char* kExcess = "verdict_excess";
 
 double verdict_excess(const report::Verdict& verdict) {
   const auto known = [](const report::Check& check) {
-    return check.status == report::CheckStatus::fail || (check.group == "motor" && check.status != report::CheckStatus::not_judged);
+    return check.status == report::CheckStatus::fail ||
+           (check.group == report::CheckGroup::motor && check.status != report::CheckStatus::not_judged);
   };
   if (std::ranges::none_of(verdict.checks, known)) return std::nan("");
   constexpr double kLeast = 1e-6;  // of a check that fails at its limit

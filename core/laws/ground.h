@@ -4,6 +4,7 @@
 
 #include "core/laws/heightfield.h"
 #include "core/model/frames.h"
+#include "core/names.h"
 
 namespace gaitlab {
 
@@ -51,6 +52,13 @@ struct Ground {
  private:
   [[nodiscard]] Touch on_boxes(const Vec3& centre, double radius) const;
   [[nodiscard]] Touch on_field(const Vec3& centre, double radius) const;
+};
+
+template <>
+struct EnumNames<Ground::Kind> {
+  using enum Ground::Kind;
+  static constexpr EnumName<Ground::Kind> kTable[] = {
+      {none, "none"}, {plane, "plane"}, {boxes, "boxes"}, {heightfield, "heightfield"}};
 };
 
 }  // namespace gaitlab

@@ -5,11 +5,10 @@
 #include <vector>
 
 #include "core/recording/limit_cycle.h"
+#include "core/recording/motor_limit.h"
 #include "core/recording/recording.h"
 
 namespace gaitlab {
-
-enum class MotorLimit { none, voltage, current };
 
 /// Of one joint, within the window; NaN where the folder does not know it. A time is the end of the row of Recording::ticks in
 /// which the peak was reached.

@@ -7,6 +7,7 @@
 
 #include "core/model/kinematics.h"
 #include "core/recording/ledger.h"
+#include "core/recording/outcome.h"
 #include "core/recording/statistics.h"
 #include "core/recording/trace.h"
 
@@ -74,7 +75,7 @@ struct Recording {
   double worst_time = 0;                ///< s
   std::int64_t control_ticks = 0, control_ticks_above_1 = 0;
   std::int64_t steps = 0;
-  std::string outcome = "done";  ///< or why it ended early
+  Outcome outcome;
 
   [[nodiscard]] std::size_t rows() const { return trace.rows(); }
   /// A column of `trace` or `rest` by name; empty where neither has it.

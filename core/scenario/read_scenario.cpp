@@ -40,6 +40,7 @@ class ScenarioReader {
     if (!root) raise();
     root_ = std::move(*root);
     const std::vector<Retyped> retyped = apply_sets(root_, sets, problems_);
+    rename_old_keys();
     if (root_.find("gaitlab_module") != nullptr) {
       problems_.add(root_.place,
                     fmt::format("this is a module type, not a scenario; what is in it: gaitlab explain module {}", path_));
@@ -76,6 +77,7 @@ class ScenarioReader {
     if (sets.empty()) return scenario_;
     ScenarioReader own = *this;
     apply_sets(own.root_, sets, own.problems_);
+    own.rename_old_keys();
     own.raise();
     own.tell_dropped_source(sets);
     for (const std::string& set : sets) own.touched_.push_back(set.substr(0, set.find_first_of(".=")));
@@ -100,6 +102,19 @@ class ScenarioReader {
     if (std::ranges::any_of(sets, another)) std::erase(scenario_.notes, source_note_);  // that of the template
     source_note_ = {{path_}, drop_source(root_, sets)};
     add_note(source_note_.text);
+  }
+
+  /// Gives keys of earlier editions their present names.
+  void rename_old_keys() {
+    const auto section = std::ranges::find(root_.keys, "limits", [](const auto& key) { return key.first; });
+    if (section == root_.keys.end()) return;
+    Node& limits = root_.items[static_cast<std::size_t>(section - root_.keys.begin())];
+    for (auto& [key, place] : limits.keys) {
+      if (key != "margin") continue;
+      if (limits.find("warn_share") != nullptr)
+        problems_.add(place, "limits.margin is the old name of limits.warn_share, which is given, too; expected one of them");
+      key = "warn_share";
+    }
   }
 
   /// Where the touched keys are given, as far as that differs from the template's own.

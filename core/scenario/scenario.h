@@ -10,6 +10,7 @@
 #include "core/laws/contact.h"
 #include "core/laws/ground.h"
 #include "core/model/robot.h"
+#include "core/names.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/settings/node.h"
 
@@ -37,6 +38,12 @@ struct Physics {
 
 enum class ContactLaw { penalty, solver };  ///< forces of penetration and velocity, or constraints of the engine's own solver
 
+template <>
+struct EnumNames<ContactLaw> {
+  using enum ContactLaw;
+  static constexpr EnumName<ContactLaw> kTable[] = {{penalty, "penalty"}, {solver, "bullet"}};
+};
+
 struct ContactSettings {
   ContactLaw law = ContactLaw::penalty;
   ContactSet on = ContactSet::feet;
@@ -60,7 +67,7 @@ struct FigureSettings {
 
 /// What the verdict on a run allows (report/verdict/verdict.h).
 struct Limits {
-  double margin = 0.8;               ///< of what a motor has
+  double warn_share = 0.8;           ///< of what a motor, gear or dock has
   double tracking_error = 0.1;       ///< rad
   double saturated_share = 0.01;     ///< of the judged window
   double saturated_periods = 3;      ///< control periods on end
@@ -75,6 +82,8 @@ struct Limits {
   double energy_residual = 0.01;     ///< of what was drawn, or stored, or the least that counts
   double energy_created = 0.05;      ///< of the same
   double slip = 0.2;                 ///< of the way of the centre of mass
+  double torque_error = 0.05;        ///< of a joint's largest torque
+  double progress = 0;               ///< of the robot's extent, per period; 0: nothing is asked for
   bool operator==(const Limits&) const = default;
   void fields(Fields& f);
 };
@@ -127,6 +136,11 @@ struct Scenario {
       if (const auto at = known->find(key); at != known->end()) return at->second;
     }
     return SourceLocation{file};
+  }
+  /// The same, with the key's section before the file.
+  [[nodiscard]] SourceLocation nearest_place(const std::string& key) const {
+    const SourceLocation exact = place(key);
+    return exact.line > 0 ? exact : place(key.substr(0, key.find('.')));
   }
 };
 

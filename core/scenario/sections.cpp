@@ -15,9 +15,6 @@ namespace {
 
 constexpr const char* kNone = "none";
 constexpr const char* kDefaultEngine = "bullet";
-constexpr std::array<const char*, 3> kBases{"floating", "fixed", "planar"};
-constexpr std::array<const char*, 2> kLaws{"penalty", "bullet"};  // the second: Bullet's solver
-constexpr std::array<const char*, 3> kContactSets{"none", "feet", "all"};
 
 /// Texts as the interface wants them; they live as long as this.
 struct Names {
@@ -35,7 +32,7 @@ std::size_t count(const Problems* problems) { return problems == nullptr ? 0 : p
 }  // namespace
 
 void BaseFields::fields(Fields& f) {
-  f.choice("base", scenario.base, kBases, "floating; fixed; planar: world x, world z and rotation about world y.");
+  f.choice("base", scenario.base, enum_names<Base>(), "floating; fixed; planar: world x, world z and rotation about world y.");
   f.flag("on_ground", scenario.on_ground,
          "Whether the robot is lowered onto the ground until its first contact element touches; false where `position` has a "
          "height.");
@@ -115,10 +112,11 @@ void PhysicsFields::fields(Fields& f) {
 }
 
 void ContactSettings::fields(Fields& f) {
-  f.choice("law", law, kLaws,
+  f.choice("law", law, enum_names<ContactLaw>(),
            "penalty: Fn = Kn p^k + Cd p^d p' >= 0; friction -f Fn v/v_lim up to v_lim, then -f Fn v/|v|. bullet: Bullet's own "
            "solver, for comparison and clutter; it has none of the keys below but `on`.");
-  f.choice("on", on, kContactSets, "Which elements touch: those of the free blocks' feet, of every block, or none.");
+  f.choice("on", on, enum_names<ContactSet>(),
+           "Which elements touch: those of the free blocks' feet, of every block, or none.");
   if (solver()) return;
   f.number("stiffness", penalty.kn,
            {"N/m^k", 0, 1e12, "Kn of the spring. On stiffer ground the robot sinks in less, and steps must be shorter."});
@@ -180,10 +178,10 @@ void FigureSettings::fields(Fields& f) {
 }
 
 void Limits::fields(Fields& f) {
-  f.number(
-      "margin", margin,
-      {"", 0, 1,
-       "Share of what motor and gear have (torque at that speed, ratings) above which the verdict warns. Default: chosen."});
+  f.number("warn_share", warn_share,
+           {"", 0, 1,
+            "Share of what motors, gears and docks have (torque at that speed, ratings) above which the verdict warns. "
+            "Default: chosen."});
   f.number("tracking_error", tracking_error,
            {"rad", kPositive, 1000,
             "Largest difference of a set point and its angle; up to twice that is a warning, more a failure. Default: what the "
@@ -227,6 +225,14 @@ void Limits::fields(Fields& f) {
       "slip", slip,
       {"", 0, 1e6,
        "Share of its way that a robot may slide on its feet, weighted by their loads; more is a warning. Default: chosen."});
+  f.number("torque_error", torque_error,
+           {"", kPositive, 1,
+            "Estimated error of a joint's torque, share of its largest, above which a run is no evidence of a gait. Default: "
+            "chosen."});
+  f.number("progress", progress,
+           {"", 0, 1000,
+            "Least travel per period, share of the robot's extent; less is a failure. Default: 0, with which less than a "
+            "hundredth is a warning."});
 }
 
 SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type)

@@ -210,7 +210,7 @@ void Simulation::close(Lane& lane) {
   const Sample& last = take_sample(lane, true);
   recording.tally = last.tally;
   recording.ledger = last.ledger;
-  if (!lane.failure.empty()) recording.outcome = lane.failure;
+  recording.outcome = lane.outcome;
   recording.joints.clear();
   for (std::size_t j = 0; j < layout_.joints; ++j) recording.joints.push_back(meter_.statistics(j, lane.index));
 }

@@ -166,7 +166,7 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   meta["period"] = scenario.trace.period * static_cast<double>(stride);
   meta["rows"] = thinned(r.rows(), stride);
   meta["duration"] = summary.simulated;
-  meta["outcome"] = summary.outcome;
+  meta["outcome"] = summary.outcome.text();
   meta["mass"] = robot.mass;
   meta["weight"] = robot.mass * scenario.physics.gravity.norm();
   meta["modules"] = Json::array();

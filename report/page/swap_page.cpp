@@ -72,7 +72,7 @@ std::string swap_page(const std::string& name, const std::vector<SwapEntry>& ent
                                         : fmt::format("<img src=\"{}\" alt=\"load of every joint over time under {}\">",
                                                       picture, xml_escaped(entry.named.name)));
     for (const SummaryNumber* number : columns) {
-      const bool known = entry.named.run.summary.outcome == "done";
+      const bool known = entry.named.run.summary.outcome.done();
       rows += fmt::format("<td>{}</td>", known ? typeset(number->swap.cell(entry.named.run)) : "");
     }
     rows += "</tr>\n";

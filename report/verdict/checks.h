@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "report/analysis/envelope.h"
@@ -36,9 +37,12 @@ struct CheckedRun {
 /// Up to `pass` a pass, up to `warn` a warning, above it, and where it is not a number, a failure.
 CheckStatus graded(double value, double pass, double warn);
 
-/// A limit within the error of the value makes the status `too close` of a check that passes, warns or fails by less than that;
-/// the text then has the range and the remedy. error: share of the value.
-void widen(const Scenario& scenario, double error, double limit, Check& made);
+/// Sets Check::error. Where the failing limit lies within the error of the value the status becomes `too close`, and the text
+/// gains the range and the remedy. error: share of the value.
+void widen(const Scenario& scenario, double error, Check& made);
+
+/// The stretch between the row of Recording::ticks before `time` and `time`, in which a peak of that row was reached.
+std::pair<double, double> row_before(const Recording& record, double time);
 
 /// Who says a threshold of the section `limits`; all of their defaults are chosen.
 std::string threshold(const char* key, double value, double preset);
@@ -62,10 +66,19 @@ void collision(const CheckedRun& run, Check& made);
 void battery(const CheckedRun& run, Check& made);
 void in_ground(const CheckedRun& run, Check& made);
 void progress(const CheckedRun& run, Check& made);
+void setpoints(const CheckedRun& run, Check& made);
+void start(const CheckedRun& run, Check& made);
+void airborne(const CheckedRun& run, Check& made);
+void field(const CheckedRun& run, Check& made);
+void periodic(const CheckedRun& run, Check& made);
 void evidence(const CheckedRun& run, Check& made);
 void torque_error(const CheckedRun& run, Check& made);
 void ledger(const CheckedRun& run, Check& made);
 void created(const CheckedRun& run, Check& made);
+void supply(const CheckedRun& run, Check& made);
+void step(const CheckedRun& run, Check& made);
+void coarse(const CheckedRun& run, Check& made);
+void law(const CheckedRun& run, Check& made);
 }  // namespace checks
 
 }  // namespace gaitlab::report

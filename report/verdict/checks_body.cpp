@@ -1,15 +1,18 @@
-// Checks of the run, of motion, bodies and ground, and of whether the numbers are to be believed.
+// Checks of the run, of motion, bodies and ground.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "core/settings/wording.h"
 #include "report/analysis/motors.h"
 #include "report/analysis/row_statistics.h"
+#include "report/analysis/settings_numbers.h"
 #include "report/verdict/checks.h"
 #include "report/verdict/number_texts.h"
-#include "report/verdict/trust.h"
 
 namespace gaitlab::report {
 
@@ -19,12 +22,16 @@ std::string threshold(const char* key, double value, double preset) {
 
 namespace {
 
-constexpr const char* kNoEnergies = "the folder holds rows only, and no energies of all steps";
 constexpr const char* kNoFall = "judged of a floating base above a plane, with or without boxes";
 
 void judge(Check& made, const char* key, double Limits::*member, const CheckedRun& run) {
   made.limit = run.limits().*member;
   made.source = threshold(key, made.limit, Limits().*member);
+}
+
+void name_joint(Check& made, const CheckedRun& run, std::size_t joint) {
+  made.part = Part::joint;
+  made.worst = run.joint(joint);
 }
 
 /// Why bodies cannot be judged, or which are not; empty: all are.
@@ -42,8 +49,8 @@ namespace checks {
 void outcome(const CheckedRun& run, Check& made) {
   made.value = run.record.simulated;
   made.limit = run.scenario.duration;
-  made.status = run.record.outcome == "done" ? CheckStatus::pass : CheckStatus::fail;
-  made.text = run.record.outcome == "done" ? "the run came to its end" : run.record.outcome;
+  made.status = run.record.outcome.done() ? CheckStatus::pass : CheckStatus::fail;
+  made.text = run.record.outcome.done() ? "the run came to its end" : run.record.outcome.text();
 }
 
 void height(const CheckedRun& run, Check& made) {
@@ -56,6 +63,7 @@ void height(const CheckedRun& run, Check& made) {
   made.text = made.status == CheckStatus::pass
                   ? fmt::format("the centre of mass keeps at least {} of its height at the start", texts::percent(made.value))
                   : fmt::format("the centre of mass comes down to {} of its height at the start", texts::percent(made.value));
+  if (made.status == CheckStatus::fail) made.remedy = "take a gait with more support";
 }
 
 void tilt(const CheckedRun& run, Check& made) {
@@ -74,45 +82,88 @@ void tracking(const CheckedRun& run, Check& made) {
   const std::vector<JudgedJoint>& joints = run.summary.judged.joints;
   const std::size_t worst = Judged::farthest(joints);
   judge(made, "tracking_error", &Limits::tracking_error, run);
+  const double warns = made.limit;
+  made.limit *= 2;
   made.value = joints[worst].error_peak;
-  made.status = graded(made.value, made.limit, 2 * made.limit);
-  made.joint = run.joint(worst);
-  made.joints =
-      static_cast<std::size_t>(std::ranges::count_if(joints, [&](const JudgedJoint& j) { return j.error_peak > made.limit; }));
-  made.from = made.to = joints[worst].error_peak_time;
-  made.text = fmt::format("joint {} is up to {} rad from its set point", made.joint, texts::thousandths(made.value));
+  made.status = graded(made.value, warns, made.limit);
+  name_joint(made, run, worst);
+  made.parts =
+      static_cast<std::size_t>(std::ranges::count_if(joints, [&](const JudgedJoint& j) { return j.error_peak > warns; }));
+  std::tie(made.from, made.to) = row_before(run.record, joints[worst].error_peak_time);
+  made.text = fmt::format("joint {} is up to {} rad from its set point", made.worst, texts::thousandths(made.value));
 }
 
 void stops(const CheckedRun& run, Check& made) {
   const std::vector<BeyondRange> joints = beyond_range(*run.scenario.robot, run.record);
   made.text = "neither statistics of all steps were recorded nor the angle of every joint";
   if (joints.empty() && !run.scenario.robot->joints.empty()) return;
-  judge(made, "beyond_range", &Limits::beyond_range, run);
   made.value = 0;
+  judge(made, "beyond_range", &Limits::beyond_range, run);
   made.status = CheckStatus::pass;
   made.text = "no joint leaves its range";
-  std::size_t farthest = 0;
-  std::size_t longest = 0;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    made.joints += joints[j].worst > 0 ? 1 : 0;
-    if (joints[j].worst > joints[farthest].worst) farthest = j;
-    if (joints[j].share > joints[longest].share) longest = j;
-  }
-  if (made.joints == 0) return;
-  const bool far = joints[farthest].worst > made.limit;
   const double most = run.limits().beyond_range_share;
-  const bool for_long = joints[longest].share > most;
-  // The joint that decides: by its angle, or by its time where no angle does.
-  const std::size_t worst = for_long && !far ? longest : farthest;
-  made.value = joints[worst].worst;
-  made.joint = run.joint(worst);
-  made.status = far || for_long ? CheckStatus::fail : CheckStatus::warn;
-  made.text = fmt::format("{} leave{} the range of the hinge, {} ", counted(made.joints, "joint"), made.joints == 1 ? "s" : "",
-                          made.joint);
-  made.text += worst == longest && for_long && !far
-                   ? fmt::format("for {} of the run, more than {}, by up to {:.3g} rad", texts::percent(joints[worst].share),
-                                 texts::percent(most), made.value)
-                   : fmt::format("farthest: by {:.3g} rad, for {} of the run", made.value, texts::percent(joints[worst].share));
+  const auto criteria = [&](const BeyondRange& joint) {
+    return std::vector<Criterion>{{joint.worst, made.limit, made.unit}, {joint.share, most}};
+  };
+  const auto margin = [&](const BeyondRange& joint) {
+    return std::min(criteria(joint)[0].margin(), criteria(joint)[1].margin());
+  };
+  made.criteria = criteria({});
+  std::size_t worst = 0;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    made.parts += joints[j].worst > 0 ? 1 : 0;
+    if (std::pair(-margin(joints[j]), joints[j].worst) > std::pair(-margin(joints[worst]), joints[worst].worst)) worst = j;
+  }
+  made.margin = joints.empty() ? 1 : margin(joints[worst]);
+  if (made.parts == 0) return;
+  made.criteria = criteria(joints[worst]);
+  const bool by_angle = made.criteria[0].margin() <= made.criteria[1].margin();
+  const Criterion& decisive = made.criteria[by_angle ? 0 : 1];
+  made.value = decisive.value;
+  made.limit = decisive.limit;
+  made.unit = decisive.unit;
+  if (!by_angle) made.source = threshold("beyond_range_share", most, Limits().beyond_range_share);
+  name_joint(made, run, worst);
+  made.status = made.margin < 0 ? CheckStatus::fail : CheckStatus::warn;
+  made.text = fmt::format("{} leave{} the range of the hinge; worst {}: ", counted(made.parts, "joint"),
+                          made.parts == 1 ? "s" : "", made.worst);
+  made.text += by_angle
+                   ? fmt::format("by {:.3g} rad, for {} of the run", joints[worst].worst, texts::percent(joints[worst].share))
+                   : fmt::format("for {} of the run, more than {}, by up to {:.3g} rad", texts::percent(joints[worst].share),
+                                 texts::percent(most), joints[worst].worst);
+  if (made.status == CheckStatus::fail)
+    made.remedy = "take a smaller amplitude or offset: the motor works against the hinge stop";
+}
+
+void setpoints(const CheckedRun& run, Check& made) {
+  made.text = "nothing drives the joints, or statistics of all steps were not recorded";
+  if (!run.driven() || run.record.joints.empty()) return;
+  const std::size_t worst = texts::worst(run.record, &JointStatistics::setpoint_outside);
+  made.value = run.record.joints[worst].setpoint_outside;
+  made.limit = 0;
+  made.status = made.value > 0 ? CheckStatus::warn : CheckStatus::pass;
+  made.text = "no set point leaves the range of its hinge";
+  if (!(made.value > 0)) return;
+  name_joint(made, run, worst);
+  made.text = fmt::format("the set point of joint {} is beyond the range of its hinge for {} of the run", made.worst,
+                          texts::percent(made.value));
+}
+
+void start(const CheckedRun& run, Check& made) {
+  const Scenario& s = run.scenario;
+  made.text = "nothing drives the joints, or statistics of all steps were not recorded";
+  if (!run.driven() || run.record.joints.empty()) return;
+  judge(made, "start_jump", &Limits::start_jump, run);
+  const std::size_t worst = texts::worst(run.record, &JointStatistics::start_jump);
+  made.value = run.record.joints[worst].start_jump;
+  name_joint(made, run, worst);
+  made.text = fmt::format("the set point of joint {} is {:.3g} rad from its angle at t = 0", made.worst, made.value);
+  made.status = made.value > made.limit ? CheckStatus::warn : CheckStatus::pass;
+  if (made.status == CheckStatus::pass) return;
+  made.from = made.to = made.first = 0;
+  const bool ramps = s.cpg.entry != nullptr && SettingsNumbers(s.cpg).find("model.ramp") != nullptr;
+  made.text += ", and its motor answers at once: peaks of the whole run may be of that";
+  made.remedy = std::string("set initial.angles") + (ramps ? ", or cpg.model.ramp" : "");
 }
 
 void collision(const CheckedRun& run, Check& made) {
@@ -125,10 +176,14 @@ void collision(const CheckedRun& run, Check& made) {
   made.status = graded(made.value, run.limits().touch, made.limit);
   made.text = "no two bodies are in one another (those on one hinge are not compared)" + missing;
   if (!found) return;
-  made.from = found->time;
+  made.from = made.first = found->time;
+  made.parts = found->pairs;
+  made.part = Part::body;
+  made.worst = run.scenario.robot->bodies[found->deepest_first].name;
+  made.remedy = "take smaller amplitudes or offsets: contact.law penalty does not keep bodies apart";
   made.text = fmt::format("{} of bodies pass{} through one another, deepest {} and {}", counted(found->pairs, "pair"),
-                          found->pairs == 1 ? "es" : "", run.scenario.robot->bodies[found->deepest_first].name,
-                          run.scenario.robot->bodies[found->deepest_second].name);
+                          found->pairs == 1 ? "es" : "", made.worst, run.scenario.robot->bodies[found->deepest_second].name);
+  made.text += fmt::format(", by {:.3g} mm", 1000 * found->depth);
 }
 
 void battery(const CheckedRun&, Check& made) { made.text = "the module types state no battery"; }
@@ -146,43 +201,12 @@ void in_ground(const CheckedRun& run, Check& made) {
   made.from = found->time;
   made.text =
       fmt::format("body {} goes {:.3g} mm into the ground", run.scenario.robot->bodies[found->body].name, 1000 * found->depth);
-}
-
-void torque_error(const CheckedRun& run, Check& made) {
-  const TorqueError error = report::torque_error(run.record);
-  made.text = "the error of the torques was not estimated in this run";
-  if (!error.estimated) return;
-  made.value = error.share;
-  made.limit = torque_error_limit(run.scenario);
-  made.source = "1 %, or physics.accuracy";
-  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;
-  made.joint = run.joint(error.joint);
-  made.text =
-      fmt::format("the torque of joint {} is off by about {} of its peak", made.joint, texts::rough_percent(made.value));
-}
-
-void ledger(const CheckedRun& run, Check& made) {
-  made.text = "nothing drives the joints";
-  if (!run.driven()) return;
-  made.text = kNoEnergies;
-  if (run.record.joints.empty()) return;
-  judge(made, "energy_residual", &Limits::energy_residual, run);
-  made.value = std::abs(run.record.ledger.residual()) / energy_scale(run.scenario, run.record);
-  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // not a number: a warning
-  made.text = fmt::format("{} of the energy is unaccounted for", texts::percent(made.value));
-}
-
-void created(const CheckedRun& run, Check& made) {
-  made.text = "nothing drives the joints";
-  if (!run.driven()) return;
-  made.text = kNoEnergies;
-  if (run.record.joints.empty()) return;
-  judge(made, "energy_created", &Limits::energy_created, run);
-  made.value = texts::created(run.record) / energy_scale(run.scenario, run.record);
-  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // not a number: a warning
-  const std::string remedy = made.status == CheckStatus::warn ? no_created_energy(run.scenario) : "";
-  made.text = fmt::format("gears that are driven backwards give {} of the energy too much (eq. 2){}{}",
-                          texts::percent(made.value), remedy.empty() ? "" : "; ", remedy);
+  made.first = found->time;
+  made.part = Part::body;
+  made.worst = run.scenario.robot->bodies[found->body].name;
+  made.remedy = run.scenario.contact.on == ContactSet::all
+                    ? "take a larger contact.stiffness, if it is too small for this load"
+                    : "set contact.on: all, with which all parts of the robot touch the ground";
 }
 
 }  // namespace checks

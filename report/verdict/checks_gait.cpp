@@ -3,18 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/settings/wording.h"
 #include "report/verdict/checks.h"
 #include "report/verdict/number_texts.h"
 #include "report/verdict/trust.h"
+#include "report/verdict/warnings.h"
 
 namespace gaitlab::report {
 
 namespace {
 
 constexpr double kLeastTravel = 0.01, kLeastTurn = 0.01;  // of the extent, and rad: per period, ten times that without one
-constexpr double kSpeedsUp = 1.2;                         // of the first half's speed, where gravity drives the robot
+constexpr double kNotLimited = std::numeric_limits<double>::quiet_NaN();  // the margin of a limit that nothing fails by
+constexpr double kMostCycleError = 0.02;                                  // as core/recording/limit_cycle.h
+constexpr double kSpeedsUp = 1.2;  // of the first half's speed, where gravity drives the robot
 
 /// Rows of the trace that lie in the judged window.
 struct Rows {
@@ -68,13 +72,15 @@ double speed_up(const CheckedRun& run, const Series& time, const Series& x, cons
 
 }  // namespace
 
-void widen(const Scenario& scenario, double error, double limit, Check& made) {
+void widen(const Scenario& scenario, double error, Check& made) {
   const double low = made.value * (1 - error);
   const double high = made.value * (1 + error);
-  if (!(error > 0) || !(low < limit && limit < high)) return;
+  made.error = error;
+  if (!(error > 0) || !(low < made.limit && made.limit < high)) return;
   made.status = CheckStatus::too_close;
-  made.text += fmt::format("; by the error of the torques between {} and {} of the limit: take {}", texts::percent(low / limit),
-                           texts::percent(high / limit), torque_remedy(scenario, std::max(error, kTrustedTorque)));
+  made.text += fmt::format("; with the error of the torques {} to {} of the limit", texts::percent(low / made.limit),
+                           texts::percent(high / made.limit));
+  made.remedy = "take " + torque_remedy(scenario, std::max(error, scenario.limits.torque_error));
 }
 
 namespace checks {
@@ -95,25 +101,81 @@ void progress(const CheckedRun& run, Check& made) {
   const double per = periods > 0 ? static_cast<double>(periods) : 1;
   const double factor = periods > 0 ? 1 : 10;
   made.value = std::hypot(x[rows.last] - x[rows.first], y[rows.last] - y[rows.first]) / per;
-  made.limit = factor * kLeastTravel * size;
-  made.source = "chosen";
+  const double asked = s.limits.progress;
+  made.limit = (asked > 0 ? asked : factor * kLeastTravel) * size;
+  made.source = threshold("progress", asked, 0);
   made.from = time[rows.first];
   made.to = time[rows.last];
   const double turn = std::abs(run.summary.heading_change) * (made.to - made.from) / std::max(r.simulated, 1e-9) / per;
   const char* const each = periods > 0 ? "per period" : "in the judged time";
-  made.status = made.value >= made.limit || turn >= factor * kLeastTurn ? CheckStatus::pass : CheckStatus::warn;
+  const bool goes = made.value >= made.limit || (asked == 0 && turn >= factor * kLeastTurn);
+  made.status = goes ? CheckStatus::pass : asked > 0 ? CheckStatus::fail : CheckStatus::warn;
   made.text = fmt::format("the robot goes {:.3g} m {}{}", made.value, each,
-                          made.status == CheckStatus::pass ? "" : fmt::format(", less than {:.3g} m: it stays", made.limit));
+                          goes ? "" : fmt::format(", less than {:.3g} m", made.limit));
+  if (asked == 0) made.margin = kNotLimited;
   const double fallen = gravity_work(s, r);
   double driven = 0;
   for (const JointStatistics& joint : r.joints) driven += joint.shaft;
   const double faster = speed_up(run, time, x, y, rows);
   if (!(fallen > std::max(driven, least_energy(s))) || !(faster > kSpeedsUp)) return;
+  made.criteria = {{made.value, made.limit, made.unit, true}, {faster, kSpeedsUp}};
+  made.value = faster;
+  made.limit = kSpeedsUp;
+  made.unit = "";
+  made.least = false;
+  made.margin = made.criteria.back().margin();
   made.status = CheckStatus::fail;
   made.text = fmt::format(
       "the robot slides down: gravity does {:.3g} J of work, the motors {:.3g} J, and its speed grows {:.3g} "
       "times from the first half of the judged time to the second",
       fallen, driven, faster);
+}
+
+void airborne(const CheckedRun& run, Check& made) {
+  made.value = run.summary.posture.airborne_share;
+  made.text = "judged of a floating base that gravity holds on a ground, where the ground's forces are recorded";
+  if (std::isnan(made.value)) return;
+  made.limit = 0;
+  made.from = run.summary.judged.from;
+  made.to = run.summary.judged.to;
+  made.status = made.value > 0 ? CheckStatus::warn : CheckStatus::pass;
+  made.text = fmt::format("the ground carries less than {} of the weight for {} of the judged time", texts::percent(kAirborne),
+                          texts::percent(made.value));
+}
+
+void field(const CheckedRun& run, Check& made) {
+  const Scenario& s = run.scenario;
+  made.text = "judged on a heightfield";
+  const Series x = run.record.series("com.x");
+  const Series y = run.record.series("com.y");
+  if (s.ground.kind != Ground::Kind::heightfield || x.empty() || y.empty()) return;
+  made.status = CheckStatus::pass;
+  made.text = "the robot stays on its heightfield";
+  if (beside_field(s.ground, x.front(), y.front())) return;  // told before the run
+  const Series time = run.record.series("t");
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (!beside_field(s.ground, x[k], y[k])) continue;
+    made.status = CheckStatus::warn;
+    made.value = made.from = made.to = made.first = time[k];
+    made.text = fmt::format(
+        "the robot leaves its heightfield at t = {:.2f} s, x {:.3g} m, y {:.3g} m: beyond it the heights of "
+        "the border continue",
+        time[k], x[k], y[k]);
+    made.remedy = "take a larger field or spacing";
+    return;
+  }
+}
+
+void periodic(const CheckedRun& run, Check& made) {
+  const MotionCycle& cycle = run.summary.limit_cycle;
+  made.text = "the set points do not repeat";
+  if (!cycle.found && !run.evidence.repeats) return;
+  made.value = cycle.error;
+  made.limit = kMostCycleError;
+  made.source = "chosen";
+  made.status = cycle.found ? CheckStatus::pass : CheckStatus::warn;
+  made.text = cycle.found ? fmt::format("the motion repeats every {:.4g} s", cycle.period)
+                          : "the set points repeat, and the motion does not settle to a period";
 }
 
 void evidence(const CheckedRun& run, Check& made) {

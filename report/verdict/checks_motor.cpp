@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "core/settings/wording.h"
@@ -19,6 +22,14 @@ std::string CheckedRun::unknown(TickColumn column) const {
   if (record.tick(0, column).empty()) return "the folder is of an older format, which did not keep it";
   const std::string lacks = record.ticks_of_rows ? lacking(record, *scenario.robot, column) : "";
   return lacks.empty() ? "" : fmt::format("the trace has no column {}", lacks);
+}
+
+std::pair<double, double> row_before(const Recording& record, double time) {
+  const Series t(record.ticks, 0);
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    if (t[k] >= time) return {t[k - 1], t[k]};
+  }
+  return {time, time};
 }
 
 CheckStatus graded(double value, double pass, double warn) {
@@ -53,10 +64,10 @@ Span longest_span(const Recording& record, std::size_t joint, TickColumn limited
   return longest;
 }
 
-/// Who reports no voltage and no limit cannot be said to keep one.
+/// The reason why an actuator without a voltage or a limit is not judged by it; empty: it has one.
 std::string unstated(const CheckedRun& run, MotorLimit limit, double share) {
   if (share > 0 || run.has_dc_motors) return "";
-  if (limit == MotorLimit::voltage) return "the actuator is not made of DC motors, and states no voltage";
+  if (limit == MotorLimit::voltage) return "the actuator is not made of DC motors, and has no voltage";
   const bool limited = std::ranges::all_of(run.motors.kinds, [](const Envelope& motor) { return motor.command.has_value(); });
   return limited ? "" : "the actuator states no limit";
 }
@@ -66,49 +77,114 @@ std::string of_motors(const CheckedRun& run) {
   return run.motor_source.empty() ? "" : fmt::format("; motors: {}", run.motor_source);
 }
 
+/// Share of the window in which the torque of a joint is at its limit, or within `error` of it: an upper bound, of whole rows.
+double near_limit(const CheckedRun& run, std::size_t joint, double error) {
+  const Series t(run.record.ticks, 0);
+  const Series peak = run.record.tick(joint, kEnvelopePeak);
+  double sum = 0;
+  const std::size_t first = run.summary.judged.first_row;
+  for (std::size_t k = first + 1; k < peak.size(); ++k) {
+    if (peak[k] >= 1 - error) sum += t[k] - t[k - 1];
+  }
+  const double whole = t.back() - t[first];
+  return whole > 0 ? sum / whole : 0;
+}
+
+double error_of(const CheckedRun& run, std::size_t joint);
+
+/// s: the start of the first row, behind the row `after`, in which any driven joint is `beyond`; not a number: none.
+template <class Beyond>
+double first_row(const CheckedRun& run, std::size_t after, TickColumn column, const Beyond& beyond) {
+  const Series t(run.record.ticks, 0);
+  double found = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
+    const Series values = run.record.tick(j, column);
+    if (values.empty() || !run.scenario.robot->joints[j].driven()) continue;
+    for (std::size_t k = after + 1; k < t.size() && !(t[k - 1] >= found); ++k) {
+      if (!beyond(j, values[k], values[k - 1])) continue;
+      found = t[k - 1];
+      break;
+    }
+  }
+  return found;
+}
+
+/// A joint at a limit of its motor.
+struct AtLimit {
+  std::size_t joint = 0;
+  double share = 0;  ///< of the window
+  Span longest;
+  std::vector<Criterion> criteria;
+  [[nodiscard]] const Criterion& decisive() const { return *std::ranges::min_element(criteria, {}, margin_of); }
+  [[nodiscard]] double margin() const { return decisive().margin(); }
+  static double margin_of(const Criterion& one) { return one.margin(); }
+};
+
+AtLimit at_limit(const CheckedRun& run, std::size_t joint, TickColumn column, double share) {
+  constexpr double kRounding = 1 + 1e-6;  // of a stretch that is a sum of rows
+  AtLimit made{joint, share, {}, {}};
+  if (share > 0) made.longest = longest_span(run.record, joint, column, run.summary.judged.first_row);
+  const double stretch = run.limits().saturated_periods * run.scenario.control_period * kRounding;
+  made.criteria = {{share, run.limits().saturated_share}, {made.longest.length(), stretch, "s"}};
+  return made;
+}
+
 void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn column, double JudgedJoint::*share) {
   made.text = run.unknown(column);
   if (!made.text.empty()) return;
   const Judged& judged = run.summary.judged;
-  const double most = run.limits().saturated_periods * run.scenario.control_period;
-  const auto long_enough = [&](double stretch) { return stretch > most * (1 + 1e-6); };
-  double stretch = 0;
-  double value = 0;
-  CheckStatus status = CheckStatus::pass;
+  std::optional<AtLimit> worst;
+  double bar = 0;  // largest share of the time near the limit, of joints that keep it
+  std::size_t barred = 0;
   for (std::size_t j = 0; j < judged.joints.size(); ++j) {
-    const double part = judged.joints[j].*share;
-    if (!(part > 0) || !run.scenario.robot->joints[j].driven()) continue;
-    ++made.joints;
-    const Span span = longest_span(run.record, j, column, judged.first_row);
-    const bool fails = part > run.limits().saturated_share || long_enough(span.length());
-    const CheckStatus of_joint = fails ? CheckStatus::fail : CheckStatus::warn;
-    if (std::pair(of_joint, part) <= std::pair(status, value)) continue;
-    status = of_joint;
-    value = part;
-    made.joint = run.joint(j);
-    made.from = span.from;
-    made.to = span.to;
-    stretch = span.length();
+    if (!run.scenario.robot->joints[j].driven()) continue;
+    const AtLimit one = at_limit(run, j, column, judged.joints[j].*share);
+    if (one.share > 0) ++made.parts;
+    if (!worst || std::pair(-one.margin(), one.share) > std::pair(-worst->margin(), worst->share)) worst = one;
+    if (const double error = error_of(run, j); error > 0) {
+      const double near = std::max(near_limit(run, j, error), one.share);
+      if (near > bar) std::tie(bar, barred) = std::pair(near, j);
+    }
   }
-  made.text = unstated(run, limit, value);
+  if (!worst) return;
+  made.text = unstated(run, limit, worst->share);
   if (!made.text.empty()) return;
-  made.value = value;
-  made.status = status;
-  made.limit = run.limits().saturated_share;
-  made.source = threshold("saturated_share", made.limit, Limits().saturated_share) + of_motors(run);
+  made.criteria = worst->criteria;
+  const Criterion& decisive = worst->share > 0 ? worst->decisive() : worst->criteria.front();
+  made.value = decisive.value;
+  made.limit = decisive.limit;
+  made.unit = decisive.unit;
+  made.margin = worst->margin();
+  made.status = made.margin < 0 ? CheckStatus::fail : made.parts > 0 ? CheckStatus::warn : CheckStatus::pass;
+  const bool by_share = made.unit.empty();
+  made.source = (by_share ? threshold("saturated_share", run.limits().saturated_share, Limits().saturated_share)
+                          : threshold("saturated_periods", run.limits().saturated_periods, Limits().saturated_periods)) +
+                of_motors(run);
   const char* const name = !run.has_dc_motors ? "actuator" : limit == MotorLimit::voltage ? "voltage" : "current";
   made.text = fmt::format("no joint is at the limit of its {}", name);
-  if (made.joints == 0) return;
-  made.text =
-      fmt::format("{} of {} reach{} the limit of {} {}, ", made.joints, counted(driven_joints(*run.scenario.robot), "joint"),
-                  made.joints == 1 ? "es" : "", made.joints == 1 ? "its" : "their", name);
-  // What decides comes first: the share, or the stretch where the share alone would pass.
-  if (value <= made.limit && long_enough(stretch)) {
-    made.text += fmt::format("{} for {:.3g} s on end, more than {:g} control periods ({:.3g} s), in all {} of the window",
-                             made.joint, stretch, run.limits().saturated_periods, most, texts::percent(value));
-  } else {
-    made.text += fmt::format("{} longest: {} of the window, up to {:.3g} s on end", made.joint, texts::percent(value), stretch);
+  if (made.parts > 0) {
+    made.part = Part::joint;
+    made.worst = run.joint(worst->joint);
+    made.from = worst->longest.from;
+    made.to = worst->longest.to;
+    made.first = first_row(run, judged.first_row, column, [](std::size_t, double now, double before) { return now > before; });
+    made.text = fmt::format("{} of {} reach{} the limit of {} {}; worst {}: ", made.parts,
+                            counted(driven_joints(*run.scenario.robot), "joint"), made.parts == 1 ? "es" : "",
+                            made.parts == 1 ? "its" : "their", name, made.worst);
+    made.text +=
+        by_share
+            ? fmt::format("{} of the judged time, up to {:.3g} s on end", texts::percent(worst->share), worst->longest.length())
+            : fmt::format("{:.3g} s on end, more than {:g} control periods ({:.3g} s), in all {} of the judged time",
+                          worst->longest.length(), run.limits().saturated_periods, made.limit, texts::percent(worst->share));
   }
+  const double most = run.limits().saturated_share;
+  const bool fails_beyond = worst->criteria.back().margin() < 0 || worst->share * (1 - error_of(run, worst->joint)) > most;
+  if (fails_beyond || !(bar > most)) return;
+  made.error = error_of(run, barred);
+  made.status = CheckStatus::too_close;
+  made.text += fmt::format("; joint {} is within the error of its torque, {}, of that limit for up to {} of the judged time",
+                           run.joint(barred), texts::rough_percent(made.error), texts::percent(bar));
+  made.remedy = torque_remedy(run.scenario, std::max(made.error, run.limits().torque_error));
 }
 
 /// Of every joint a value and its limit; not a number: not known, not finite or 0: not stated.
@@ -131,14 +207,15 @@ std::size_t rated(const CheckedRun& run, Check& made, TickColumn column, const c
     const Rated of = rate(j);
     if (!std::isfinite(of.limit) || !(of.limit > 0)) continue;
     const double share = of.value / of.limit;
-    if (share > (std::isfinite(warn) ? warn : pass)) ++made.joints;
+    if (share > (std::isfinite(warn) ? warn : pass)) ++made.parts;
     if (share <= kLarger * worst) continue;
     worst = share;
     found = j;
     made.value = of.value;
     made.limit = of.limit;
-    made.joint = run.joint(j);
-    made.from = made.to = of.time;
+    made.part = Part::joint;
+    made.worst = run.joint(j);
+    std::tie(made.from, made.to) = row_before(run.record, of.time);
   }
   if (worst < 0) return found;
   made.status = graded(worst, pass, warn);
@@ -168,14 +245,14 @@ void current(const CheckedRun& run, Check& made) {
 }
 
 void envelope(const CheckedRun& run, Check& made) {
-  rated(run, made, kEnvelopePeak, "the actuator states no limit", run.limits().margin, kNever, [&](std::size_t j) {
+  rated(run, made, kEnvelopePeak, "the actuator states no limit", run.limits().warn_share, kNever, [&](std::size_t j) {
     const JudgedJoint& joint = run.summary.judged.joints[j];
     return Rated{joint.envelope_peak, run.motors.joint(j).command ? 1.0 : 0.0, joint.envelope_peak_time};
   });
   if (made.status == CheckStatus::not_judged) return;
-  made.limit = run.limits().margin;
-  made.source = threshold("margin", made.limit, Limits().margin) + of_motors(run);
-  made.text = fmt::format("the torque of joint {} takes {} of what its {} has at that speed", made.joint,
+  made.limit = run.limits().warn_share;
+  made.source = threshold("warn_share", made.limit, Limits().warn_share) + of_motors(run);
+  made.text = fmt::format("the torque of joint {} takes {} of what its {} has at that speed", made.worst,
                           texts::percent(made.value), run.has_dc_motors ? "motor" : "actuator");
 }
 
@@ -184,13 +261,14 @@ void speed(const CheckedRun& run, Check& made) {
     const Envelope& motor = run.motors.joint(j);
     return std::min(motor.speed_max.value_or(kNever), motor.no_load.value_or(kNever));
   };
-  rated(run, made, kSpeedPeak, "the actuator has torque at any speed, and nobody states the largest one", run.limits().margin,
-        1, [&](std::size_t j) {
-          const JudgedJoint& joint = run.summary.judged.joints[j];
+  rated(run, made, kSpeedPeak, "the actuator has torque at any speed, and states no largest one", run.limits().warn_share, 1,
+        [&](std::size_t j) {
+          const JudgedJoint& joint = run.summary.judged.whole[j];
           return Rated{joint.speed_peak, limit(j), joint.speed_peak_time};
         });
   if (made.status == CheckStatus::not_judged) return;
-  made.text = fmt::format("joint {} turns at up to {:.3g} rad/s of {:.3g} rad/s", made.joint, made.value, made.limit);
+  made.first = first_row(run, 0, kSpeedPeak, [&](std::size_t j, double now, double) { return now > limit(j); });
+  made.text = fmt::format("joint {} turns at up to {:.3g} rad/s of {:.3g} rad/s", made.worst, made.value, made.limit);
   if (made.status != CheckStatus::fail) return;
   const bool driven = std::ranges::any_of(run.motors.kinds, [&](const Envelope& motor) { return motor.no_load == made.limit; });
   made.text += driven ? ", faster than its motor can drive it: the load does" : ", more than it is rated for";
@@ -198,37 +276,40 @@ void speed(const CheckedRun& run, Check& made) {
 
 void heat(const CheckedRun& run, Check& made) {
   const std::size_t worst =
-      rated(run, made, kCurrentSquare, "nobody states the continuous current of the motors (actuator.i_continuous)",
-            run.limits().margin, 1, [&](std::size_t j) {
+      rated(run, made, kCurrentSquare, "no continuous current of the motors is stated (actuator.i_continuous)",
+            run.limits().warn_share, 1, [&](std::size_t j) {
               return Rated{run.summary.judged.joints[j].current_rms, run.motors.joint(j).continuous.value_or(0), kNoTime};
             });
   if (made.status == CheckStatus::not_judged) return;
-  made.text = fmt::format("the motor of joint {} takes {:.3g} A RMS, {} of what it bears for good", made.joint, made.value,
+  made.text = fmt::format("the motor of joint {} takes {:.3g} A RMS, {} of its continuous rating", made.worst, made.value,
                           texts::percent(made.value / made.limit));
-  widen(run.scenario, error_of(run, worst), made.limit, made);
+  widen(run.scenario, error_of(run, worst), made);
 }
 
 void gear_peak(const CheckedRun& run, Check& made) {
   const std::size_t worst =
-      rated(run, made, kTorquePeak, "nobody states the largest torque of the gears (actuator.gear_torque_peak)",
-            run.limits().margin, 1, [&](std::size_t j) {
+      rated(run, made, kTorquePeak, "no largest torque of the gears is stated (actuator.gear_torque_peak)",
+            run.limits().warn_share, 1, [&](std::size_t j) {
               const JudgedJoint& joint = run.summary.judged.whole[j];
               return Rated{joint.torque_peak, run.motors.joint(j).gear_peak.value_or(0), joint.torque_peak_time};
             });
   if (made.status == CheckStatus::not_judged) return;
-  made.text = fmt::format("the gear of joint {} takes up to {:.3g} N m of {:.3g} N m", made.joint, made.value, made.limit);
-  widen(run.scenario, error_of(run, worst), made.limit, made);
+  made.first = first_row(run, 0, kTorquePeak, [&](std::size_t j, double now, double) {
+    return now > run.motors.joint(j).gear_peak.value_or(kNever);
+  });
+  made.text = fmt::format("the gear of joint {} takes up to {:.3g} N m of {:.3g} N m", made.worst, made.value, made.limit);
+  widen(run.scenario, error_of(run, worst), made);
 }
 
 void gear_continuous(const CheckedRun& run, Check& made) {
   const std::size_t worst =
-      rated(run, made, kTorqueSquare, "nobody states the continuous torque of the gears (actuator.gear_torque_continuous)",
-            run.limits().margin, 1, [&](std::size_t j) {
+      rated(run, made, kTorqueSquare, "no continuous torque of the gears is stated (actuator.gear_torque_continuous)",
+            run.limits().warn_share, 1, [&](std::size_t j) {
               return Rated{run.summary.judged.joints[j].torque_rms, run.motors.joint(j).gear_continuous.value_or(0), kNoTime};
             });
   if (made.status == CheckStatus::not_judged) return;
-  made.text = fmt::format("the gear of joint {} takes {:.3g} N m RMS of {:.3g} N m", made.joint, made.value, made.limit);
-  widen(run.scenario, error_of(run, worst), made.limit, made);
+  made.text = fmt::format("the gear of joint {} takes {:.3g} N m RMS of {:.3g} N m", made.worst, made.value, made.limit);
+  widen(run.scenario, error_of(run, worst), made);
 }
 
 }  // namespace checks

@@ -119,7 +119,7 @@ bool take_demand(Verdict& verdict, const std::string& json) try {
     if (check.id != "voltage" && check.id != "current") continue;
     const auto of = std::ranges::find(old.at("checks"), Json(check.id), [](const Json& one) { return one.at("id"); });
     if (of == old.at("checks").end()) return false;
-    for (const char* const same : {"status", "value", "limit", "joint", "joints"}) {
+    for (const char* const same : {"status", "value", "limit", "worst", "parts"}) {
       if (of->at(same) != own.at("checks")[i].at(same)) return false;
     }
     check.missing = of->at("missing").get<std::string>();

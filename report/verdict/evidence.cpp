@@ -56,11 +56,12 @@ bool moves(const std::vector<Series>& set_points) {
 void judge_length(const Scenario& s, const Recording& r, const Summary& summary, Evidence& made) {
   const MotionCycle& cycle = summary.limit_cycle;
   const double judged = summary.judged.to - summary.judged.from;
+  const double period = slowest_period(s, r);
+  made.repeats = period > 0;
   if (cycle.found && cycle.error <= kSettled && summary.judged.periods > 0) {
     made.rests_on = fmt::format("{} of {:.4g} s", counted(summary.judged.periods, "period"), cycle.period);
     return;
   }
-  const double period = slowest_period(s, r);
   if (period > 0) {
     const double held = r.simulated / period;
     made.rests_on = fmt::format("{:.3g} periods of {:.4g} s; the motion does not settle", held, period);
@@ -105,10 +106,10 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made) {
   const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
   const std::vector<Series> asked = set_points(s, r);
   if (made.not_trusted = makes_energy(s); !made.not_trusted.empty()) return;
-  if (error.estimated && error.share > kTrustedTorque) {
+  if (error.estimated && error.share > s.limits.torque_error) {
     made.not_trusted = fmt::format("the torque of joint {} is off by about {} of its peak, more than {}; take {}",
                                    s.robot->joints[error.joint].name, texts::rough_percent(error.share),
-                                   texts::percent(kTrustedTorque), torque_remedy(s, error.share));
+                                   texts::percent(s.limits.torque_error), torque_remedy(s, error.share));
   } else if (driven && !(residual <= kTrustedResidual)) {  // also where it is not a number
     made.not_trusted = fmt::format("{} of the energy is unaccounted for, more than {}; take {}", texts::percent(residual),
                                    texts::percent(kTrustedResidual),

@@ -7,9 +7,9 @@
 
 namespace gaitlab::report {
 
-/// Largest shares with which the numbers of a run are trusted: estimated error of a torque over its peak; residual of the
-/// energy over what was drawn; time in which the shortest steps do not reach the accuracy.
-inline constexpr double kTrustedTorque = 0.05, kTrustedResidual = 0.05, kTrustedCoarse = 0.1;
+/// Largest shares with which the numbers of a run are trusted, beside limits.torque_error: residual of the energy over what was
+/// drawn; time in which the shortest steps do not reach the accuracy.
+inline constexpr double kTrustedResidual = 0.05, kTrustedCoarse = 0.1;
 /// Least share of the weight that the ground carries on average, of a robot that stands on it.
 inline constexpr double kBorne = 0.5;
 /// Periods of the slowest set point, where no limit cycle repeats within kSettled.
@@ -21,6 +21,7 @@ struct Evidence {
   std::string too_short;    ///< a gait needs a whole period of its limit cycle, or three periods of its set points, or 2 s
   std::string not_borne;    ///< the ground carries less than half of the weight
   std::string not_trusted;  ///< the numbers are wrong by more than the shares above, a motor makes energy, or nothing moves
+  bool repeats = false;     ///< the set points do
   std::string rests_on;     ///< `3 periods of 4 s`, `these 18 s: the set points do not repeat`
   [[nodiscard]] bool complete() const { return too_short.empty() && not_borne.empty() && not_trusted.empty(); }
 };

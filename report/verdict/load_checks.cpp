@@ -58,8 +58,10 @@ struct Window {
 
 /// Why nothing is known of what feet and docks bore; empty: it is.
 std::string unknown(const Scenario& scenario, const Recording& record) {
-  if (scenario.contact.solver()) return "contact.law bullet has impulses, not all of them at contact elements";
-  if (record.loads.rows() < 2) return "loads were not recorded: only `gaitlab run` does, and not where a run ends at once";
+  if (scenario.contact.solver())
+    return "not available with contact.law: bullet, which yields impulses that do not all act at contact elements";
+  if (record.loads.rows() < 2)
+    return "loads were not recorded: `gaitlab run`, `test` and `swap` record them, unless a run ends at once";
   return "";
 }
 
@@ -73,6 +75,7 @@ std::string unknown_of_feet(const Scenario& scenario, const Recording& record) {
 struct DockPeak {
   std::size_t module = 0;
   double value = 0, time = 0, limit = kUnknown;
+  double first = kUnknown;  ///< s, when the load was beyond the limit first
   [[nodiscard]] bool limited() const { return limit > 0; }
   [[nodiscard]] double share() const { return value / limit; }
 };
@@ -80,9 +83,10 @@ struct DockPeak {
 DockPeak peak_of(const Window& window, std::size_t module, DockQuantity quantity, double limit) {
   const Series values = window.series(fmt::format("dock.{}.{}", module, words(quantity).column));
   DockPeak peak{module, values.empty() ? kUnknown : -std::numeric_limits<double>::infinity(), kUnknown, limit};
-  for (std::size_t row = window.start + 1; row < values.size(); ++row) {
+  for (std::size_t row = window.start; row < values.size(); ++row) {
     double value = quantity == DockQuantity::tension ? values[row] : std::abs(values[row]);
     if (std::abs(value) < kNothing) value = 0;
+    if (value > limit && std::isnan(peak.first)) peak.first = window.time(row);
     if (value <= peak.value) continue;
     peak.value = value;
     peak.time = window.time(row);
@@ -132,10 +136,14 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
   const DockPeak worst = *std::ranges::max_element(peaks, less);
   made.value = worst.value;
   made.from = made.to = worst.time;
+  made.part = Part::dock;
+  made.worst = fmt::format("m{}", worst.module);
+  for (const DockPeak& peak : peaks) {
+    if (!(made.first <= peak.first) && !std::isnan(peak.first)) made.first = peak.first;
+  }
   const DockWords are = words(quantity);
-  made.text = worst.value > 0
-                  ? fmt::format("{} is {} by up to {:.3g} {}", dock_name(worst.module), are.does, worst.value, are.unit)
-                  : fmt::format("no dock is {}", are.does);
+  made.text = worst.value > 0 ? fmt::format("{}'s dock is {} by up to {:.3g} {}", made.worst, are.does, worst.value, are.unit)
+                              : fmt::format("no dock is {}", are.does);
   if (!worst.limited()) {
     made.text += "; the module types do not state what a dock holds";
     return;
@@ -143,15 +151,15 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
   made.limit = worst.limit;
   made.source = weaker(*scenario.robot, worst.module, quantity).source;
   if (made.source.empty()) made.source = kNoSource;
-  made.joints = static_cast<std::size_t>(std::ranges::count_if(peaks, [](const DockPeak& p) { return p.share() > 1; }));
-  made.status = worst.share() <= scenario.limits.margin ? CheckStatus::pass
-                : worst.share() <= 1                    ? CheckStatus::warn
-                                                        : CheckStatus::fail;
+  made.parts = static_cast<std::size_t>(std::ranges::count_if(peaks, [](const DockPeak& p) { return p.share() > 1; }));
+  made.status = worst.share() <= scenario.limits.warn_share ? CheckStatus::pass
+                : worst.share() <= 1                        ? CheckStatus::warn
+                                                            : CheckStatus::fail;
   const auto unstated = std::ranges::count_if(peaks, [](const DockPeak& p) { return !p.limited(); });
   made.text += fmt::format(
       ", {} of what it holds{}{}", texts::percent(std::max(0.0, worst.share())),
       chosen(made.source) ? " by a chosen figure" : "",
-      unstated > 0 ? fmt::format("; {} of {} docks are not judged: nobody states what they hold", unstated, peaks.size()) : "");
+      unstated > 0 ? fmt::format("; {} of {} docks are not judged: what they hold is not stated", unstated, peaks.size()) : "");
 }
 
 void judge_slip(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {
@@ -169,6 +177,8 @@ void judge_slip(const Scenario& scenario, const Recording& record, const Summary
     farthest = slid;
     worst = column.name.substr(5, column.name.size() - 10);
   }
+  if (!worst.empty()) made.part = Part::foot;
+  made.worst = worst;
   made.text = fmt::format("the robot goes {:.3g} mm: less than {:.3g} mm is not walking", 1000 * way, 1000 * kLeastWay);
   if (way < kLeastWay) return;
   made.value = slip / way;

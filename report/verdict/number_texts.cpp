@@ -132,8 +132,6 @@ Lines window(const RunData& run) {
 
 namespace {
 
-const char* name_of(MotorLimit limit) { return limit == MotorLimit::current ? "current" : "voltage"; }
-
 /// The limit at which the joint that is named is not, or another is longer.
 Lines other_limits(const RunData& run, std::size_t named) {
   struct Kind {

@@ -7,8 +7,6 @@
 
 #include "core/settings/wording.h"
 #include "core/simulation/start.h"
-#include "core/simulation/step_advice.h"
-#include "report/analysis/fall.h"
 #include "report/verdict/number_texts.h"
 
 namespace gaitlab::report {
@@ -44,10 +42,9 @@ std::string to_json(const Summary& s, const Scenario& scenario, const Recording&
   return numbers_json({scenario, r, s}).dump(2) + "\n";
 }
 
-std::string to_text(const Summary& s, const Scenario& scenario, const Recording& r, bool verbose) {
+std::string to_text(const Summary& s, const Scenario& scenario, const Recording& r) {
   std::string text;
   for (const SummaryNumber* number : placed(&SummaryNumber::line)) {
-    if (number->line.verbose && !verbose) continue;
     const char* title = number->line.title;
     for (const std::string& line : number->line.text({scenario, r, s})) {
       text += title == nullptr ? line + "\n" : fmt::format("  {:<13} {}\n", title, line);
@@ -108,20 +105,6 @@ std::string start_warning(const Scenario& scenario) {
   }
   return deep + fmt::format("only the elements of contact.on: {} touch it; is it upside down?",
                             scenario.contact.on == ContactSet::feet ? "feet" : "none");
-}
-
-std::string fall_warning(const Scenario& scenario, const Recording& r) {
-  const std::optional<Fall> found = fall(scenario, r);
-  if (!found || !(found->share() < scenario.limits.height)) return "";
-  return fmt::format("it fell: from t = {:.2f} s on, the centre of mass comes down to {:.3f} m, from {:.3f} m at the start",
-                     found->fallen_time, found->lowest, found->start);
-}
-
-std::string stability_warning(const Summary& s, const Scenario& scenario, const Recording& r) {
-  if (!(s.stability_share > 0.01)) return "";
-  const auto contacts = contact_elements(*scenario.robot, scenario.contact.on);
-  return fmt::format("in {} of the control ticks {}", texts::percent(s.stability_share),
-                     step_advice(scenario, contacts, r.worst, fmt::format("at t = {:.2f} s", r.worst_time)));
 }
 
 }  // namespace gaitlab::report

@@ -9,8 +9,8 @@ namespace gaitlab::report {
 /// The text of summary.json.
 std::string to_json(const Summary& summary, const Scenario& scenario, const Recording& record);
 
-/// What `gaitlab run` prints; verbose: the ledger and the step's limit, too.
-std::string to_text(const Summary& summary, const Scenario& scenario, const Recording& record, bool verbose = false);
+/// The numbers that `gaitlab run --verbose` prints.
+std::string to_text(const Summary& summary, const Scenario& scenario, const Recording& record);
 
 /// A row per joint, the most loaded first: what each did in the judged window.
 std::string joint_table(const Summary& summary, const Scenario& scenario);
@@ -18,11 +18,5 @@ std::string joint_table(const Summary& summary, const Scenario& scenario);
 /// The warning about a part of the robot that starts below the ground, or "": its height was given, or only contact elements
 /// touch the ground.
 std::string start_warning(const Scenario& scenario);
-
-/// The warning about a robot that fell (the centre of mass came below Limits::height), or "".
-std::string fall_warning(const Scenario& scenario, const Recording& record);
-
-/// The warning about a step that was too long for more than 1 % of the control ticks, or "".
-std::string stability_warning(const Summary& summary, const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

@@ -18,7 +18,6 @@ namespace {
 
 constexpr double kGood = 0.01;           // of a torque's peak
 constexpr double kLeastPeak = 0.02;      // of the largest of all joints: smaller ones are judged by this
-constexpr double kOftenCoarse = 0.1;     // share of the time
 constexpr double kLeastAccuracy = 1e-6;  // that a scenario may ask for
 constexpr double kHeight = 1e-3;         // m: lifting the robot by it is the least energy that is judged
 constexpr double kMargin = 2;            // by which a remedy is better than it seems to need
@@ -119,36 +118,6 @@ std::vector<std::string> not_finite(const Scenario& s, const Recording& r) {
   look(way.distance, "distance");
   look(way.path_length, "path_length");
   return names;
-}
-
-std::vector<std::string> trust_warnings(const Scenario& s, const Recording& r) {
-  std::vector<std::string> warnings;
-  const TorqueError error = torque_error(r);
-  if (error.share > torque_error_limit(s)) {
-    warnings.push_back(fmt::format("the torque of joint {} is off by about {} of its peak, estimated from other steps; take {}",
-                                   s.robot->joints[error.joint].name, texts::rough_percent(error.share),
-                                   torque_remedy(s, error.share)));
-  }
-  if (s.physics.adapts() && r.tally.coarse > kOftenCoarse * r.simulated) {
-    warnings.push_back(
-        fmt::format("in {} of the time the shortest steps of the integrator did not reach the accuracy {}: the result depends "
-                    "on the steps and may not be reproducible at any; is something undamped, or driven without bounds?",
-                    texts::rough_percent(r.tally.coarse / r.simulated), texts::rough_percent(s.physics.accuracy)));
-  }
-  const double residual = std::abs(r.ledger.residual());
-  const double drawn = std::abs(r.ledger.electrical);
-  const double judged = energy_scale(s, r);
-  if (s.actuator.entry != nullptr && !s.robot->joints.empty() && residual > s.limits.energy_residual * judged) {
-    warnings.push_back(fmt::format("the energy does not add up: {:.3g} J are missing of {:.3g} J drawn; take {}", residual,
-                                   drawn, s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step"));
-  }
-  if (r.tally.off > 0) {
-    warnings.push_back(
-        fmt::format("{:.0f} joint-steps ended off the law of their motor or stop: the torques there are wrong; "
-                    "does the torque of the actuator fall with the joint's speed, as it must?",
-                    r.tally.off));
-  }
-  return warnings;
 }
 
 }  // namespace gaitlab::report

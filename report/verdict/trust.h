@@ -1,4 +1,4 @@
-// Whether the numbers of a run can be trusted: what its steps cost, and what to do about it.
+// The accuracy of a run: the error of its torques, its steps, and the settings that improve them.
 #pragma once
 #include <string>
 #include <vector>
@@ -30,12 +30,7 @@ std::string step_text(const Physics& physics);
 /// What the summary says of the steps: their kind, the solves, the torque error.
 std::string steps_text(const Scenario& scenario, const Recording& record);
 
-/// One sentence each, with its remedy: torques that are off by more than 1 % (or the accuracy asked for, if that is more), an
-/// energy that does not add up to 1 % of what is drawn (or stored, or lifts the robot by 1 mm, if that is more), joint-steps
-/// off their law, steps that never reached the accuracy.
-std::vector<std::string> trust_warnings(const Scenario& scenario, const Recording& record);
-
-/// What of a run, over all its steps, is no finite number: `energy.copper`, `torque_rms of m0/active`. None in a sound one.
+/// Names of the numbers of a run, over all its steps, that are not finite: `energy.copper`, `torque_rms of m0/active`.
 std::vector<std::string> not_finite(const Scenario& scenario, const Recording& record);
 
 /// J, above 0: of lifting the robot by 1 mm; less is nothing.

@@ -3,30 +3,27 @@
 #include <string>
 #include <vector>
 
+#include "core/names.h"
 #include "report/analysis/collisions.h"
 #include "report/analysis/summary.h"
+#include "report/verdict/check.h"
+
+namespace gaitlab {
+
+namespace report {
+enum class Word { feasible, infeasible, not_judged, failed };
+}
+
+template <>
+struct EnumNames<report::Word> {
+  using enum report::Word;
+  static constexpr EnumName<report::Word> kTable[] = {
+      {feasible, "feasible"}, {infeasible, "infeasible"}, {not_judged, "not judged"}, {failed, "failed"}};
+};
+
+}  // namespace gaitlab
 
 namespace gaitlab::report {
-
-enum class CheckStatus { pass, warn, fail, too_close, not_judged };
-enum class Word { feasible, infeasible, not_judged, failed };
-
-/// A limit, and the number of the run that is held against it. NaN: the number is not known.
-struct Check {
-  std::string id;     ///< `voltage`
-  std::string group;  ///< run, motor, motion, structure, ground; trust: whether the run is to be believed
-  std::string title;  ///< `Voltage suffices`
-  CheckStatus status = CheckStatus::not_judged;
-  double value, limit;       ///< of the worst joint; what it may be, both in `unit`
-  std::string unit;          ///< "" of shares
-  std::string joint = {};    ///< the worst
-  std::size_t joints = 0;    ///< how many are beyond the limit
-  double from, to;           ///< s: when the worst one was
-  std::string definition;    ///< what is held against what
-  std::string source = {};   ///< of the limit: who says it
-  std::string text = {};     ///< a sentence for people
-  std::string missing = {};  ///< how much more it takes: `11 V`; empty: not known
-};
 
 /// What a joint that reaches a limit would take without limits (demand.h): largest magnitudes in the judged window.
 struct JointDemand {
@@ -54,6 +51,8 @@ struct Verdict {
   std::vector<JointDemand> demands = {};  ///< empty: no joint reaches a limit, or nobody asked
   std::string demand_doubt = {};          ///< why demands are not known, or doubtful
   [[nodiscard]] std::size_t count(CheckStatus status) const;
+  /// The check that can fail with the least margin; nullptr: no margin is known. Limits of 0 count only where they fail.
+  [[nodiscard]] const Check* tightest() const;
   /// One sentence behind the word: the reason of `not judged`, else the first check that fails; empty of `feasible`.
   [[nodiscard]] std::string why() const;
 };
@@ -62,16 +61,7 @@ struct Verdict {
 /// not judged, never assumed kept. Thresholds: the scenario's `limits`.
 Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps);
 
-/// `pass`, `not judged` ...
-const char* name_of(CheckStatus status);
-/// `feasible` ...
-const char* name_of(Word word);
-
 /// The text of verdict.json.
 std::string to_json(const Verdict& verdict);
-
-/// `infeasible: ` and the first check that fails, or `not judged: ` and the reason; then the names of the checks that fail,
-/// warn and were not judged, and last what the verdict rests on; at most 64 columns each.
-std::vector<std::string> to_lines(const Verdict& verdict);
 
 }  // namespace gaitlab::report

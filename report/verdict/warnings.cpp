@@ -9,9 +9,6 @@
 #include "core/laws/dc_motor.h"
 #include "core/plugin/robot_info.h"
 #include "report/analysis/settings_numbers.h"
-#include "report/analysis/summary.h"
-#include "report/verdict/number_texts.h"
-#include "report/verdict/trust.h"
 
 namespace gaitlab::report {
 
@@ -30,12 +27,6 @@ double two_digits(double value) {
   return std::floor(value / unit) * unit;
 }
 
-/// Where the key was given, or else its section, or the file.
-SourceLocation place_of(const Scenario& s, const std::string& key) {
-  const SourceLocation place = s.place(key);
-  return place.line > 0 ? place : s.place(key.substr(0, key.find('.')));
-}
-
 void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warning>& out) {
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
     const DcMotor& m = motors[j];
@@ -43,7 +34,7 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warni
     if (!s.robot->joints[j].driven()) continue;
     for (const auto& [key, value] : {std::pair{"Kt", m.Kt}, {"u_max", m.u_max}, {"i_max", m.i_max}}) {
       if (value > 0) continue;
-      out.push_back({place_of(s, std::string("actuator.") + key),
+      out.push_back({s.nearest_place(std::string("actuator.") + key),
                      fmt::format("the motor of joint {} makes no torque: {} is {:g}", name, key, value)});
       return;
     }
@@ -51,14 +42,14 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warni
     const double apart = std::max(m.Kt / m.Ks, m.Ks / m.Kt);
     if (apart > kApart) {
       out.push_back(
-          {place_of(s, "actuator.Kt"),
+          {s.nearest_place("actuator.Kt"),
            fmt::format("Kt {:.4g} N m/A and Ks {:.4g} V s/rad of joint {} are one constant in SI units, but differ by a "
                        "factor of {:.3g}: is one in mN m/A or rpm/V? (1 mN m/A = 0.001 N m/A; k rpm/V = {:.4g} / k V s/rad)",
                        m.Kt, m.Ks, name, apart, 60 / kTurn)});
       return;
     }
     if (m.efficiency * m.Kt > kRounding * m.Ks) {
-      out.push_back({place_of(s, "actuator.Kt"),
+      out.push_back({s.nearest_place("actuator.Kt"),
                      fmt::format("the motor of joint {} makes energy: efficiency x Kt {:.4g} N m/A exceeds Ks {:.4g} V s/rad; "
                                  "take Kt = Ks",
                                  name, m.efficiency * m.Kt, m.Ks)});
@@ -96,7 +87,7 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& 
   if (!(largest > kOvershoots * kRounding)) return;
   const bool severe = largest > kCannotSettle;
   out.push_back(
-      {place_of(s, "controller.Kp"),
+      {s.nearest_place("controller.Kp"),
        fmt::format(
            "Kp {:.4g} of joint {} is {} for commands every {:.4g} s: the share of its error that the joint goes per command is "
            "{:.3g}, and above {} it {}; take Kp: {:.4g} or less, or a shorter controller.period",
@@ -117,7 +108,7 @@ void check_motors(const Scenario& s, std::vector<Warning>& out) {
 
 void check_degrees(const Scenario& s, std::vector<Warning>& out) {
   const auto doubt = [&](const std::string& key, const std::string& what, double value) {
-    out.push_back({place_of(s, key),
+    out.push_back({s.nearest_place(key),
                    fmt::format("{} is {:.4g} rad, {:.3g} turns: angles are in rad; {:.4g} degrees are {:.4g} rad", what, value,
                                std::abs(value) / kTurn, value, value * kTurn / 360),
                    false});
@@ -169,109 +160,11 @@ std::vector<Warning> setup_warnings(const Scenario& s) {
   }
   if (beside_field(s.ground, s.position.x(), s.position.y())) {
     out.push_back(
-        {place_of(s, "ground.heightfield"),
+        {s.nearest_place("ground.heightfield"),
          fmt::format("the robot starts at ({:.4g}, {:.4g}) m, beside the heightfield, whose edge heights go on there: put "
                      "the field under it (ground.heightfield.origin) or the robot onto it (robot.position)",
                      s.position.x(), s.position.y())});
   }
-  return out;
-}
-
-namespace {
-
-void check_joints(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
-  if (s.actuator.entry == nullptr || r.joints.empty()) return;
-  const std::size_t jumps = texts::worst(r, &JointStatistics::start_jump);
-  if (const double jump = r.joints[jumps].start_jump; jump > s.limits.start_jump) {
-    const bool ramps = s.cpg.entry != nullptr && SettingsNumbers(s.cpg).find("model.ramp") != nullptr;
-    out.push_back(
-        {place_of(s, "cpg"),
-         fmt::format("the set point of joint {} is {:.3g} rad from its angle at t = 0, and its motor answers at once: "
-                     "peaks of the whole run may be of that; set initial.angles{}",
-                     s.robot->joints[jumps].name, jump, ramps ? ", or cpg.model.ramp" : "")});
-  }
-  const std::size_t beyond = texts::worst(r, &JointStatistics::range_share);
-  if (const JointStatistics& joint = r.joints[beyond]; joint.range_share > s.limits.beyond_range_share) {
-    out.push_back(
-        {place_of(s, "cpg"),
-         fmt::format("joint {} is beyond its range for {} of the time, by up to {:.3g} rad (its set point for {}): the "
-                     "motor works against the hinge stop there; take a smaller amplitude or offset",
-                     s.robot->joints[beyond].name, texts::percent(joint.range_share), joint.range_worst,
-                     texts::percent(joint.setpoint_outside))});
-  }
-}
-
-/// Set points that never change in the rows.
-void check_still(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
-  if (s.cpg.entry == nullptr || s.actuator.entry == nullptr || r.rows() < 3) return;
-  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
-    const Series setpoint = r.joint(j, "setpoint");
-    for (std::size_t k = 1; k < setpoint.size(); ++k) {
-      if (setpoint[k] != setpoint[0]) return;
-    }
-  }
-  out.push_back({place_of(s, "cpg"), fmt::format("cpg {} moves no joint: no set point changes in the whole run; are its "
-                                                 "amplitudes, frames or equations given?",
-                                                 s.cpg.entry->name)});
-}
-
-void check_way(const Scenario& s, const Recording& r, std::vector<Warning>& out) {
-  const Series x = r.series("com.x");
-  const Series y = r.series("com.y");
-  if (x.empty() || y.empty() || beside_field(s.ground, x.front(), y.front())) return;  // a start beside it was told
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    if (!beside_field(s.ground, x[k], y[k])) continue;
-    out.push_back(
-        {place_of(s, "ground.heightfield"),
-         fmt::format("the robot leaves its heightfield at t = {:.2f} s, x {:.3g} m, y {:.3g} m: beyond it the heights of "
-                     "the border go on; take a larger field or spacing",
-                     std::min(static_cast<double>(k) * s.trace.period, r.simulated), x[k], y[k])});
-    return;
-  }
-}
-
-void check_bodies(const Scenario& s, const Overlaps& overlaps, std::vector<Warning>& out) {
-  if (const auto& deepest = overlaps.sunk; deepest && deepest->time > 0) {  // a start in the ground was told before the run
-    const bool all = s.contact.on == ContactSet::all;
-    out.push_back({place_of(s, "contact.on"),
-                   fmt::format("body {} goes {:.3g} mm into the ground (some body from t = {:.2f} s on), {}",
-                               s.robot->bodies[deepest->body].name, 1000 * deepest->depth, deepest->time,
-                               all ? "though contact.on is all: is contact.stiffness too small for this load?"
-                                   : fmt::format("because contact.on: {} lets other parts of the robot through; set "
-                                                 "contact.on: all",
-                                                 s.contact.on == ContactSet::feet ? "feet" : "none"))});
-  }
-  const auto& found = overlaps.collision;
-  if (!found) return;
-  const auto name = [&](std::size_t body) { return s.robot->bodies[body].name; };
-  std::string text = fmt::format("bodies {} and {} pass through one another from t = {:.2f} s on", name(found->first),
-                                 name(found->second), found->time);
-  text += found->pairs == 1 ? fmt::format(", by up to {:.3g} mm", 1000 * found->depth)
-                            : fmt::format(" ({} pairs of bodies in all, deepest {} and {}, {:.3g} mm)", found->pairs,
-                                          name(found->deepest_first), name(found->deepest_second), 1000 * found->depth);
-  out.push_back({place_of(s, "robot"),
-                 text + ": the robot cannot do that, and contact.law penalty, which knows the ground alone, does not keep "
-                        "them apart; take smaller amplitudes or offsets"});
-}
-
-}  // namespace
-
-std::vector<Warning> run_warnings(const Scenario& s, const Recording& r, const Overlaps& overlaps) {
-  std::vector<Warning> out;
-  double drawn = 0;  // as for the cost of transport
-  for (const JointStatistics& joint : r.joints) drawn += joint.electrical;
-  const bool costs = s.robot->mass * s.physics.gravity.norm() * travelled(r).distance > 0;
-  if (s.actuator.entry != nullptr && (r.ledger.electrical < -least_energy(s) || (costs && drawn < 0))) {
-    out.push_back(
-        {place_of(s, "actuator"),
-         fmt::format("the motors gave {:.3g} J back to their supply instead of drawing any, so that the cost of transport "
-                     "is negative: the robot went down, or a motor makes energy (Kt, Ks, efficiency)",
-                     std::max(-r.ledger.electrical, -drawn))});
-  }
-  check_joints(s, r, out);
-  check_still(s, r, out);
-  check_way(s, r, out);
-  check_bodies(s, overlaps, out);
   return out;
 }
 

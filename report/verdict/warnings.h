@@ -1,11 +1,9 @@
-// What makes results worthless, by the scenario or by the run: slips of units, mostly. What the steps cost: trust.h.
+// Warnings about a scenario before it runs: slips of units, mostly. Those about a run are checks (verdict.h).
 #pragma once
 #include <string>
 #include <vector>
 
-#include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
-#include "report/analysis/collisions.h"
 
 namespace gaitlab::report {
 
@@ -25,11 +23,6 @@ struct Warning {
 /// - angles that only degrees would explain: beyond two turns (ranges of hinges beyond 360 turn for ever, and are meant);
 /// - a robot that starts beside its heightfield.
 std::vector<Warning> setup_warnings(const Scenario& scenario);
-
-/// Of a run: a set point that jumps at the start, a joint beyond its range for more than Limits::beyond_range_share, a robot
-/// that left its heightfield, motors that gave energy back instead of drawing any, bodies that pass through one another or the
-/// ground (collisions.h), a CPG that moves no joint.
-std::vector<Warning> run_warnings(const Scenario& scenario, const Recording& record, const Overlaps& overlaps);
 
 /// Whether (x, y), m, is beyond the border of the heightfield; false on other grounds.
 bool beside_field(const Ground& ground, double x, double y);

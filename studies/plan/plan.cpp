@@ -103,8 +103,6 @@ void keep_common(std::vector<Limit>& kept, const std::vector<Limit>& limits, boo
   std::erase_if(kept, [&](const Limit& one) { return std::ranges::find(limits, one.text, &Limit::text) == limits.end(); });
 }
 
-constexpr std::array kCombines{"mean", "worst", "median", "quantile"};
-
 }  // namespace
 
 Plan::Plan(Study study, const FigureOffer& offer, Catalog& catalog)
@@ -323,25 +321,20 @@ Row Plan::row(std::uint64_t run) const {
 
 void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording, const Measure& measure) const {
   row.simulated = recording.simulated;
-  if (recording.outcome != "done") {
-    // As SimulationError says it: of numbers that were left, or of a plugin that threw; or by a rule of the study.
-    row.outcome = recording.outcome.starts_with("diverged") ? "diverged"
-                  : StopRules::ended(recording.outcome)     ? "stopped"
-                                                            : "plugin";
-    row.message = recording.outcome;
+  row.outcome = name_of(recording.outcome.ended);
+  if (!recording.outcome.done()) {
+    row.message = recording.outcome.message;
     row.verdict = "failed";
     return;
   }
   Judged judged = measure(scenario, recording);
-  row.outcome = "done";
   row.figures = std::move(judged.figures);
   row.verdict = std::move(judged.verdict);
   row.score = judge_->score(scenario, row.figures);
 }
 
 std::string Plan::definition() const {
-  std::string text = fmt::format("seed: {}\nmethod: {}\n", study_.seed,
-                                 study_.asked ? "asked" : kMethods[static_cast<std::size_t>(study_.method)]);
+  std::string text = fmt::format("seed: {}\nmethod: {}\n", study_.seed, study_.asked ? "asked" : name_of(study_.method));
   if (!study_.asked && is_search(study_.method)) text += search_text(study_);
   for (const Parameter& p : study_.parameters) {
     text += fmt::format("parameter {}: {}\n", p.key,
@@ -349,8 +342,7 @@ std::string Plan::definition() const {
     text += followers_text(p);
   }
   if (study_.replicates.count > 0) {
-    text += fmt::format("replicates: {}, {}", study_.replicates.count,
-                        kCombines[static_cast<std::size_t>(study_.replicates.combine)]);
+    text += fmt::format("replicates: {}, {}", study_.replicates.count, name_of(study_.replicates.combine));
     if (study_.replicates.combine == Combine::quantile) text += " " + number_text(study_.replicates.quantile);
     text += "\n";
   }
@@ -377,7 +369,7 @@ JournalHead Plan::head() const {
   }
   for (std::size_t k = 0; k < study_.objectives.size(); ++k)
     head.objectives.push_back({judge_->objectives()[k], study_.objectives[k].maximize});
-  head.combine = kCombines[static_cast<std::size_t>(study_.replicates.combine)];
+  head.combine = name_of(study_.replicates.combine);
   head.quantile = study_.replicates.quantile;
   head.runs = most_runs();
   head.replicates = points_.runs_of_point();

@@ -3,7 +3,11 @@
 #include <string>
 #include <vector>
 
-namespace gaitlab::report {
+#include "core/names.h"
+
+namespace gaitlab {
+
+namespace report {
 
 /// An axis: a parameter or a figure.
 struct StudyAxis {
@@ -13,6 +17,17 @@ struct StudyAxis {
 };
 
 enum class PointState { feasible, infeasible, failed };
+
+}  // namespace report
+
+template <>
+struct EnumNames<report::PointState> {
+  using enum report::PointState;
+  static constexpr EnumName<report::PointState> kTable[] = {
+      {feasible, "feasible"}, {infeasible, "infeasible"}, {failed, "failed"}};
+};
+
+namespace report {
 
 /// value: the mean over the replicates, low and high the least and the largest; NaN where not known.
 struct StudyPoint {
@@ -35,4 +50,5 @@ std::string study_svg(const StudyFigure& figure);
 /// The points it draws.
 std::string study_csv(const StudyFigure& figure);
 
-}  // namespace gaitlab::report
+}  // namespace report
+}  // namespace gaitlab

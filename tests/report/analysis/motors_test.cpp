@@ -80,7 +80,7 @@ TEST(MotorSource, AnotherTypeDropsTheFiguresOfTheModuleTypeAndSaysSo) {
   EXPECT_EQ(motor_source(s), "chosen: no source stated");
   const report::Verdict made = judged(s);
   EXPECT_TRUE(made.chosen_motors);
-  EXPECT_EQ(to_lines(made).back(), "motors: chosen figures (no source stated)");
+  EXPECT_EQ(made.figures, "motors: chosen figures (no source stated)");
   EXPECT_TRUE(contains(to_json(made), "\"figures\": \"motors: chosen figures (no source stated)\""));
 }
 
@@ -163,7 +163,7 @@ TEST(MotorSource, AMissingOneMeansChosen) {
   EXPECT_TRUE(judged(scenario(one(kServo))).chosen_motors);
   const report::Verdict made = judged(scenario(one(std::string(kServo) + ", source: data sheet 17")));
   EXPECT_FALSE(made.chosen_motors);
-  EXPECT_EQ(to_lines(made).back(), "motors: data sheet 17");
+  EXPECT_EQ(made.figures, "motors: data sheet 17");
 }
 
 /// Of format 2 a hinge's motor is over that of its type, key by key.

@@ -142,7 +142,7 @@ TEST(RowStatistics, OfNothingAreNothing) {
   Recording none;
   fill_ticks_from_rows(s, none);
   EXPECT_FALSE(none.ticks_of_rows);
-  EXPECT_EQ(verdict_of(s, none).word, "not judged");
+  EXPECT_EQ(verdict_of(s, none).word, report::Word::not_judged);
   Recording whole = run(s);
   fill_ticks_from_rows(s, whole);
   EXPECT_FALSE(whole.ticks_of_rows) << "all steps are known";

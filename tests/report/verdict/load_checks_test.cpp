@@ -40,7 +40,7 @@ struct LoadCase {
   [[nodiscard]] Check docks(DockQuantity quantity, const std::vector<double>& limits) const {
     Check made;
     made.value = made.limit = made.from = made.to = kUnknownLimit;
-    judge_docks(scenario, record, summary(), quantity, limits, made);
+    judge_docks(scenario, record, quantity, limits, made);
     return made;
   }
 };
@@ -123,7 +123,7 @@ TEST(LoadChecks, TakeTheSmallerLimitOfBothConnectors) {
   EXPECT_TRUE(contains(weak.check("dock_tension").text, "of what it holds by a chosen figure"));
   EXPECT_TRUE(contains(weak.check("dock_tension").text, "m5/dock is pulled apart")) << weak.check("dock_tension").text;
   const Verdict made = verdict(weak.scenario, weak.record, weak.summary(), overlaps(weak.scenario, weak.record));
-  EXPECT_EQ(made.word, "infeasible");
+  EXPECT_EQ(made.word, report::Word::infeasible);
 }
 
 TEST(LoadChecks, OfATensionOnlyThePullCounts) {

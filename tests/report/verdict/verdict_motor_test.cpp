@@ -109,7 +109,7 @@ TEST(Verdict, SaysWhoseFiguresItRestsOn) {
   EXPECT_EQ(walk().check("voltage").source,
             "chosen (limits.saturated_share); motors: chosen: the paper names no motor "
             "(docs/equations.md, 3)");
-  EXPECT_EQ(to_lines(chosen_motors).back(), "motors: chosen figures");
+  EXPECT_EQ(chosen_motors.figures, "motors: chosen figures");
   EXPECT_EQ(walk().check("tracking").source, "chosen (limits.tracking_error)");
 }
 
@@ -126,11 +126,11 @@ TEST(Verdict, OfAnActuatorWithoutALimit) {
   const Verdict ideal = with("{type: torque}");
   EXPECT_EQ(status(ideal, "voltage"), CheckStatus::not_judged);
   EXPECT_EQ(status(ideal, "current"), CheckStatus::not_judged);
-  EXPECT_EQ(ideal.word, "not judged");
+  EXPECT_EQ(ideal.word, report::Word::not_judged);
   const Verdict real = with("{type: torque, limit: 100}");
   EXPECT_EQ(status(real, "voltage"), CheckStatus::not_judged);
   EXPECT_EQ(status(real, "current"), CheckStatus::pass);
-  EXPECT_EQ(real.word, "feasible");
+  EXPECT_EQ(real.word, report::Word::feasible);
 }
 
 }  // namespace

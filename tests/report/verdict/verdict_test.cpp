@@ -14,7 +14,7 @@ namespace {
 
 TEST(Verdict, OfAGaitThatTheMotorsCanDo) {
   const Verdict made = walk().judged();
-  EXPECT_EQ(made.word, "feasible");
+  EXPECT_EQ(made.word, report::Word::feasible);
   EXPECT_EQ(made.count(CheckStatus::fail), 0U);
   for (const char* const id : {"outcome", "fall", "voltage", "current", "envelope", "speed", "heat", "tracking", "stops",
                                "collision", "in_ground", "ledger"})
@@ -37,7 +37,7 @@ TEST(Verdict, WarnsOfShortLimitsAndFailsByLongOnes) {
     EXPECT_NEAR(check.to, 4, 1e-9);
     EXPECT_NEAR(check.from, walk().record.ticks.values[(walk().last_tick() - 100) * walk().record.ticks.columns.size()], 1e-9);
     EXPECT_TRUE(contains(check.text, std::string("1 of 16 joints reaches the limit of its ") + name)) << check.text;
-    EXPECT_EQ(at_limit(column, 100).judged().word, "infeasible");
+    EXPECT_EQ(at_limit(column, 100).judged().word, report::Word::infeasible);
   }
 }
 
@@ -68,7 +68,7 @@ TEST(Verdict, TellsTheNumberThatDecided) {
 TEST(Verdict, NamesNoFolder) {
   Case made = walk();
   made.scenario.plugins = {{"/home/somebody/build/wave.so", "hash"}};
-  made.record.outcome = "stopped at step 3: cpg 'wave' (/home/somebody/build/wave.so): no luck";
+  made.record.outcome = {Ended::plugin, "stopped at step 3: cpg 'wave' (/home/somebody/build/wave.so): no luck"};
   EXPECT_EQ(made.check("outcome").text, "stopped at step 3: cpg 'wave' (wave.so): no luck");
   EXPECT_FALSE(contains(to_json(made.judged()), "/home"));
 }
@@ -117,8 +117,8 @@ TEST(Verdict, JudgesStopsFallsAndTheEnd) {
   tilted.scenario.limits.tilt = 0.01;
   EXPECT_EQ(tilted.status("tilt"), CheckStatus::warn);
   Case early = walk();
-  early.record.outcome = "diverged at step 3";
-  EXPECT_EQ(early.judged().word, "failed");
+  early.record.outcome = {Ended::diverged, "diverged at step 3"};
+  EXPECT_EQ(early.judged().word, report::Word::failed);
 }
 
 /// Two whole ticks and three quarters of the ones beside them: more than three, however the ticks lie.
@@ -159,7 +159,7 @@ TEST(Verdict, TrustNeverMakesAGaitInfeasible) {
   for (JointStatistics& joint : made.record.joints) joint.created = made.record.ledger.electrical;
   EXPECT_EQ(made.status("ledger"), CheckStatus::warn);
   EXPECT_EQ(made.status("created"), CheckStatus::warn);
-  EXPECT_EQ(made.judged().word, "feasible");
+  EXPECT_EQ(made.judged().word, report::Word::feasible);
   made.record.ledger.copper = made.record.joints[0].created = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(made.status("ledger"), CheckStatus::warn) << "not a number is not a pass";
   EXPECT_EQ(made.status("created"), CheckStatus::warn) << "not a number is not a pass";
@@ -185,7 +185,7 @@ TEST(Verdict, DoesNotAssumeWhatItDoesNotKnow) {
   Case old = walk();
   old.record.ticks = {};
   const Verdict made = old.judged();
-  EXPECT_EQ(made.word, "not judged") << "nothing is known of the motors";
+  EXPECT_EQ(made.word, report::Word::not_judged) << "nothing is known of the motors";
   EXPECT_TRUE(contains(old.check("voltage").text, "older format"));
   Case bare = walk();  // as a CSV file alone: rows and nothing else
   bare.record.ticks = {};
@@ -215,13 +215,13 @@ TEST(Verdict, IsTheSameForAnyTracePeriod) {
     s.limits.touch = s.limits.sink = 0;  // so that the depths of bodies are told
     const Recording r = run(s);
     const Verdict made = verdict(s, r, summarise(s, r, 1), overlaps(s, r));
-    std::string text = made.word;
+    std::string text = name_of(made.word);
     for (const Check& c : made.checks) {
       text += fmt::format("\n{} {} {} {} {} {} {}", c.id, c.value, c.joint, c.joints, c.from, c.to, c.text);
     }
     if (first.empty()) first = text;
     EXPECT_EQ(text, first) << period;
-    EXPECT_EQ(made.word, "infeasible");
+    EXPECT_EQ(made.word, report::Word::infeasible);
   }
 }
 

@@ -1,0 +1,138 @@
+// The list of checks.
+#include "report/verdict/checks.h"
+#include "report/verdict/load_checks.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+using Group = CheckGroup;
+constexpr CheckSpan kWindow = CheckSpan::window, kWhole = CheckSpan::whole_run;
+
+template <DockQuantity kQuantity>
+void dock(const CheckedRun& run, Check& made) {
+  judge_docks(run.scenario, run.record, kQuantity, dock_limits(*run.scenario.robot, kQuantity), made);
+  if (made.status != CheckStatus::not_judged && !run.torque_errors.empty())
+    widen(run.scenario, std::ranges::max(run.torque_errors), made);
+}
+void slip(const CheckedRun& run, Check& made) {
+  judge_slip(run.scenario, run.record, run.summary, made);
+  made.source = threshold("slip", run.limits().slip, Limits().slip);
+}
+void stability(const CheckedRun& run, Check& made) { judge_stability(run.scenario, run.record, run.summary, made); }
+
+constexpr const char* kGentler = "a smaller amplitude or frequency, or a stronger motor; --demand computes what is missing";
+constexpr const char* kSmaller = "smaller amplitudes or offsets";
+constexpr const char* kShorter = "a smaller physics.accuracy, or a smaller physics.step where one is given";
+
+// id, group, unit, title, definition, fails, warns, span, key, remedy, judge
+constexpr CheckKind kChecks[] = {
+    {"outcome", Group::run, "s", "Run finished", "simulated time against the duration", "the run ended early", "", kWhole,
+     "duration", "the message of the run says what to change", checks::outcome, true},
+    {"fall", Group::run, "", "Does not fall", "least height of the centre of mass over that at the start, at control ticks",
+     "below limits.height", "", kWhole, "limits.height", "a gait with more support, or limits.height", checks::height, true},
+    {"progress", Group::run, "m", "Goes somewhere", "travel of the centre of mass per period (without periods: in the window)",
+     "below limits.progress of the robot's extent where that is given; or the robot slides down faster and faster",
+     "below a hundredth of the robot's extent (without periods: a tenth), with as little turning", kWindow, "limits.progress",
+     "limits.progress, where standing still is a failure", checks::progress, true},
+    {"tilt", Group::run, "rad", "Keeps its posture", "largest turn of the base away from its start, at control ticks", "",
+     "above limits.tilt", kWhole, "limits.tilt", "a gait with more support, or limits.tilt", checks::tilt},
+    {"voltage", Group::motor, "", "Voltage suffices", "share of the window at the limit of the voltage, over all steps",
+     "above limits.saturated_share, or a stretch of more than limits.saturated_periods control periods", "any", kWindow,
+     "actuator.u_max", kGentler, checks::voltage},
+    {"current", Group::motor, "", "Current suffices",
+     "share of the window at the limit of the current (of other actuators: of their limit), over all steps",
+     "above limits.saturated_share, or a stretch of more than limits.saturated_periods control periods", "any", kWindow,
+     "actuator.i_max", kGentler, checks::current},
+    {"envelope", Group::motor, "", "Torque within reach",
+     "largest torque over what the actuator has at that speed in that direction, over all steps", "", "above limits.warn_share",
+     kWindow, "actuator", kGentler, checks::envelope},
+    {"speed", Group::motor, "rad/s", "Speed within reach",
+     "largest speed against the speed at which the actuator has no torque left, or the rated one, of the whole run, over all "
+     "steps",
+     "above it", "above limits.warn_share of it", kWhole, "actuator.speed_max", kGentler, checks::speed},
+    {"heat", Group::motor, "A", "Motors stay cool", "RMS current in the window against the continuous rating, over all steps",
+     "above actuator.i_continuous", "above limits.warn_share of it", kWindow, "actuator.i_continuous", kGentler, checks::heat},
+    {"gear_peak", Group::motor, "N m", "Gears bear the peaks",
+     "largest torque of the whole run against the rating of the gear, over all steps", "above actuator.gear_torque_peak",
+     "above limits.warn_share of it", kWhole, "actuator.gear_torque_peak", "a softer start or landing, or another gear",
+     checks::gear_peak},
+    {"gear_continuous", Group::motor, "N m", "Gears last",
+     "RMS torque in the window against the rating of the gear, over all steps", "above actuator.gear_torque_continuous",
+     "above limits.warn_share of it", kWindow, "actuator.gear_torque_continuous", kGentler, checks::gear_continuous},
+    {"tracking", Group::motion, "rad", "Joints follow their set points",
+     "largest set point minus angle in the window, over all steps", "above twice limits.tracking_error",
+     "above limits.tracking_error", kWindow, "controller", "larger gains, or a slower gait", checks::tracking},
+    {"stops", Group::motion, "rad", "Joints keep their ranges",
+     "farthest beyond the range of the hinge, of the whole run, over all steps",
+     "above limits.beyond_range, or for more than limits.beyond_range_share of the time", "any", kWhole, "cpg", kSmaller,
+     checks::stops},
+    {"setpoints", Group::motion, "", "Set points keep the ranges",
+     "largest share of the time that a set point is beyond the range of its hinge, over all steps", "", "any", kWhole, "cpg",
+     kSmaller, checks::setpoints},
+    {"start", Group::motion, "rad", "Starts at its set points", "largest jump of a set point at t = 0", "",
+     "above limits.start_jump", kWhole, "cpg", "initial.angles", checks::start},
+    {"collision", Group::structure, "m", "Bodies keep apart",
+     "depth of two bodies in one another, but for bodies on one hinge, of the whole run, at control ticks",
+     "above limits.collision", "above limits.touch", kWhole, "robot", kSmaller, checks::collision},
+    {"dock_tension", Group::structure, "N", "Docks are not pulled apart",
+     "largest tension of a dock against its rating, of the whole run, at control ticks", "above what the dock holds",
+     "above limits.warn_share of it", kWhole, "robot", "a softer landing, or stronger connectors", dock<DockQuantity::tension>},
+    {"dock_shear", Group::structure, "N", "Docks do not shear",
+     "largest shear force of a dock against its rating, of the whole run, at control ticks", "above what the dock holds",
+     "above limits.warn_share of it", kWhole, "robot", "a softer landing, or stronger connectors", dock<DockQuantity::shear>},
+    {"dock_bending", Group::structure, "N m", "Docks are not bent open",
+     "largest bending moment of a dock against its rating, of the whole run, at control ticks", "above what the dock holds",
+     "above limits.warn_share of it", kWhole, "robot", "fewer modules in the air at a time, or stronger connectors",
+     dock<DockQuantity::bending>},
+    {"dock_torsion", Group::structure, "N m", "Docks are not twisted",
+     "largest torsion moment of a dock against its rating, of the whole run, at control ticks", "above what the dock holds",
+     "above limits.warn_share of it", kWhole, "robot", "fewer modules in the air at a time, or stronger connectors",
+     dock<DockQuantity::torsion>},
+    {"battery", Group::structure, "A", "Batteries suffice", "current of each module against the rating of its battery", "", "",
+     kWindow, "robot", "module types state no battery yet", checks::battery},
+    {"in_ground", Group::ground, "m", "Bodies stay above the ground",
+     "depth of a body in a plane, of the whole run, at control ticks", "above limits.sink", "", kWhole, "contact.on",
+     "contact.on: all, or a larger contact.stiffness", checks::in_ground},
+    {"slip", Group::ground, "", "Feet hold",
+     "way that the loaded feet slide over the way of the centre of mass, both at control ticks", "", "above limits.slip",
+     kWindow, "ground.friction", "feet that are lifted higher, or ground.friction", slip},
+    {"airborne", Group::ground, "", "Keeps to the ground",
+     "share of the window in which the ground carries less than 5 % of the weight", "", "any", kWindow, "cpg", "a slower gait",
+     checks::airborne},
+    {"stability", Group::ground, "m", "Stands on its feet",
+     "least distance of the centre of mass to the edge of the support polygon, inside positive", "", "", kWindow, "cpg",
+     "a note: a gait may fall from foot to foot", stability},
+    {"field", Group::ground, "s", "Stays on its field", "time at which the centre of mass leaves the heightfield", "", "any",
+     kWhole, "ground.heightfield", "a larger field or spacing", checks::field},
+    {"periodic", Group::trust, "", "Repeats",
+     "error of the limit cycle: how far angles and set points differ from those a period later", "",
+     "2 % and more, of set points that repeat", kWindow, "duration", "a longer duration", checks::periodic},
+    {"evidence", Group::trust, "s", "Long enough, borne and to be trusted",
+     "judged time, the ground's share of the weight, and the errors of torques and energy", "", "", kWindow, "duration",
+     "the text says which is missing", checks::evidence},
+    {"torque_error", Group::trust, "", "Torques are accurate", "estimated error of a joint's torque over its peak", "",
+     "above 1 %, or physics.accuracy; above limits.torque_error the verdict is not judged", kWhole, "physics.step", kShorter,
+     checks::torque_error},
+    {"ledger", Group::trust, "", "Energy adds up",
+     "residual of the energy over what was drawn (or stored, or lifts the robot by 1 mm, if that is more)", "",
+     "above limits.energy_residual; above 5 % the verdict is not judged", kWhole, "physics.step", kShorter, checks::ledger},
+    {"created", Group::trust, "", "Gears create no energy", "energy that back-driven gears give (eq. 2) over the same", "",
+     "above limits.energy_created", kWhole, "actuator", "actuator.efficiency_model: directional", checks::created},
+    {"supply", Group::trust, "J", "Motors draw energy", "energy drawn from the supply", "", "below 0", kWhole, "actuator",
+     "Kt, Ks and the efficiency of the motors", checks::supply, true},
+    {"step", Group::trust, "", "Steps are short enough", "share of the control ticks at which h lambda exceeds 1", "",
+     "above 1 %", kWhole, "physics.step", "a smaller physics.step", checks::step},
+    {"coarse", Group::trust, "", "Steps reach the accuracy",
+     "share of the time in which the shortest steps do not reach physics.accuracy", "",
+     "above 10 %, and the verdict is not judged", kWhole, "physics.step", "damping, or bounds of what drives the joints",
+     checks::coarse},
+    {"law", Group::trust, "", "Motors keep their law", "number of joint-steps that end off the law of their motor or stop", "",
+     "any", kWhole, "physics.step", "an actuator whose torque falls with the speed", checks::law},
+};
+
+}  // namespace
+
+std::span<const CheckKind> check_kinds() { return kChecks; }
+
+}  // namespace gaitlab::report

@@ -1,0 +1,143 @@
+// Checks of the accuracy of a run: of steps, torques and energies.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/settings/wording.h"
+#include "core/simulation/step_advice.h"
+#include "report/analysis/motors.h"
+#include "report/verdict/checks.h"
+#include "report/verdict/number_texts.h"
+#include "report/verdict/trust.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kTooLong = 0.01;  // of the control ticks: a step that is too long more often is a warning
+constexpr const char* kUndriven = "nothing drives the joints";
+constexpr const char* kNoEnergies = "the folder holds rows only, and no energies of all steps";
+
+/// The reason why energies are not judged; empty: they are.
+std::string no_energies(const CheckedRun& run) {
+  return !run.driven() ? kUndriven : run.record.joints.empty() ? kNoEnergies : "";
+}
+
+/// At most `limit` is a pass; more, and what is not a number, a warning.
+void warn_above(double limit, Check& made) { made.status = made.value <= limit ? CheckStatus::pass : CheckStatus::warn; }
+
+const char* finer(const Scenario& s) {
+  return s.physics.adapts() ? "take a smaller physics.accuracy" : "take a smaller physics.step";
+}
+
+}  // namespace
+
+namespace checks {
+
+void torque_error(const CheckedRun& run, Check& made) {
+  const TorqueError error = report::torque_error(run.record);
+  made.text = "the error of the torques was not estimated in this run";
+  if (!error.estimated) return;
+  made.value = error.share;
+  made.limit = run.limits().torque_error;
+  made.source = threshold("torque_error", made.limit, Limits().torque_error);
+  warn_above(std::min(torque_error_limit(run.scenario), made.limit), made);
+  made.part = Part::joint;
+  made.worst = run.joint(error.joint);
+  made.text = fmt::format("the torque of joint {} is off by about {} of its peak, estimated from other steps", made.worst,
+                          texts::rough_percent(made.value));
+  if (made.status == CheckStatus::warn) made.remedy = "take " + torque_remedy(run.scenario, error.share);
+}
+
+void ledger(const CheckedRun& run, Check& made) {
+  made.text = no_energies(run);
+  if (!made.text.empty()) return;
+  made.limit = run.limits().energy_residual;
+  made.source = threshold("energy_residual", made.limit, Limits().energy_residual);
+  const double missing = std::abs(run.record.ledger.residual());
+  made.value = missing / energy_scale(run.scenario, run.record);
+  warn_above(made.limit, made);
+  made.text = fmt::format("{} of the energy is unaccounted for", texts::percent(made.value));
+  if (made.status == CheckStatus::pass) return;
+  made.text += fmt::format(": {:.3g} J, of {:.3g} J drawn", missing, std::abs(run.record.ledger.electrical));
+  made.remedy = finer(run.scenario);
+}
+
+void created(const CheckedRun& run, Check& made) {
+  made.text = no_energies(run);
+  if (!made.text.empty()) return;
+  made.limit = run.limits().energy_created;
+  made.source = threshold("energy_created", made.limit, Limits().energy_created);
+  made.value = texts::created(run.record) / energy_scale(run.scenario, run.record);
+  warn_above(made.limit, made);
+  const std::string remedy = made.status == CheckStatus::warn ? no_created_energy(run.scenario) : "";
+  made.text = fmt::format("gears that are driven backwards give {} of the energy too much (eq. 2){}{}",
+                          texts::percent(made.value), remedy.empty() ? "" : "; ", remedy);
+}
+
+void supply(const CheckedRun& run, Check& made) {
+  made.text = no_energies(run);
+  if (!made.text.empty()) return;
+  double drawn = 0;  // as for the cost of transport
+  for (const JointStatistics& joint : run.record.joints) drawn += joint.electrical;
+  const bool costs = run.scenario.robot->mass * run.scenario.physics.gravity.norm() * travelled(run.record).distance > 0;
+  made.value = run.record.ledger.electrical;
+  made.limit = 0;
+  const bool gave = made.value < -least_energy(run.scenario) || (costs && drawn < 0);
+  made.status = gave ? CheckStatus::warn : CheckStatus::pass;
+  made.text = fmt::format("the motors draw {:.3g} J", made.value);
+  if (!gave) return;
+  made.text = fmt::format(
+      "the motors gave {:.3g} J back to their supply instead of drawing any, so that the cost of transport is "
+      "negative: the robot went down, or a motor makes energy",
+      std::max(-made.value, -drawn));
+  made.remedy = "look at Kt, Ks and the efficiency of the motors";
+}
+
+void step(const CheckedRun& run, Check& made) {
+  const Recording& r = run.record;
+  made.text = "no rate was recorded";
+  if (r.control_ticks == 0) return;
+  made.value = run.summary.stability_share;
+  made.limit = kTooLong;
+  made.source = "chosen";
+  warn_above(made.limit, made);
+  made.text = fmt::format("the step is too long in {} of the control ticks", texts::percent(made.value));
+  if (made.status == CheckStatus::pass) return;
+  const auto contacts = contact_elements(*run.scenario.robot, run.scenario.contact.on);
+  made.from = made.to = r.worst_time;
+  made.text = fmt::format("in {} of the control ticks", texts::percent(made.value));
+  made.remedy = step_advice(run.scenario, contacts, r.worst, fmt::format("at t = {:.2f} s", r.worst_time));
+}
+
+void coarse(const CheckedRun& run, Check& made) {
+  made.text = "the steps do not follow an accuracy";
+  if (!run.scenario.physics.adapts() || !(run.record.simulated > 0)) return;
+  made.value = run.record.tally.coarse / run.record.simulated;
+  made.limit = kTrustedCoarse;
+  made.source = "chosen";
+  warn_above(made.limit, made);
+  made.text = fmt::format("in {} of the time the shortest steps of the integrator did not reach the accuracy {}",
+                          texts::rough_percent(made.value), texts::rough_percent(run.scenario.physics.accuracy));
+  if (made.status == CheckStatus::pass) return;
+  made.text += ": the result depends on the steps and may not be reproducible at any";
+  made.remedy = "look for what is undamped, or driven without bounds";
+}
+
+void law(const CheckedRun& run, Check& made) {
+  made.text = kUndriven;
+  if (!run.driven()) return;
+  made.value = run.record.tally.off;
+  made.limit = 0;
+  warn_above(0, made);
+  made.text = "every joint-step ends on the law of its motor and stop";
+  if (made.status == CheckStatus::pass) return;
+  made.text =
+      fmt::format("{:.0f} joint-steps ended off the law of their motor or stop: the torques there are wrong", made.value);
+  made.remedy = "the torque of the actuator must fall with the joint's speed";
+}
+
+}  // namespace checks
+
+}  // namespace gaitlab::report
