@@ -155,7 +155,7 @@ void PluginFields::fields(Fields& f) {
   const std::size_t before = count(problems);
   try {
     choose(f);
-    if (host) host(f);
+    if (host && !none) host(f);
     sound = count(problems) == before;
     if (sound && choice.entry != nullptr && own_keys) visit_settings(*choice.entry, choice.settings.get(), f);
   } catch (const PluginError& error) {
@@ -242,6 +242,12 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
       controller{Kind::controller, s.controller, describe(Kind::controller).default_type, catalog},
       cpg{Kind::cpg, s.cpg, describe(Kind::cpg).default_type, catalog} {
   actuator.problems = controller.problems = cpg.problems = problems;
+  actuator.host = [this, &s](Fields& f) {
+    if (writing && s.actuator_source.empty()) return;
+    f.text("source", s.actuator_source,
+           "Who says the figures that this section gives instead of the module types', such as a data sheet; a verdict repeats "
+           "it. Without it they count as chosen.");
+  };
   controller.host = [&s](Fields& f) {
     f.number("period", s.control_period,
              {"s", 1e-9, 1000, "Time between commands; a whole multiple of the step where one is given."});

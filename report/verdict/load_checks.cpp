@@ -150,6 +150,7 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
   }
   made.limit = worst.limit;
   made.source = weaker(*scenario.robot, worst.module, quantity).source;
+  if (made.source.empty()) made.source = kNoSource;
   made.parts = static_cast<std::size_t>(std::ranges::count_if(peaks, [](const DockPeak& p) { return p.share() > 1; }));
   made.status = worst.share() <= scenario.limits.warn_share ? CheckStatus::pass
                 : worst.share() <= 1                        ? CheckStatus::warn

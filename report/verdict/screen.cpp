@@ -105,13 +105,10 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict)
   if (const auto open = of_status(verdict, CheckStatus::not_judged); !open.empty())
     screen.add("unknown", names(open) + " (gaitlab explain verdict)");
   if (const std::string text = gait(run); !text.empty()) screen.add("gait", text);
-  std::string rests;
-  if (verdict.chosen_motors) rests = "chosen figures of the motors, not a maker's";
-  if (verdict.chosen_docks) rests += std::string(rests.empty() ? "" : "; ") + "chosen figures of what docks hold";
   for (const std::string& rows : {verdict.of_rows, verdict.window_of_rows}) {
     if (!rows.empty()) screen.add("rows", rows, Tone::doubtful);
   }
-  if (!rests.empty()) screen.add("rests on", rests);
+  if (!verdict.figures.empty()) screen.add("rests on", verdict.figures);
   return screen.lines;
 }
 

@@ -103,6 +103,8 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const CheckedRun run{scenario, record, summary, overlaps};
   Verdict made;
+  std::vector<std::string> motors;  // sources of what checks were judged by
+  std::vector<std::string> docks;
   made.from = summary.judged.from;
   made.to = summary.judged.to;
   made.of_rows = rows_sentence(record);
@@ -129,10 +131,13 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
     if (check.status == CheckStatus::not_judged || check.id == "outcome") check.margin = kNone;
     check.text = without_folders(std::move(check.text), scenario.plugins);
     const bool judged = check.status != CheckStatus::not_judged;
-    made.chosen_motors = made.chosen_motors || (judged && check.group == CheckGroup::motor && chosen(run.motor_source));
-    made.chosen_docks = made.chosen_docks || (judged && check.id.starts_with("dock_") && chosen(check.source));
+    if (judged && check.group == CheckGroup::motor) motors = {run.motor_source};
+    if (judged && check.id.starts_with("dock_")) docks.push_back(check.source);
     made.checks.push_back(std::move(check));
   }
+  made.chosen_motors = std::ranges::any_of(motors, chosen);
+  made.chosen_docks = std::ranges::any_of(docks, chosen);
+  made.figures = figures_sentence(motors, docks);
   decide(run, made);
   if (const std::vector<JudgedJoint>& whole = summary.judged.whole; Judged::limited(whole) > 0) {
     made.first_joint = run.joint(Judged::first(whole));

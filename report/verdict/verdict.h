@@ -40,9 +40,10 @@ struct Verdict {
   std::string rests_on = {};  ///< of the evidence: `3 periods of 4 s`
   double from = 0, to = 0;    ///< s, the judged window
   std::vector<Check> checks;
-  /// Whether a check that was judged rests on figures of motors that are chosen, not a maker's.
+  /// Whether a check that was judged rests on figures of motors that are chosen, not a maker's, or have no source.
   bool chosen_motors = false;
   bool chosen_docks = false;     ///< the same of what docks hold
+  std::string figures = {};      ///< the same in a sentence (motors.h): `motors: chosen figures`
   std::string first_joint = {};  ///< the first of the whole run at a limit of its motor, however shortly; empty: none is
   double first_time = 0;         ///< s, when that was
   /// That peaks, shares and spans are of the trace's rows, because the folder has nothing else; empty: they are of all steps.

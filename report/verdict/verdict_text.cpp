@@ -28,6 +28,7 @@ std::string to_json(const Verdict& verdict) {
   json["rests_on"] = verdict.rests_on;
   json["chosen_motors"] = verdict.chosen_motors;
   json["chosen_docks"] = verdict.chosen_docks;
+  json["figures"] = verdict.figures;
   json["statistics"] = verdict.of_rows.empty() ? "all steps" : "rows";
   if (!verdict.of_rows.empty()) json["statistics_text"] = verdict.of_rows;
   json["window"] = {{"from", verdict.from}, {"to", verdict.to}};

@@ -119,6 +119,8 @@ TEST(LoadChecks, TakeTheSmallerLimitOfBothConnectors) {
   const double limit = 0.97 * tension;  // of 11.3 N: 11 N
   const LoadCase weak = connected({.tension = limit}, {.tension = 1000});
   EXPECT_EQ(weak.check("dock_tension").status, CheckStatus::fail);
+  EXPECT_EQ(weak.check("dock_tension").source, "chosen: no source stated");
+  EXPECT_TRUE(contains(weak.check("dock_tension").text, "of what it holds by a chosen figure"));
   EXPECT_TRUE(contains(weak.check("dock_tension").text, "m5/dock is pulled apart")) << weak.check("dock_tension").text;
   const Verdict made = verdict(weak.scenario, weak.record, weak.summary(), overlaps(weak.scenario, weak.record));
   EXPECT_EQ(made.word, report::Word::infeasible);
