@@ -177,7 +177,7 @@ TEST_F(ApproveCommand, AnyNumberOfThreadsWritesTheSameBytes) {
   const Result two = call("test . --out b -j 2");
   EXPECT_EQ(one.code, 4);
   EXPECT_EQ(two.code, 4);
-  EXPECT_EQ(one.out.substr(0, one.out.find("figure")), two.out.substr(0, two.out.find("figure")));
+  EXPECT_EQ(one.out.substr(0, one.out.find("page: ")), two.out.substr(0, two.out.find("page: ")));
   EXPECT_EQ(read(folder / "a/good.svg"), read(folder / "b/good.svg"));
   EXPECT_NE(read(folder / "a/good.svg"), "");
 }

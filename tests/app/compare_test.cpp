@@ -156,7 +156,7 @@ TEST_F(CompareCommand, UnreadableInput) {
   make_run("unfinished", "t,x\n0,1\n");
   expect_refused("a unfinished", "unfinished/summary.json: error: cannot be read: No such file or directory");
   make_run("cut", "t,x\n0,1\n", kSummaryA.substr(0, 140));
-  expect_refused("a cut", "cut/summary.json:2:32: error: is not JSON from here on: it is truncated or damaged");
+  expect_refused("a cut", "cut/summary.json:2:7: error: is not JSON from here on: it is truncated or damaged");
   make_run("list", "t,x\n0,1\n", "[1, 2]\n");
   expect_refused("a list", "list/summary.json:1:1: error: holds no JSON object: it is not a summary");
   make_run("huge", "t,x\n0,1\n", R"({"distance": 1e999})");

@@ -88,7 +88,7 @@ TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   expect_contains(figure, "good: ");
   expect_contains(figure, "outside from ");
   expect_contains(figure, ">good: the worst 6 of ");
-  expect_contains(figure, ">m1/passive torque, N m<");
+  expect_contains(figure, ">m1/passive torque (N m)<");
   EXPECT_EQ(figure.find("joint."), std::string::npos);
   const std::string bands = ">3 bands<";  // once in each panel
   std::size_t panels = 0;
@@ -204,7 +204,7 @@ TEST_F(GoldenCommand, NoGolden) {
   expect_contains(result.out, "1 passed, 0 failed, 1 not tested\n");
   result = call("test . --junit result.xml");
   EXPECT_EQ(result.code, 0);
-  expect_contains(result.out, "./new.yaml   -                     -  -                      -  skipped: no golden\n");
+  expect_contains(result.out, "./new.yaml   -                       -  -                       -  skipped: no golden\n");
   expect_contains(result.out, "\n1 passed, 0 failed, 1 skipped\n");
   expect_contains(without_times(read(folder / "result.xml")),
                   "<testcase classname=\"golden\" name=\"./new.yaml\"><skipped message=\"no golden\"></skipped></testcase>\n");

@@ -168,7 +168,7 @@ TEST(GoldenReport, ShowsTheTenWorstColumnsAndTheWay) {
 TEST(GoldenReport, ShowsNumbersWhereNoColumnStrayed) {
   GoldenDifference d = difference_of(0, 2);
   EXPECT_EQ(golden::differences(d, Shown::brief),
-            "  number                golden       now  change  band  in bands\n"
+            "  number                 golden       now  change  band  in bands\n"
             "  m1/active torque RMS  0.5 N m  0.55 N m    10 %   1 %        10\n"
             "  distance                0.5 m    0.51 m     2 %   1 %         2\n");
   EXPECT_EQ(golden::left_out(d), 0U);
