@@ -15,7 +15,7 @@
 #include "core/recording/run_files.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
-#include "core/settings/changed_lines.h"
+#include "core/settings/changed_settings.h"
 #include "report/analysis/plugin_names.h"
 #include "report/analysis/summary.h"
 #include "report/figures/run/run_figure.h"
@@ -162,7 +162,7 @@ int report_two(const ReportArguments& arguments) {
   const JudgedRun a = judged_run(arguments.runs[0], catalogs[0], {}, arguments.shown);
   const JudgedRun b = judged_run(arguments.runs[1], catalogs[1], {}, arguments.shown);
   report::PageOverlay overlay;
-  overlay.differs = changed_lines(settings(a.read.scenario), settings(b.read.scenario), 6);
+  overlay.differs = changed_settings(settings(a.read.scenario), settings(b.read.scenario), 6);
   constexpr std::size_t kEach = report::kMostData / 2;
   write_file(file, report::page(report::overlaid(a.page_data(kEach), b.page_data(kEach), overlay)), existing);
   int code = 0;

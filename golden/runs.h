@@ -14,10 +14,8 @@ namespace gaitlab::golden {
 struct Attempt {
   /// Torque, current and angle of every joint (without a motor: the angle) and the base pose, whatever `trace.columns` says, a
   /// row every 20 ms (the largest whole multiple of the trace period up to that, at least one of it); and the figures that a
-  /// golden holds.
+  /// golden holds. The verdict where that was asked for.
   GoldenRun run;
-  std::string infeasible =
-      {};                    ///< where that was asked for: why the robot cannot do it (report/verdict/verdict.h); empty: it can
   double seconds = 0;        ///< that it took, for reports alone
   std::exception_ptr error;  ///< InputError: the step is too long; RunError: it diverged
 };
