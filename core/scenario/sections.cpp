@@ -197,7 +197,8 @@ void Limits::fields(Fields& f) {
        "How many control periods on end it may be there; a longer stretch is a failure. Default: chosen; one or two are the "
        "answer to a step of the set point."});
   f.number("height", height,
-           {"", 0, 1, "Share of its height at the start below which the centre of mass has fallen. Default: chosen."});
+           {"", 0, 1,
+            "Share of its height above the ground at the start below which the centre of mass has fallen. Default: chosen."});
   f.number(
       "tilt", tilt,
       {"rad", kPositive, 4, "Tilt of the base from its start above which the verdict warns. Default: 60 degrees, chosen."});

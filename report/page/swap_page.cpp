@@ -11,7 +11,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr std::size_t kColumns = 240;  // px of a picture
+constexpr std::size_t kPictureColumns = 240;  // px of a picture
 
 constexpr const char* kStyle = R"(
 :root { --ink: #1b2127; --muted: #5f6a74; --rule: #e1e6ea; --bg: #f3f5f7; --panel: #fff; --pass: #00694c; --fail: #b3261e; --open: #4a5661; color-scheme: light dark; }
@@ -65,7 +65,7 @@ std::string swap_page(const std::string& name, const std::vector<SwapEntry>& ent
                         xml_escaped(number->swap.under));
   std::string rows;
   for (const SwapEntry& entry : entries) {
-    const std::string picture = heat_image(entry.named.run.record, kColumns);
+    const std::string picture = heat_image(entry.named.run.record, kPictureColumns);
     rows += fmt::format("<tr><td><a href=\"{}\">{}</a></td><td class=\"l\">{}</td><td class=\"l\">{}</td>",
                         xml_escaped(entry.page), xml_escaped(entry.named.name), verdict_cell(entry.verdict),
                         picture.empty() ? ""

@@ -74,7 +74,7 @@ Json forward_speed(R run) {
 
 Json fallen(R run) {
   const std::optional<Fall> found = fall(run.scenario, run.record);
-  return found ? Json(found->share() < run.scenario.limits.height) : Json();
+  return found ? Json(found->time.has_value()) : Json();
 }
 
 Json held(R run, double Posture::*figure) { return or_null(run.summary.posture.*figure); }
@@ -469,8 +469,8 @@ std::vector<SummaryNumber> list() {
        .value = [](R r) { return or_null(texts::created(r.record) / energy_scale(r.scenario, r.record)); }},
       {.key = "fell",
        .definition =
-           "Whether the centre of mass came below `limits.height` of its height at the start; null where a height says "
-           "nothing: of a base that is not floating, or above other ground than a plane and boxes.",
+           "Whether the centre of mass came below `limits.height` of its height above the ground at the start (the check "
+           "`fall` of the verdict); null of a base that is not floating, and without a ground.",
        .value = [](R r) { return fallen(r); }},
       {.key = "airborne_share",
        .definition =
@@ -487,8 +487,9 @@ std::vector<SummaryNumber> list() {
        .value = [](R r) { return held(r, &Posture::height_max); }},
       {.key = "tilt.max",
        .unit = "rad",
-       .definition = "Largest angle between the base's z axis and the vertical at these ticks (the check `tilt` of the verdict "
-                     "is of the turn since the start).",
+       .definition =
+           "Largest angle between the base's z axis and the vertical at these ticks (the check `upright` of the verdict "
+           "is of the turn since the start).",
        .value = [](R r) { return held(r, &Posture::tilt_max); }},
       {.key = "limit_cycle.found",
        .definition = "Whether the motion has become periodic: see below.",

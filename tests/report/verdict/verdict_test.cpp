@@ -115,7 +115,7 @@ TEST(Verdict, JudgesStopsFallsAndTheEnd) {
   EXPECT_TRUE(contains(fallen.check("fall").text, "comes down to ")) << fallen.check("fall").text;
   Case tilted = walk();
   tilted.scenario.limits.tilt = 0.01;
-  EXPECT_EQ(tilted.status("tilt"), CheckStatus::warn);
+  EXPECT_EQ(tilted.status("upright"), CheckStatus::warn);
   Case early = walk();
   early.record.outcome = {Ended::diverged, "diverged at step 3"};
   EXPECT_EQ(early.judged().word, report::Word::failed);
