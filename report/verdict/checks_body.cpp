@@ -63,7 +63,9 @@ void height(const CheckedRun& run, Check& made) {
   made.text = made.status == CheckStatus::pass
                   ? fmt::format("the centre of mass keeps at least {} of its height at the start", texts::percent(made.value))
                   : fmt::format("the centre of mass comes down to {} of its height at the start", texts::percent(made.value));
-  if (made.status == CheckStatus::fail) made.remedy = "take a gait with more support";
+  if (made.status == CheckStatus::pass) return;
+  made.from = made.first = run.fall->fallen_time;
+  made.remedy = "take a gait with more support";
 }
 
 void tilt(const CheckedRun& run, Check& made) {

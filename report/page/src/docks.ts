@@ -2,6 +2,7 @@
 import { element, make } from "./dom";
 import { number } from "./numbers";
 import type { Desk } from "./panel";
+import { dockName } from "./places";
 import type { Recording } from "./recording";
 
 const kinds = [["tension", "N"], ["shear", "N"], ["bending", "N m"], ["torsion", "N m"]] as const;
@@ -57,7 +58,7 @@ function shorten(table: HTMLTableElement): void {
 }
 
 function head(recording: Recording, n: number): HTMLTableCellElement {
-  const { name, module, parent, face, parent_face } = recording.meta.docks[n], cell = make("th", name), { modules } = recording.meta;
+  const { name, module, parent, face, parent_face } = recording.meta.docks[n], cell = make("th", dockName(name)), { modules } = recording.meta;
   cell.scope = "row";
   cell.title = `face ${face} of ${modules[module]?.name ?? name} on face ${parent_face} of ${modules[parent]?.name ?? "?"}`;
   return cell;

@@ -25,7 +25,7 @@ export class Footfalls implements Panel {
   constructor(private readonly desk: Desk) {
     const { recording } = desk, from = recording.judged;
     this.on = threshold * recording.meta.weight;
-    this.feet = recording.meta.feet.flatMap(({ name }, n) => {
+    this.feet = recording.meta.feet.flatMap(({ title: name }, n) => {
       const load = recording.find(`foot.${n}.fz`);
       if (!load) return [];
       let rows = 0;
