@@ -31,7 +31,7 @@ export function checks(desk: Desk): void {
     columns.forEach((c) => { c.scope = "col"; });
     head.cells[2].replaceWith(...columns);
   }
-  const folded: HTMLTableRowElement[] = [], open = rows.filter((row) => worst(row) === "not judged");
+  const tried = new Set<string>(), folded: HTMLTableRowElement[] = [], open = rows.filter((row) => worst(row) === "not judged");
   for (const group of order) {
     const name = make("th", groups[group] ?? group), title = make("tr.group", name), own = rows.filter((row) => first(row).group === group);
     name.colSpan = head.cells.length;
@@ -39,7 +39,7 @@ export function checks(desk: Desk): void {
     body.append(title);
     if (own.every((row) => open.includes(row))) folded.push(title);
     for (const row of own) {
-      const made = drawn(desk, row);
+      const made = drawn(desk, row, tried);
       if (open.includes(row)) folded.push(made[0]);
       body.append(...made);
     }
@@ -80,17 +80,17 @@ function more(check: Check, label: string, called: string, text: string): HTMLEl
 }
 
 /** What to set, or what helps in general. */
-function remedy({ status, remedy: own, advice }: Check): string {
-  const tried = own || advice;
-  return (status === "fail" || status === "too close") && tried ? `Try: ${tried.replace(/[.]$/, "")}.` : "";
+function remedy({ status, group, remedy: own, advice }: Check): string {
+  const tried = (own || (group === "run" ? "" : advice)).replace(/^take /, "").replace(/[.]$/, "");
+  return (status === "fail" || status === "too close") && tried ? `Try: ${tried}.` : "";
 }
 
 function limitOf(check: Check): string {
   const { limit, least, unit, source } = check;
-  return limit === null ? (noted(check) ? "a note" : "no limit") : (least ? "≥ " : "") + quantity(limit, unit) + (rests(source) ? "*" : "");
+  return limit === null ? (noted(check) ? "a note" : check.status === "pass" ? "–" : "no limit") : (least ? "≥ " : "") + quantity(limit, unit) + (rests(source) ? "*" : "");
 }
 
-function drawn(desk: Desk, row: Row): HTMLTableRowElement[] {
+function drawn(desk: Desk, row: Row, tried: Set<string>): HTMLTableRowElement[] {
   const two = desk.ghost?.overlay.labels, label = (n: number) => (two ? `${two[n]}: ` : ""), first = row.find((c) => c)!, status = worst(row), mark = (c: Check) => (noted(c) ? [make("span.sr", "a note")] : [icon(marks[c.status]), make("span.sr", words[c.status])]);
   const said = (c: Check, n: number) => textOf(desk.runs[n].recording.meta, c);
   const called = (c: Check, n: number) => (c.worst === null ? "" : partName(desk.runs[n].recording.meta, c.part, c.worst));
@@ -106,7 +106,12 @@ function drawn(desk: Desk, row: Row): HTMLTableRowElement[] {
     return cell;
   });
   const head = make("tr", make("td.mark", ...(two ? [] : mark(first))), make("td.what", open), ...values, make("td.limit", limits.join("; ")));
-  const told = row.flatMap((c, n) => (c ? [...(aloud(c) ? [make("p.why", label(n) + sentence(said(c, n)))] : []), ...(c.missing ? [make("p.short", `${label(n)}Missing: ${c.missing}`)] : []), ...(remedy(c) ? [make("p.try", label(n) + remedy(c))] : [])] : []));
+  // The same advice stands once.
+  const advised = (advice: string) => {
+    tried.add(advice);
+    return make("p.try", advice);
+  };
+  const told = row.flatMap((c, n) => (c ? [...(aloud(c) ? [make("p.why", label(n) + sentence(said(c, n)))] : []), ...(c.missing ? [make("p.short", `${label(n)}Missing: ${c.missing}`)] : []), ...(remedy(c) && !tried.has(label(n) + remedy(c)) ? [advised(label(n) + remedy(c))] : [])] : []));
   const text = make("td", ...told, added), detail = make("tr", make("td"), text);
   text.colSpan = 2 + values.length;
   detail.hidden = !told.length;

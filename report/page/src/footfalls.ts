@@ -5,7 +5,7 @@ import { element, leaveOut } from "./dom";
 import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
 
-const left = 96, right = 46, foot = 22, threshold = 0.02; // of the weight
+const left = 116, right = 46, foot = 22, threshold = 0.02; // of the weight
 
 interface Foot {
   name: string;

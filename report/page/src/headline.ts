@@ -16,6 +16,8 @@ const badges: Record<Mood, string> = {
   good: "M5 12.5l4.6 4.6L19 7.5", bad: "M6 6l12 12M18 6L6 18", open: "M8.6 9.2a3.5 3.5 0 1 1 5.2 3.1c-1.2.7-1.8 1.3-1.8 2.6M12 18.4v.1" };
 const inSentence = (title: string): string => (/^[A-Z][a-z]/.test(title) ? title[0].toLowerCase() + title.slice(1) : title);
 
+const few = 2; // checks that fail beside the first one, in the sentence: all stand in the table
+
 interface Judgement {
   mood: Mood;
   said: string;
@@ -42,7 +44,7 @@ export function headline(desk: Desk): void {
     own.parentElement!.classList.add("two-runs");
     [own, second].forEach((host, n) => {
       const run = desk.runs[n], { meta: of } = run.recording, made = judgement(run, of);
-      card(host, run, { ...made, facts: made.facts.slice(0, 4) }, aside(of));
+      card(host, run, { ...made, facts: made.facts.slice(0, 4) }, aside(of, n === 0));
       host.querySelector(".words")!.prepend(make("p.whose", make(`span.tag-${n ? "second" : "own"}`, overlay.labels[n]), make("b", of.name), ` ${about(of)}`));
     });
   }
@@ -102,14 +104,15 @@ export function leading(run: Run): Check | null {
 }
 
 function others(meta: Meta, failed: Check[]): string[] {
-  return failed.length ? [`Also: ${briefly(meta, failed)}.`] : [];
+  const rest = failed.length - few;
+  return failed.length ? [`Also: ${briefly(meta, failed.slice(0, few))}${rest > 0 ? `; ${plural(rest, "more check")} fail${rest > 1 ? "" : "s"}` : ""}.`] : [];
 }
 
 /** What the checks found, without advice. */
 const briefly = (meta: Meta, found: Check[]): string => found.map((c) => textOf(meta, c).split("; ")[0].replace(/[.]$/, "")).join("; ");
 
 // What limits the answer: warnings, what makes the numbers doubtful, what nobody judged.
-function aside(meta: Meta): (string | Node)[] {
+function aside(meta: Meta, own = true): (string | Node)[] {
   if (meta.outcome === "not run") return [];
   const { verdict, counts, chosen_motors, chosen_docks, demand } = meta.verdict;
   const of = (trust: boolean, ...status: Check["status"][]) => meta.verdict.checks.filter((c) => status.includes(c.status) && (c.group === "trust") === trust);
@@ -117,7 +120,7 @@ function aside(meta: Meta): (string | Node)[] {
   return [
     ...(warned.length ? [verdict === "feasible" ? `Warned of: ${briefly(meta, warned)}.` : `${capital(plural(counts.warn, "warning"))}.`] : []),
     ...(chosen_motors ? ["Figures of the motors are chosen, not a maker's."] : []), ...(chosen_docks ? ["Figures of what docks hold are chosen."] : []),
-    ...(limited && !gait.some((c) => c.missing) ? ["How much is missing was not computed. To compute it:", make("code", `gaitlab report --demand ${folder()}`)] : []),
+    ...(limited && !gait.some((c) => c.missing) ? ["How much is missing was not computed. To compute it:", make("code", make("span.whole", "gaitlab report --demand"), ` ${own ? folder() : "FOLDER"}`)] : []),
     ...(doubtful.length ? [`Doubtful: ${briefly(meta, doubtful)}.`] : []),
     ...(demand?.doubt ? [sentence(demand.doubt)] : []),
     ...(open.length > 6 ? [`${open.length} checks were not judged.`] : open.length ? [`Not judged: ${open.map((c) => inSentence(c.title)).join(", ")}.`] : []),
@@ -137,10 +140,10 @@ function shortfall(run: Run, first: Check, failed: Check[]): Fact[] {
   const facts: Fact[] = [], missing = failed.find((c) => c.missing)?.missing;
   if (first.first !== null && first.first_part !== null) facts.push(["First over the limit", place(run, first.part, first.first_part, firstMoment(run, first)), `at ${time(first.first)}`]);
   if (first.worst !== null) facts.push(["Worst", place(run, first.part, first.worst, moment(run, first)), held(first)]);
-  else if (first.value !== null) facts.push(["Found", quantity(first.value, first.unit), `limit ${first.least ? "≥ " : ""}${quantity(first.limit, first.unit)}`]);
+  else if (first.value !== null) facts.push(["Worst", quantity(first.value, first.unit), `limit ${first.least ? "≥ " : ""}${quantity(first.limit, first.unit)}`]);
   if (atLimit && longest) {
-    const kinds = ([["voltage", longest.voltage], ["current", longest.current]] as const).filter(([, share]) => share > 0).map(([kind, share]) => `${percent(share)} of the time, ${kind}`);
-    facts.push(["Longest at a limit", place(run, "joint", longest.joint, longestMoment(run, jointAt(meta, "joint", longest.joint))), kinds.join("; ")]);
+    const kinds = ([["voltage", longest.voltage], ["current", longest.current]] as const).filter(([, share]) => share > 0).map(([kind, share]) => `${kind} ${percent(share)}`);
+    facts.push(["Longest at a limit", place(run, "joint", longest.joint, longestMoment(run, jointAt(meta, "joint", longest.joint))), `${kinds.join(", ")} of the time`]);
   }
   if (first.from !== null) facts.push(["When", span(first.from, first.to ?? first.from), first.worst === null ? "" : partName(meta, first.part, first.worst)]);
   const strays = failed.find((c) => c.id === "tracking");
@@ -161,8 +164,8 @@ function place(run: Run, part: Part, name: string, t: number | null): HTMLButton
 function walked(desk: Run, meta: Meta): Fact[] {
   const { summary, cycle } = meta, facts: Fact[] = [], tightest = meta.verdict.checks.find((c) => c.id === meta.verdict.tightest), most = hardest(meta);
   if (tightest && tightest.margin !== null && tightest.limit) {
-    const named = tightest.worst !== null && tightest.part !== "none", share = tightest.margin <= 1 ? `${percent(tightest.least ? 1 + tightest.margin : 1 - tightest.margin, 2)} of the limit` : held(tightest);
-    facts.push(["Tightest", named ? place(desk, tightest.part, tightest.worst!, moment(desk, tightest)) : tightest.title, named ? `${inSentence(tightest.title)}: ${share}` : share]);
+    const { margin, least } = tightest, named = tightest.worst !== null && tightest.part !== "none", share = margin >= 0 && margin <= 1 ? `${percent(least ? 1 + margin : 1 - margin, 2)} of the limit` : held(tightest);
+    facts.push([margin < 0 ? "Worst" : "Tightest", named ? place(desk, tightest.part, tightest.worst!, moment(desk, tightest)) : tightest.title, named ? `${inSentence(tightest.title)}: ${share}` : share]);
   } else if (most) facts.push(["Hardest worked", place(desk, most.part, most.worst!, moment(desk, most)), `${percent(most.value!, 2)} of its motor at ${time(moment(desk, most) ?? 0)}`]);
   else if (desk.loads.peak > 1e-6) facts.push(["Largest torque", number(desk.loads.peak), "N m"]);
   const walks = meta.ground.kind !== "none";

@@ -4,7 +4,7 @@ const space = "\u00a0"; // a number and its unit stay on one line
 const minus = (text: string): string => text.replace("-", "−");
 
 /** Less than this is nothing, in that unit: rounding of the simulation, or of the page. */
-const floors: Record<string, number> = { "": 1e-6, m: 1e-7, rad: 1e-6, "rad/s": 1e-5, "N m": 1e-6, N: 1e-5, A: 1e-6, V: 1e-6, J: 1e-7, W: 1e-6 };
+const floors: Record<string, number> = { "": 1e-6, m: 1e-7, rad: 1e-4, "rad/s": 1e-5, "N m": 1e-6, N: 1e-5, A: 1e-6, V: 1e-6, J: 1e-7, W: 1e-6 };
 const floored = (x: number, unit: string): number => (Math.abs(x) < (floors[unit] ?? 0) ? 0 : x);
 
 /** To `digits` significant digits, never with an exponent where a reader would stumble over it. */

@@ -41,21 +41,23 @@ function measure({ recording, loads }: Run, { id, part }: Check, name: string | 
   const beyond = (values: typeof angle): Measure | null => values && ((i) => Math.max(values[i] - (hi ?? Infinity), (lo ?? -Infinity) - values[i]));
   const torque = size("torque"), saturated = of("saturation"), share = loads.limited ? loads.share(j) : null;
   const measures: Record<string, Measure | null> = {
-    voltage: saturated && ((i) => (saturated[i] > 0 ? 1 + (torque?.(i) ?? 0) : 0)), envelope: share && ((i) => share[i]), speed: size("speed"), heat: size("current"), gear_peak: torque, gear_continuous: torque,
+    voltage: saturated && ((i) => Math.sign(saturated[i])), envelope: share && ((i) => share[i]), speed: size("speed"), heat: size("current"), gear_peak: torque, gear_continuous: torque,
     tracking: setpoint && angle && ((i) => Math.abs(setpoint[i] - angle[i])), stops: beyond(angle), setpoints: beyond(setpoint),
   };
   return measures[id === "current" ? "voltage" : id] ?? null;
 }
 
-/** Of the rows from one time to another the first at which something is largest; without one between them the one next to them. */
+/** s: of the rows from one time to another that at which something is largest, of equal ones that in the middle; without a row between them the one next to them. */
 function largestRow({ recording: { times, rows } }: Run, of: Measure, from: number, to: number): number {
-  let found = -1, nearest = 0;
+  const within: number[] = [];
+  let nearest = 0;
   for (let i = 0; i < rows; i++) {
     const t = times[i], middle = (from + to) / 2;
     if (Math.abs(t - middle) < Math.abs(times[nearest] - middle)) nearest = i;
-    if (t > from - 1e-6 && t < to + 1e-6 && (found < 0 || of(i) > of(found))) found = i;
+    if (t > from - 1e-6 && t < to + 1e-6) within.push(i);
   }
-  return times[found < 0 ? nearest : found];
+  const most = within.reduce((a, i) => Math.max(a, of(i)), -Infinity), equal = within.filter((i) => of(i) === most);
+  return times[equal[equal.length >> 1] ?? nearest];
 }
 
 /** s: the row at which the worst part of a check is worst; null: the check is of no time. */
@@ -70,7 +72,7 @@ export function moment(run: Run, check: Check): number | null {
 export function firstMoment(run: Run, check: Check): number | null {
   const { first, first_part: part } = check, of = first === null ? null : measure(run, check, part);
   if (first === null || !of) return first;
-  // A saturated row, or the largest one, of the control ticks that follow.
+  // Within the control ticks that follow.
   return largestRow(run, of, first, first + Math.max(0.02, run.recording.meta.period));
 }
 
