@@ -42,14 +42,14 @@ ok "report/page/dist/page.html is what its sources give, $size bytes"
 
 cd -- "$work"
 walk=("$root/scenarios/hexapod.yaml" --set duration=4 --set physics.engine=articulated --quiet)
-expect 0 "$program" run "${walk[@]}" --set 'trace.columns=[joint.*, base.*, com.*, contact.*, body.*]' --out feasible
+expect 0 "$program" run "${walk[@]}" --set duration=8 --set 'trace.columns=[joint.*, base.*, com.*, contact.*, body.*]' --out feasible
 expect 0 "$program" export feasible --to csv trace.csv
 fast=("${walk[@]}" --set cpg.frequency=1.2 --set cpg.amplitude=0.6 --demand)
 expect 0 "$program" run "${fast[@]}" --out infeasible
 # Motors that lack current; a robot that falls; motors that give any torque, and are told in N m.
 crawl=("$root/scenarios/caterpillar.yaml" --set physics.engine=articulated --quiet)
 expect 0 "$program" run "${crawl[@]}" --set actuator.i_max=0.35 --set duration=14 --out current
-expect 0 "$program" run "${crawl[@]}" --set duration=5 --set robot.position='[0, 0, 0.4]' --set robot.rpy='[0, -1.4, 0]' --set contact.on=all --out fall
+expect 0 "$program" run "${crawl[@]}" --set duration=5 --set robot.position='[0, 0, 0.4]' --set robot.orientation='[0, -1.4, 0]' --set contact.on=all --out fall
 expect 0 "$program" run "${crawl[@]}" --set duration=2 --set actuator.type=torque --set 'controller={type: pid, unit: N m, Kp: 5, Kd: 0.05}' --out torque
 expect 0 "$program" run "$root/scenarios/pendulum.yaml" --set duration=2 --quiet --out open
 expect 0 "$program" check "$root/scenarios/hexapod.yaml" --quiet --page built.html

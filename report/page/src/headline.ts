@@ -147,9 +147,9 @@ function shortfall(run: Run, first: Check, failed: Check[]): Fact[] {
   }
   if (first.from !== null) facts.push(["When", span(first.from, first.to ?? first.from), first.worst === null ? "" : partName(meta, first.part, first.worst)]);
   const strays = failed.find((c) => c.id === "tracking");
-  // `7.51 V (needs 14.9 V; 2.53 N m, 5.88 rad/s at most)`: the rest stands in the row of the check.
-  const [amount, need] = /^(.*?)(?: \((.*?)[;)].*)?$/.exec(missing ?? "")!.slice(1);
-  if (amount) facts.push(["Missing", amount, need]);
+  // `7.51 V at m8/passive (needs 14.9 V; 2.53 N m, 5.88 rad/s at most)`: the rest stands in the row of the check.
+  const [, amount, at, need] = /^(.*?)(?: at (\S+))?(?: \((.*?)[;)].*)?$/.exec(missing ?? "")!;
+  if (amount) facts.push(["Missing", amount, [at ? `at ${at}` : "", need].filter(Boolean).join(", ")]);
   else if (atLimit && strays) facts.push(["Off its set point", quantity(strays.value, strays.unit), `limit ${quantity(strays.limit, strays.unit)}`]);
   return facts;
 }
