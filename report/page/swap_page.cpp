@@ -44,7 +44,7 @@ std::string typeset(const std::string& text) {
 
 std::string verdict_cell(const Verdict& verdict) {
   const bool bad = verdict.word == Word::infeasible || verdict.word == Word::failed;
-  std::string why = verdict.why();
+  std::string why = verdict.word == Word::feasible && !verdict.rests_on.empty() ? "over " + verdict.rests_on : verdict.why();
   if (verdict.count(CheckStatus::warn) > 0)
     why += fmt::format("{}{} warning{}", why.empty() ? "" : "; ", verdict.count(CheckStatus::warn),
                        verdict.count(CheckStatus::warn) == 1 ? "" : "s");

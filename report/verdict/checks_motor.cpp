@@ -92,21 +92,21 @@ double near_limit(const CheckedRun& run, std::size_t joint, double error) {
 
 double error_of(const CheckedRun& run, std::size_t joint);
 
-/// s: the start of the first row, behind the row `after`, in which any driven joint is `beyond`; not a number: none.
+/// Sets Check::first to the start of the first row, behind the row `after`, in which any driven joint is `beyond`, and
+/// Check::first_part to the joint; leaves both where none is.
 template <class Beyond>
-double first_row(const CheckedRun& run, std::size_t after, TickColumn column, const Beyond& beyond) {
+void find_first(const CheckedRun& run, std::size_t after, TickColumn column, const Beyond& beyond, Check& made) {
   const Series t(run.record.ticks, 0);
-  double found = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
     const Series values = run.record.tick(j, column);
     if (values.empty() || !run.scenario.robot->joints[j].driven()) continue;
-    for (std::size_t k = after + 1; k < t.size() && !(t[k - 1] >= found); ++k) {
+    for (std::size_t k = after + 1; k < t.size() && !(t[k - 1] >= made.first); ++k) {
       if (!beyond(j, values[k], values[k - 1])) continue;
-      found = t[k - 1];
+      made.first = t[k - 1];
+      made.first_part = run.joint(j);
       break;
     }
   }
-  return found;
 }
 
 /// A joint at a limit of its motor.
@@ -167,7 +167,8 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
     made.worst = run.joint(worst->joint);
     made.from = worst->longest.from;
     made.to = worst->longest.to;
-    made.first = first_row(run, judged.first_row, column, [](std::size_t, double now, double before) { return now > before; });
+    find_first(
+        run, judged.first_row, column, [](std::size_t, double now, double before) { return now > before; }, made);
     made.text = fmt::format("{} of {} reach{} the limit of {} {}; worst {}: ", made.parts,
                             counted(driven_joints(*run.scenario.robot), "joint"), made.parts == 1 ? "es" : "",
                             made.parts == 1 ? "its" : "their", name, made.worst);
@@ -267,7 +268,8 @@ void speed(const CheckedRun& run, Check& made) {
           return Rated{joint.speed_peak, limit(j), joint.speed_peak_time};
         });
   if (made.status == CheckStatus::not_judged) return;
-  made.first = first_row(run, 0, kSpeedPeak, [&](std::size_t j, double now, double) { return now > limit(j); });
+  find_first(
+      run, 0, kSpeedPeak, [&](std::size_t j, double now, double) { return now > limit(j); }, made);
   made.text = fmt::format("joint {} turns at up to {:.3g} rad/s of {:.3g} rad/s", made.worst, made.value, made.limit);
   if (made.status != CheckStatus::fail) return;
   const bool driven = std::ranges::any_of(run.motors.kinds, [&](const Envelope& motor) { return motor.no_load == made.limit; });
@@ -294,9 +296,9 @@ void gear_peak(const CheckedRun& run, Check& made) {
               return Rated{joint.torque_peak, run.motors.joint(j).gear_peak.value_or(0), joint.torque_peak_time};
             });
   if (made.status == CheckStatus::not_judged) return;
-  made.first = first_row(run, 0, kTorquePeak, [&](std::size_t j, double now, double) {
-    return now > run.motors.joint(j).gear_peak.value_or(kNever);
-  });
+  find_first(
+      run, 0, kTorquePeak,
+      [&](std::size_t j, double now, double) { return now > run.motors.joint(j).gear_peak.value_or(kNever); }, made);
   made.text = fmt::format("the gear of joint {} takes up to {:.3g} N m of {:.3g} N m", made.worst, made.value, made.limit);
   widen(run.scenario, error_of(run, worst), made);
 }

@@ -58,6 +58,7 @@ std::string to_json(const Verdict& verdict) {
                               {"from", json_number(c.from)},
                               {"to", json_number(c.to)},
                               {"first", json_number(c.first)},
+                              {"first_part", c.first_part.empty() ? Json() : Json(c.first_part)},
                               {"remedy", c.remedy},
                               {"missing", c.missing},
                               {"definition", c.definition},
