@@ -134,9 +134,11 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);
   if (!arguments.quiet && !files.lost_any()) {
-    fmt::print("  {:<13} {}: {}, summary.json, verdict.json,\n  {:<13} scenario.resolved.yaml, figure.svg\n", "files",
-               one_line(folder.path().string()), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
     if (!arguments.no_page) print_page(folder.path() / kPageFile);
+    if (arguments.no_page || arguments.shown.verbose) {
+      fmt::print("  {:<9} {}: {}, summary.json, verdict.json,\n  {:<9} scenario.resolved.yaml, figure.svg\n", "files",
+                 one_line(folder.path().string()), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
+    }
   }
   warn_of_run(scenario, recording, verdict);
   const bool sound = report::not_finite(scenario, recording).empty();

@@ -79,7 +79,7 @@ struct Check {
   std::size_t parts = 0;                 ///< how many are beyond the limit
   double from, to;                       ///< s: when the worst one was
   double first;                          ///< s: when any part was beyond the limit first
-  std::string first_part = {}; ///< the part that was; empty: none, or not known
+  std::string first_part = {};           ///< the part that was; empty: none, or not known
   std::string definition;                ///< what is held against what
   std::string source = {};               ///< of the limit
   std::string text = {};                 ///< a sentence for people

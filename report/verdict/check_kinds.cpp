@@ -50,9 +50,10 @@ constexpr CheckKind kChecks[] = {
      "largest torque over what the actuator has at that speed in that direction, over all steps", "", "above limits.warn_share",
      kWindow, "actuator", kGentler, checks::envelope},
     {"speed", Group::motor, "rad/s", "Speed within reach",
-     "largest speed against the speed at which the actuator has no torque left, or the rated one, of the whole run, over all "
-     "steps",
-     "above it", "above limits.warn_share of it", kWhole, "actuator.speed_max", kGentler, checks::speed},
+     "largest speed, over all steps: in the window against the speed at which the actuator has no torque left, in the whole "
+     "run "
+     "against the rated one",
+     "above it", "above limits.warn_share of it", kWindow, "actuator.speed_max", kGentler, checks::speed},
     {"heat", Group::motor, "A", "Motors stay cool", "RMS current in the window against the continuous rating, over all steps",
      "above actuator.i_continuous", "above limits.warn_share of it", kWindow, "actuator.i_continuous", kGentler, checks::heat},
     {"gear_peak", Group::motor, "N m", "Gears bear the peaks",

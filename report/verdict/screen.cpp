@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kColumns = 100, kTitle = 10;
 constexpr std::size_t kMostOfAKind = 4;
+constexpr double kInstant = 0.1;  // s: a stretch that is told by its start
 
 class Screen {
  public:
@@ -33,7 +34,13 @@ class Screen {
 
 std::string names(const std::vector<const Check*>& checks, std::size_t from = 0) {
   std::vector<std::string> ids;
-  for (std::size_t k = from; k < checks.size(); ++k) ids.push_back(checks[k]->id);
+  bool docks = false;
+  for (std::size_t k = from; k < checks.size(); ++k) {
+    const bool dock = checks[k]->id.starts_with("dock_") && checks[k]->status == CheckStatus::not_judged;
+    if (dock && docks) continue;
+    docks = docks || dock;
+    ids.push_back(dock ? "docks" : checks[k]->id);
+  }
   return fmt::format("{}", fmt::join(ids, ", "));
 }
 
@@ -48,9 +55,8 @@ std::vector<const Check*> of_status(const Verdict& verdict, CheckStatus status) 
 /// The text without its advice.
 std::string brief(const Check& check) {
   const std::string text = check.text + (check.missing.empty() ? "" : "; missing: " + check.missing);
-  return std::isnan(check.from) || check.text.find(" s") != std::string::npos || !check.missing.empty()
-             ? text
-             : text + fmt::format(", at {:.2f} s", check.from);
+  const bool instant = check.part != Part::none && check.to - check.from < kInstant;
+  return instant ? text + fmt::format(", at {:.2f} s", check.from) : text;
 }
 
 void add_kind(Screen& screen, const std::vector<const Check*>& checks, std::size_t skip, const char* title, Tone tone) {
