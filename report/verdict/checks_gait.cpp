@@ -188,6 +188,7 @@ void evidence(const CheckedRun& run, Check& made) {
               : !found.too_short.empty() ? found.too_short
               : !found.not_borne.empty() ? found.not_borne
                                          : "judged over " + found.rests_on;
+  made.remedy = found.remedy;
   if (found.complete()) made.status = CheckStatus::pass;
 }
 

@@ -110,7 +110,8 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made) {
     made.not_trusted = fmt::format("in {} of the time the shortest steps do not reach the accuracy {}",
                                    texts::rough_percent(coarse), texts::rough_percent(s.physics.accuracy));
   } else if (driven && s.cpg.entry != nullptr && !asked.empty() && !moves(asked)) {
-    made.not_trusted = fmt::format("no set point changes: cpg {} moves no joint, so that there is no gait", s.cpg.entry->name);
+    made.not_trusted = fmt::format("no set point changes: cpg {} moves no joint", s.cpg.entry->name);
+    made.remedy = "look for its amplitudes, frames or equations";
   }
 }
 

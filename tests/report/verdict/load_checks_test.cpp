@@ -81,8 +81,8 @@ TEST(LoadChecks, HoldDocksAgainstTheirLimits) {
   EXPECT_EQ(with(10, 5.1).limit, 5.1) << "4 of 5.1 is nearer than 5 of 10";
   EXPECT_EQ(with(10, 4.5).status, CheckStatus::warn) << "above the margin of 80 %";
   EXPECT_EQ(with(10, 3.9).status, CheckStatus::fail);
-  EXPECT_EQ(with(10, 3.9).joints, 1U);
-  EXPECT_EQ(with(4, 3.9).joints, 2U);
+  EXPECT_EQ(with(10, 3.9).parts, 1U);
+  EXPECT_EQ(with(4, 3.9).parts, 2U);
   EXPECT_EQ(with(kUnknownLimit, 5.1).status, CheckStatus::pass) << "docks of which nothing is stated do not count";
   EXPECT_EQ(with(kUnknownLimit, kUnknownLimit).status, CheckStatus::not_judged);
   EXPECT_EQ(with(kUnknownLimit, kUnknownLimit).value, 5);

@@ -17,7 +17,7 @@ TEST(Verdict, WarnsOfATorqueNearWhatAMotorHas) {
   EXPECT_EQ(with(0.75).status, CheckStatus::pass);
   EXPECT_EQ(with(0.85).status, CheckStatus::warn);
   EXPECT_EQ(with(1).status, CheckStatus::warn);
-  EXPECT_EQ(with(0.85).joint, "m1/active");
+  EXPECT_EQ(with(0.85).worst, "m1/active");
   EXPECT_EQ(with(0.85).value, 0.85);
 }
 
@@ -33,7 +33,7 @@ TEST(Verdict, JudgesSpeedsByTheOneWithoutTorque) {
   EXPECT_EQ(with(0.75 * no_load).status, CheckStatus::pass);
   EXPECT_EQ(with(0.9 * no_load).status, CheckStatus::warn);
   EXPECT_EQ(with(1.01 * no_load).status, CheckStatus::fail);
-  EXPECT_EQ(with(1.01 * no_load).joint, "m3/passive");
+  EXPECT_EQ(with(1.01 * no_load).worst, "m3/passive");
   EXPECT_TRUE(contains(with(1.01 * no_load).text, "the load does"));
   const Scenario rated = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated", "actuator.speed_max=1.2"});
   EXPECT_EQ(motors(rated, 0).joint(0).speed_max, 1.2);
