@@ -1,7 +1,7 @@
 // Wrong studies, each with its message, before anything runs.
 #include "studies/study/study_file.h"
 
-#include "app/study/study_figures.h"
+#include "app/study/study_quantities.h"
 #include "studies/plan/plan.h"
 #include "tests/program/fixture.h"
 
@@ -21,7 +21,7 @@ class StudyFile : public ::testing::Test {
   std::string error(const std::string& text) { return error_of(folder_.write("s.yaml", text), studies::Purpose::sweep); }
   std::string error_of(const std::string& file, studies::Purpose purpose) {
     try {
-      const studies::Plan plan(studies::read_study(file, purpose), app::figure_offer(), catalog());
+      const studies::Plan plan(studies::read_study(file, purpose), app::quantity_offer(), catalog());
     } catch (const InputError& error) {
       std::string what = error.what();
       for (std::size_t at = 0; (at = what.find(folder_.path().string() + "/")) != std::string::npos;)
