@@ -115,6 +115,14 @@ void read_guards(const Node& node, Study& study, Problems& problems) {
     read_guard(node.keys[i].first, node.keys[i].second, node.items[i], study, problems);
 }
 
+std::vector<std::string> old_guards() {
+  std::vector<std::string> names;
+  for (const OldGuard& old : kOldGuards) {
+    if (old.means != OldGuard::Means::other) names.emplace_back(old.name);
+  }
+  return names;
+}
+
 std::string margin_column(const Guard& guard) {
   return "margin." + guard.check + (guard.asks == Guard::Asks::limit ? "[" + number_text(guard.number) + "]" : "");
 }

@@ -19,6 +19,9 @@ struct CheckOffer {
 /// The value of the key `guards`: verdict, none, or checks by id. Old names become ids, with a note in the study.
 void read_guards(const Node& node, Study& study, Problems& problems);
 
+/// Names that guards had before they were checks, and that are read.
+std::vector<std::string> old_guards();
+
 /// `margin.stops`; `margin.stops[0.1]` against a limit of the study's own.
 std::string margin_column(const Guard& guard);
 

@@ -51,7 +51,7 @@ constexpr const char* kStudyRest = R"json({
     "description": "What points are ordered by; of two or three, the points that no other is better than in all."},
   "constraints": {"type": "array", "items": {"$ref": "#/definitions/scalar"}, "default": [],
     "description": "What a point must keep: a <= b, a >= b or a == b."},
-  "guards": {"anyOf": [{"enum": ["verdict", "none"]}, {"$ref": "#/definitions/guards"}], "default": "verdict",
+  "guards": {"anyOf": [{"enum": ["verdict", "none", "gait"]}, {"$ref": "#/definitions/guards"}], "default": "verdict",
     "description": "Checks of the verdict that a point must keep. verdict: the word feasible; checks by id are asked for beside it, or otherwise than it."},
   "stop": {"type": "array", "items": {"$ref": "#/definitions/scalar"}, "default": [],
     "description": "Rules that end a run early: EXPRESSION, or EXPRESSION after SECONDS."}
@@ -99,6 +99,7 @@ Json guards_schema(std::span<const CheckOffer> checks) {
     if (check.limited) schema["anyOf"].push_back({{"type", "number"}});
     schema["description"] = check.definition + (check.limited && !check.unit.empty() ? " (" + check.unit + ")" : "");
   }
+  for (const std::string& old : old_guards()) properties[old] = {{"type", "number"}, {"description", "An old name."}};
   return object_schema(std::move(properties));
 }
 
@@ -110,6 +111,8 @@ std::string study_schema(std::span<const CheckOffer> checks) {
   Json properties = Json::parse(kStudyHead);
   properties.update(properties_of(PlainKeys{study, scenario}));
   properties.update(Json::parse(kStudyRest));
+  properties["figures"] = properties["quantities"];
+  properties["figures"]["description"] = "Old name of quantities.";
   properties["method"] = group_of(MethodKeys{study}, "How points are chosen.");
   properties["budget"] = group_of(BudgetKeys{study.runs}, "How much is run.");
   properties["budget"]["properties"]["runs"].erase("default");

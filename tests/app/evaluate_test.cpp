@@ -53,7 +53,7 @@ TEST_F(Evaluate, AnswersWithTheFiguresOfTheJournal) {
   EXPECT_EQ(
       result.out.substr(0, result.out.find('\n')),
       R"({"id":7,"run":null,"outcome":"refused","message":"cpg.phase_lag is 0.30000000000000004; allowed are 0.5 to 1.5",)"
-      R"("figures":{},"objective":[null],"violation":null,"feasible":false})");
+      R"("figures":{},"objective":[null],"violation":null,"kept":false,"feasible":false})");
   EXPECT_EQ(all[1].at("id"), "a\u00e9");
   EXPECT_EQ(all[1].at("outcome"), "done");
   EXPECT_EQ(all[1].at("run"), 0);
@@ -92,7 +92,7 @@ TEST_F(Evaluate, OfSeveralReplicatesEachFigureIsAList) {
   std::ranges::sort(speeds);
   EXPECT_EQ(all[0].at("objective").size(), 2U);
   EXPECT_EQ(all[0].at("objective").at(0), speeds[1]);
-  EXPECT_EQ(all[0].at("feasible"), true);
+  EXPECT_EQ(all[0].at("kept"), true);
 }
 
 TEST_F(Evaluate, RefusesLinesThatAreNoQuestionsAndLosesNothing) {
