@@ -24,10 +24,11 @@ bool limited(const report::CheckKind& kind) {
   return std::ranges::find(kUnlimited, std::string_view(kind.id)) == kUnlimited.end();
 }
 
-/// -1 of what fails or warns without a margin, and of evidence that is missing; not a number: the run does not have it.
+/// -1 of what fails, or of checks that only warn what warns, without a margin, and of evidence that is missing; not a number:
+/// the run does not have it.
 double margin(const report::Check& check) {
   if (!std::isnan(check.margin)) return check.status == report::CheckStatus::pass ? std::max(0.0, check.margin) : check.margin;
-  const bool beyond = check.status == report::CheckStatus::fail || check.status == report::CheckStatus::warn;
+  const bool beyond = check.status == (check.can_fail ? report::CheckStatus::fail : report::CheckStatus::warn);
   const bool missing = check.id == "evidence" && check.status != report::CheckStatus::pass;
   return beyond || missing ? -1 : std::nan("");
 }

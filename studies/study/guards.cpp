@@ -30,7 +30,7 @@ constexpr std::array kOldGuards{
     OldGuard{"energy.created_share", "created", OldGuard::Means::limit},
     OldGuard{"fell", "fall", OldGuard::Means::at_most_a_flag},
     OldGuard{"limit_cycle.found", "periodic", OldGuard::Means::at_least_a_flag},
-    OldGuard{"verdict_excess", "", OldGuard::Means::nothing_new, "guards: {ID: {margin: -0.1}} for a check that may fail"},
+    OldGuard{"verdict_excess", "", OldGuard::Means::nothing_new, "guards: {{ID: {{margin: -0.1}}}} for a check that may fail"},
     OldGuard{"range.share", "stops", OldGuard::Means::other,
              "set: [limits.beyond_range_share={}], or guards: {{stops: ANGLE}} with an angle in rad"},
 };
@@ -179,7 +179,9 @@ bool Guards::made_up_for(std::span<const double> quantities, const std::string& 
 
 double Guards::violation(std::span<const double> quantities, const std::string& verdict) const {
   double sum = 0;
-  for (const MarginGuard& guard : all_) sum += guard.broken(quantities);
+  for (const MarginGuard& guard : all_) {
+    if (!guard.of_verdict || verdict != "feasible") sum += guard.broken(quantities);
+  }
   const bool kept = !verdict_ || verdict == "feasible" || made_up_for(quantities, verdict);
   return sum == 0 && !kept ? 1 : sum;
 }

@@ -92,6 +92,7 @@ TEST(Guards, OfTheVerdictAreTheChecksThatCanFail) {
 }
 
 TEST(Guards, AskForTheWordFeasible) {
+  EXPECT_EQ(Guarded({}).set("margin.stops", -1e-9).violation("feasible"), 0) << "the word decides";
   Guarded verdict({});
   EXPECT_EQ(verdict.violation("feasible"), 0);
   for (const char* word : {"not judged", "infeasible"}) {

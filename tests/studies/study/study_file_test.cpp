@@ -131,6 +131,10 @@ TEST_F(StudyFile, ItsExpressionsAreChecked) {
   EXPECT_EQ(with("guards: {range.share: 0.2}\n"),
             "s.yaml:4:10: error: range.share: 0.2 is an old guard without a check of the same meaning; write set: "
             "[limits.beyond_range_share=0.2], or guards: {stops: ANGLE} with an angle in rad");
+  EXPECT_EQ(with("guards: {verdict_excess: 3}\n"),
+            "s.yaml:4:10: error: verdict_excess: 3 is an old guard without a check of the same meaning; write guards: {ID: "
+            "{margin: -0.1}} for a check that may fail");
+  EXPECT_EQ(with("guards: {verdict_excess: 0}\n"), "taken");
   EXPECT_EQ(with("figures: [speed]\nquantities: [speed]\n"),
             "s.yaml:4:1: error: figures is the old name of quantities, which is given, too; expected one of them");
   EXPECT_EQ(with("guards: walk\n"),
