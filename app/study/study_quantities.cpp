@@ -99,6 +99,8 @@ std::optional<report::Quantity> find_quantity(const std::string& name, const Rob
 
 }  // namespace
 
+bool is_gone(const std::string& quantity) { return quantity == "verdict_excess"; }
+
 studies::QuantityOffer quantity_offer() {
   studies::QuantityOffer offer;
   for (const report::Quantity& quantity : report::quantities()) offer.common.push_back(offered(quantity));
@@ -148,7 +150,7 @@ studies::Measure quantity_measure(const std::vector<studies::Quantity>& columns,
   const QuantityColumns usual = quantity_columns(columns, *scenario.robot);
   Problems problems;
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    if (!usual[k] && !OfVerdict::find(columns[k].name))
+    if (!usual[k] && !OfVerdict::find(columns[k].name) && !is_gone(columns[k].name))
       problems.add(SourceLocation{"study.db"}, "the quantity " + in_quotes(columns[k].name) + " is not known to this program");
   }
   problems.raise();

@@ -40,7 +40,7 @@ StudyFigure small_map() {
   return figure;
 }
 
-TEST(StudyFigure, AMapMarksWhatIsNotFeasibleAndTheBest) {
+TEST(StudyFigure, AMapMarksWhatIsNotKeptAndTheBest) {
   const StudyFigure figure = small_map();
   const std::string svg = study_svg(figure);
   EXPECT_EQ(svg, study_svg(figure));
@@ -49,12 +49,25 @@ TEST(StudyFigure, AMapMarksWhatIsNotFeasibleAndTheBest) {
   EXPECT_TRUE(contains(svg, ">failed<"));
   EXPECT_TRUE(contains(svg, ">best<"));
   EXPECT_EQ(occurrences(svg, "nan"), 0U);
-  EXPECT_EQ(
-      study_csv(figure).substr(0, 111),
-      "cpg.amplitude,cpg.phase_lag,speed,least,largest,state,best\n0.2,1,0,0,0,kept,0\n0.30000000000000004,1,0.1,0.1");
+  EXPECT_EQ(study_csv(figure).substr(0, 107),
+            "cpg.amplitude,cpg.phase_lag,speed,least,largest,state,best\n0.2,1,0,0,0,kept,0\n0.30000000000000004,1,0.1,0.1");
 }
 
-/// A point alone, one value everywhere, nothing known, no feasible point: no figure is not a number.
+/// A gait that the verdict does not call infeasible is not called so, whatever guard it breaks.
+TEST(StudyFigure, ItsLegendTellsGuardsFromVerdicts) {
+  StudyFigure figure = small_map();
+  figure.points[1].state = PointState::broken;
+  for (const bool grid : {true, false}) {
+    figure.grid = grid;
+    EXPECT_TRUE(contains(study_svg(figure), ">guard broken<"));
+    EXPECT_FALSE(contains(study_svg(figure), ">infeasible<"));
+  }
+  EXPECT_TRUE(contains(study_csv(figure), ",guard broken,0\n"));
+  figure.points[0].state = PointState::infeasible;
+  EXPECT_TRUE(contains(study_svg(figure), ">infeasible or guard broken<"));
+}
+
+/// A point alone, one value everywhere, nothing known, no kept point: no figure is not a number.
 TEST(StudyFigure, ItsCornersAreDrawn) {
   for (const bool two : {false, true}) {
     for (const std::size_t points : {0U, 1U, 6U}) {
