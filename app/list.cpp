@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/module_table.h"
+#include "app/study/study_quantities.h"
 #include "core/scenario/manual.h"
 #include "core/scenario/read_scenario.h"
 #include "core/scenario/schema.h"
@@ -157,7 +158,8 @@ struct SchemaArguments : ManualArguments {
 int schema(const SchemaArguments& arguments) {
   if (arguments.study && !arguments.plugins.empty())
     throw InputError(SourceLocation{"--plugin"}, "has no place beside --study: no plugin adds keys to the file of a study");
-  fmt::print("{}", arguments.study ? studies::study_schema() : scenario_schema(standard_catalog(arguments.plugins)));
+  fmt::print("{}", arguments.study ? studies::study_schema(quantity_offer().checks)
+                                   : scenario_schema(standard_catalog(arguments.plugins)));
   return 0;
 }
 

@@ -1,11 +1,11 @@
-// What a study costs beside its rollouts: the figures of a run, its row in the journal, a look at many rows.
+// What a study costs beside its rollouts: the quantities of a run, its row in the journal, a look at many rows.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <filesystem>
 
 #include "app/app.h"
-#include "app/study/study_figures.h"
+#include "app/study/study_quantities.h"
 #include "core/scenario/read_scenario.h"
 #include "core/simulation/batch.h"
 #include "report/analysis/summary.h"
@@ -42,17 +42,17 @@ void overlaps(benchmark::State& state, const char* name) {
 /// All of it: summary, overlaps, verdict and the columns of the journal.
 void measure(benchmark::State& state, const char* name) {
   const Recorded run(name);
-  const studies::Measure of = app::figure_measure(app::figure_offer().common, run.scenarios[0]);
-  for ([[maybe_unused]] auto once : state) benchmark::DoNotOptimize(of(run.scenarios[0], run.recording).figures.data());
+  const studies::Measure of = app::quantity_measure(app::quantity_offer().common, run.scenarios[0]);
+  for ([[maybe_unused]] auto once : state) benchmark::DoNotOptimize(of(run.scenarios[0], run.recording).quantities.data());
 }
 
-/// A study of 6 parameters and 30 figures.
+/// A study of 6 parameters and 30 quantities.
 studies::JournalHead head() {
   studies::JournalHead head;
   head.name = "bench";
   head.objectives = {{"f0", true}};
   for (int k = 0; k < 6; ++k) head.parameters.push_back({fmt::format("p{}", k), false, false, 0, 1, false, {}});
-  for (int k = 0; k < 30; ++k) head.figures.push_back({fmt::format("f{}", k), "", ""});
+  for (int k = 0; k < 30; ++k) head.quantities.push_back({fmt::format("f{}", k), "", ""});
   head.shown = {"f0"};
   return head;
 }
@@ -69,7 +69,7 @@ void write_rows(studies::Journal& journal, std::uint64_t first, std::uint64_t co
       row.outcome = "done";
       row.simulated = 12;
       for (int k = 0; k < 6; ++k) row.values.push_back(fmt::format("{}", x * (k + 1)));
-      for (int k = 0; k < 30; ++k) row.figures.push_back(x * (k + 7));
+      for (int k = 0; k < 30; ++k) row.quantities.push_back(x * (k + 7));
       row.verdict = "feasible";
       row.score = studies::Score{{x}, 0};
       rows.push_back(std::move(row));

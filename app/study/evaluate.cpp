@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "app/study/lines.h"
-#include "app/study/study_figures.h"
+#include "app/study/study_quantities.h"
 #include "app/study/study_text.h"
 #include "app/study/sweep_arguments.h"
 #include "studies/run/asked.h"
@@ -89,7 +89,7 @@ class Replies {
     if (runs != nullptr) std::ranges::sort(*runs, {}, &Brief::run);
     const std::span<const Brief> of = runs == nullptr ? std::span<const Brief>() : std::span<const Brief>(*runs);
     std::vector<std::vector<std::string>> figures;
-    for (const Brief& run : of) figures.push_back(journal_.figures(run.run));
+    for (const Brief& run : of) figures.push_back(journal_.quantities(run.run));
     const std::string line = answer(question, journal_.head(), of, figures) + "\n";
     if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size() || std::fflush(stdout) != 0)
       throw RunError("standard output cannot be written: nobody reads the answers; what has ended is in the journal");
@@ -118,8 +118,10 @@ int evaluate_study(const EvaluateArguments& a) {
   Catalog catalog = standard_catalog();
   studies::Study study = studies::read_study(a.file, studies::Purpose::evaluate);
   study.runs = studies::kMostAsked;
-  studies::Plan plan(std::move(study), figure_offer(), catalog);
+  studies::Plan plan(std::move(study), quantity_offer(), catalog);
   const studies::Executor executor = study_executor(plan, a);
+  if (!a.quiet)
+    for (const Problem& note : plan.study().notes) say(to_string(note.place), "note", note.text);
   studies::JournalHead head = study_head(plan);
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
   head.runs = 0;  // as many as are asked for

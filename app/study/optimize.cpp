@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "app/commands.h"
-#include "app/study/study_figures.h"
+#include "app/study/study_quantities.h"
 #include "app/study/study_run.h"
 #include "app/study/study_text.h"
 #include "core/errors.h"
@@ -103,7 +103,7 @@ void write_best(const Plan& plan, std::uint64_t run_number, const fs::path& fold
 int optimize_study(const OptimizeArguments& a) {
   refuse_copies("gaitlab optimize");
   Catalog catalog = standard_catalog();
-  Plan plan(searched_study(a), figure_offer(), catalog);
+  Plan plan(searched_study(a), quantity_offer(), catalog);
   if (a.dry_run) {
     print_notes(plan, a.quiet);
     print_plan(plan, a);
@@ -153,7 +153,7 @@ int optimize_study(const OptimizeArguments& a) {
   if (!stood.empty()) return 0;
   const std::string show = "`gaitlab study show " + shell_word(folder.string()) + "`";
   if (tried->empty()) {
-    say(fmt::format("{}: no point is feasible; {} says which limits most runs break\n", folder.string(), show));
+    say(fmt::format("{}: no point is kept; {} says which limits most runs break\n", folder.string(), show));
   } else {
     say(fmt::format(
         "{}: none of the best points was verified; {} says why. `verify: {{best: N}}` tries more, --seed N searches "

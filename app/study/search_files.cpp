@@ -20,30 +20,30 @@ using studies::JournalHead;
 
 report::StudyAxis objective_axis(const JournalHead& head, std::size_t number) {
   const std::string& expression = head.objectives[number].expression;
-  const auto figure = std::ranges::find(head.figures, expression, &studies::FigureName::name);
-  return {clipped(expression), figure == head.figures.end() ? "" : clipped(figure->unit)};
+  const auto figure = std::ranges::find(head.quantities, expression, &studies::Quantity::name);
+  return {clipped(expression), figure == head.quantities.end() ? "" : clipped(figure->unit)};
 }
 
 /// The generation that the budget cut: what the journal has beyond the last whole one. Of a single search; of several it is not
 /// known whose points they are.
 void add_cut(report::ConvergenceFigure& figure, const studies::Results& results, std::uint64_t whole) {
   if (figure.searches.size() != 1) return;
-  std::vector<double> feasible;
+  std::vector<double> kept;
   double points = 0;
   for (const studies::PointResult& point : results.points) {
     if (point.first_run < whole) continue;
     ++points;
-    if (point.feasible()) feasible.push_back(point.score.objective());
+    if (point.kept()) kept.push_back(point.score.objective());
   }
   if (points == 0) return;
   report::ConvergencePoint cut = figure.searches.front().back();
   ++cut.generation;
   cut.points = points;
-  cut.feasible = static_cast<double>(feasible.size()) / points;
+  cut.kept = static_cast<double>(kept.size()) / points;
   cut.best = cut.median = cut.spread = std::nan("");
-  if (!feasible.empty()) {
-    cut.best = figure.maximize ? std::ranges::max(feasible) : std::ranges::min(feasible);
-    cut.median = studies::combined(std::move(feasible), "median", 0.5);
+  if (!kept.empty()) {
+    cut.best = figure.maximize ? std::ranges::max(kept) : std::ranges::min(kept);
+    cut.median = studies::combined(std::move(kept), "median", 0.5);
   }
   figure.searches.front().push_back(cut);
 }
@@ -63,7 +63,7 @@ report::ConvergenceFigure convergence_of(const JournalHead& head, const studies:
     search = g.search;
     const auto points = static_cast<double>(g.points);
     figure.searches.back().push_back({static_cast<double>(g.generation), static_cast<double>(g.restart), points, g.best,
-                                      g.median, points > 0 ? static_cast<double>(g.feasible) / points : 0, g.spread});
+                                      g.median, points > 0 ? static_cast<double>(g.kept) / points : 0, g.spread});
   }
   add_cut(figure, results, runs);
   return figure;
@@ -93,7 +93,7 @@ report::FrontFigure front_of(Journal& journal, const studies::Results& results) 
   std::vector<bool> in_front(results.points.size());
   for (const std::size_t k : best) in_front[k] = true;
   for (std::size_t k = 0; k < results.points.size(); ++k) {
-    if (results.points[k].feasible() && !in_front[k]) add(results.points[k], report::FrontState::behind);
+    if (results.points[k].kept() && !in_front[k]) add(results.points[k], report::FrontState::behind);
   }
   return figure;
 }

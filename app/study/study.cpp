@@ -6,7 +6,7 @@
 
 #include "app/commands.h"
 #include "app/stored_scenario.h"
-#include "app/study/study_figures.h"
+#include "app/study/study_quantities.h"
 #include "app/study/study_text.h"
 #include "core/settings/wording.h"
 #include "studies/journal/study_folder.h"
@@ -72,9 +72,9 @@ int best_of_study(const StudyArguments& a) {
   const std::vector<studies::JournalObjective>& objectives = journal.head().objectives;
   std::vector<std::size_t> order = objectives.size() > 1 ? studies::front(results.points, objectives)
                                                          : studies::ranked(results.points, objectives.front().maximize);
-  std::erase_if(order, [&](std::size_t k) { return !results.points[k].feasible(); });
+  std::erase_if(order, [&](std::size_t k) { return !results.points[k].kept(); });
   if (order.empty()) {
-    say(a.folder + ": no point is feasible\n");
+    say(a.folder + ": no point is kept\n");
     return 3;
   }
   fmt::print("{}", points_table(journal, results, order, static_cast<std::size_t>(a.most)));
@@ -174,7 +174,7 @@ int merge_study(const StudyArguments& a) {
 
 /// What of the row is not what the run gave, a line each.
 std::vector<std::string> differences(const std::vector<std::string>& names, const std::vector<std::string>& row,
-                                     const studies::RunColumns& columns, const std::vector<double>& figures,
+                                     const studies::RunColumns& columns, const std::vector<double>& quantities,
                                      const Outcome& outcome) {
   std::vector<std::string> found;
   const auto cell = [&](const std::string& name) {
@@ -184,13 +184,14 @@ std::vector<std::string> differences(const std::vector<std::string>& names, cons
   if (done != outcome.done() || (!done && cell("message") != outcome.message))
     found.push_back(fmt::format("outcome: then {}, now {}", clipped(done ? "done" : cell("message")), clipped(outcome.text())));
   if (!done || !outcome.done()) return found;
-  for (std::size_t k = 0; k < figures.size(); ++k) {
-    const std::string then = cell(columns.figures[k]);
-    const std::string now = std::isfinite(figures[k]) ? number_text(figures[k] + 0.0) : "";
-    const bool same = then.empty() ? now.empty() : !now.empty() && studies::number_of(then) == figures[k];
+  for (std::size_t k = 0; k < quantities.size(); ++k) {
+    if (is_gone(columns.quantities[k])) continue;
+    const std::string then = cell(columns.quantities[k]);
+    const std::string now = std::isfinite(quantities[k]) ? number_text(quantities[k] + 0.0) : "";
+    const bool same = then.empty() ? now.empty() : !now.empty() && studies::number_of(then) == quantities[k];
     if (!same)
       found.push_back(
-          fmt::format("{}: then {}, now {}", columns.figures[k], then.empty() ? "none" : then, now.empty() ? "none" : now));
+          fmt::format("{}: then {}, now {}", columns.quantities[k], then.empty() ? "none" : then, now.empty() ? "none" : now));
   }
   return found;
 }
@@ -269,11 +270,11 @@ int rerun_study(const StudyArguments& a) {
     fmt::print("the study ended this run early: {}; here it ran on\n", one_line(cell("message")));
     return code == 2 ? 2 : 0;
   }
-  const studies::Judged judged = figure_measure(head.figures, scenario)(scenario, again.stored.recording);
+  const studies::Judged judged = quantity_measure(head.quantities, scenario)(scenario, again.stored.recording);
   const std::vector<std::string> found =
-      differences(names, row, journal.columns(), judged.figures, again.stored.recording.outcome);
+      differences(names, row, journal.columns(), judged.quantities, again.stored.recording.outcome);
   if (found.empty()) {
-    fmt::print("the figures are those of the journal\n");
+    fmt::print("the quantities are those of the journal\n");
     const bool lost = code == 1 && again.stored.recording.outcome.done();  // some of its files
     return code == 2 ? 2 : lost ? 1 : 0;
   }
@@ -294,7 +295,7 @@ void add_study(Commands& commands) {
   add_command<StudyArguments>(commands, "report", "Write its table and figures anew, of what the journal holds.", report_study,
                               folder, study);
   add_command<StudyArguments>(
-      commands, "best", "Its best feasible points.", best_of_study,
+      commands, "best", "Its best points among those that are kept.", best_of_study,
       [&](CLI::App& command, StudyArguments& a) {
         folder(command, a);
         command.add_option("-n,--number", a.most, "how many (default 10)")->check(CLI::Range(1, 1000000));

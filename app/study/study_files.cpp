@@ -42,15 +42,16 @@ bool is_map(const JournalHead& head, const std::vector<std::size_t>& parameters)
 
 report::PointState state_of(const studies::PointResult& point) {
   if (point.failed > 0) return report::PointState::failed;
-  return point.feasible() ? report::PointState::feasible : report::PointState::infeasible;
+  if (point.kept()) return report::PointState::kept;
+  return point.infeasible_runs > 0 ? report::PointState::infeasible : report::PointState::broken;
 }
 
-/// Number of the best feasible point, of those that stood where any was tried again; that of points: there is none.
+/// Number of the best kept point, of those that stood where any was tried again; that of points: there is none.
 std::size_t best_of(Journal& journal, const Results& results) {
   const std::vector<studies::Verification> tried = journal.verifications();
   const std::vector<std::uint64_t> stood = studies::verified(tried);
   for (const std::size_t k : studies::ranked(results.points, journal.head().objectives.front().maximize)) {
-    if (!results.points[k].feasible()) break;
+    if (!results.points[k].kept()) break;
     if (tried.empty() || std::ranges::find(stood, results.points[k].first_run) != stood.end()) return k;
   }
   return results.points.size();
@@ -67,7 +68,7 @@ struct Values {
 Values values_of(Journal& journal, const std::vector<std::size_t>& parameters, const std::vector<std::size_t>& figures) {
   std::vector<std::string> columns{"run"};
   for (const std::size_t k : parameters) columns.push_back(journal.columns().parameters[k]);
-  for (const std::size_t k : figures) columns.push_back(journal.columns().figures[k]);
+  for (const std::size_t k : figures) columns.push_back(journal.columns().quantities[k]);
   Values values;
   journal.each_row(columns, [&](const std::vector<std::string>& row) {
     const auto number = [&](std::size_t at) { return row[at].empty() ? std::nan("") : studies::number_of(row[at]); };
@@ -127,13 +128,13 @@ struct Drawn {
   std::string note;
   std::size_t best_point;  ///< number of points: there is none
 
-  [[nodiscard]] std::string title(const studies::FigureName& name) const {
+  [[nodiscard]] std::string title(const studies::Quantity& name) const {
     return clipped(head.name) + ": " + clipped(name.name);
   }
   [[nodiscard]] std::size_t best() const { return std::min(best_point, rows.size()); }
 };
 
-report::StudyFigure map_of(const Drawn& drawn, std::size_t number, const studies::FigureName& name) {
+report::StudyFigure map_of(const Drawn& drawn, std::size_t number, const studies::Quantity& name) {
   report::StudyFigure figure;
   figure.title = drawn.title(name);
   figure.note = drawn.note;
@@ -152,7 +153,7 @@ report::StudyFigure map_of(const Drawn& drawn, std::size_t number, const studies
   return figure;
 }
 
-report::ManyFigure many_of(const Drawn& drawn, std::size_t number, const studies::FigureName& name) {
+report::ManyFigure many_of(const Drawn& drawn, std::size_t number, const studies::Quantity& name) {
   report::ManyFigure figure;
   figure.title = drawn.title(name);
   figure.note = drawn.note;
@@ -172,7 +173,7 @@ report::ManyFigure many_of(const Drawn& drawn, std::size_t number, const studies
 }
 
 /// The replicates of the best points, side by side: replicates.svg and .csv.
-void write_replicates(const Drawn& drawn, const studies::FigureName& name, const std::filesystem::path& folder) {
+void write_replicates(const Drawn& drawn, const studies::Quantity& name, const std::filesystem::path& folder) {
   constexpr std::size_t kShown = 6;
   std::vector<std::size_t> order = studies::ranked(drawn.results.points, drawn.head.objectives.front().maximize);
   std::erase_if(order, [&](std::size_t k) { return k >= drawn.rows.size(); });
@@ -185,16 +186,16 @@ void write_replicates(const Drawn& drawn, const studies::FigureName& name, const
   figure.axis = report::StudyAxis{clipped(name.name), clipped(name.unit)}.title();
   figure.below = "first run of the point, the best at the left";
   std::string csv =
-      std::string("point,") + (scenarios.empty() ? "" : "scenario,") + "replicate," + csv_cell(name.name) + ",feasible\n";
+      std::string("point,") + (scenarios.empty() ? "" : "scenario,") + "replicate," + csv_cell(name.name) + ",kept\n";
   for (const std::size_t k : order) {
     const studies::PointResult& point = drawn.results.points[k];
-    report::BoxGroup group{fmt::format("run {}", point.first_run), {}, point.feasible()};
+    report::BoxGroup group{fmt::format("run {}", point.first_run), {}, point.kept()};
     for (std::size_t r = 0; r < point.runs; ++r) {
       const double value = drawn.values.figures[drawn.rows[k] + r].front();
       group.values.push_back(value);
       const std::string scenario = scenarios.empty() ? "" : csv_cell(scenarios[r / each]) + ",";
       csv += fmt::format("{},{}{},{},{}\n", point.first_run, scenario, scenarios.empty() ? r : r % each,
-                         std::isfinite(value) ? number_text(value) : "", point.feasible() ? 1 : 0);
+                         std::isfinite(value) ? number_text(value) : "", point.kept() ? 1 : 0);
     }
     figure.groups.push_back(std::move(group));
   }
@@ -206,7 +207,7 @@ void write_replicates(const Drawn& drawn, const studies::FigureName& name, const
 
 std::string study_note(const JournalHead& head, std::uint64_t runs) {
   return fmt::format("{} runs; {}; gaitlab {}", runs,
-                     head.guarded ? "guards: gait" : "without guards: results may exploit the simulation",
+                     head.guarded ? "guards: verdict" : "without guards: results may exploit the simulation",
                      one_line(head.build));
 }
 
@@ -220,13 +221,13 @@ std::vector<std::string> write_study_files(Journal& journal, const Results& resu
   std::vector<std::size_t> figures;
   for (const std::string& name : head.shown)
     figures.push_back(
-        static_cast<std::size_t>(std::ranges::find(head.figures, name, &studies::FigureName::name) - head.figures.begin()));
+        static_cast<std::size_t>(std::ranges::find(head.quantities, name, &studies::Quantity::name) - head.quantities.begin()));
   const Values values = values_of(journal, parameters, figures);
   const Drawn drawn{
       head, results, values, parameters, rows_of(results, values), study_note(head, results.runs), best_of(journal, results)};
   const bool map = is_map(head, parameters);
   for (std::size_t k = 0; k < figures.size() && !parameters.empty(); ++k) {
-    const studies::FigureName& figure = head.figures[figures[k]];
+    const studies::Quantity& figure = head.quantities[figures[k]];
     const std::string name = file_name(head.shown[k]);
     const auto write = [&](const std::string& file, const std::string& text) { write_file(folder / file, text); };
     files.push_back(name + ".svg");
@@ -243,7 +244,7 @@ std::vector<std::string> write_study_files(Journal& journal, const Results& resu
     files.push_back(name + "-scatter.svg");
   }
   if (head.replicates > 1 && !figures.empty()) {
-    write_replicates(drawn, head.figures[figures.front()], folder);
+    write_replicates(drawn, head.quantities[figures.front()], folder);
     files.emplace_back("replicates.svg");
   }
   for (std::string& file : write_sensitivity(journal, results, drawn.note, folder)) files.push_back(std::move(file));

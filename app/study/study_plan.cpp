@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "app/study/study_figures.h"
+#include "app/study/study_quantities.h"
 #include "app/study/study_run.h"
 #include "core/errors.h"
 #include "core/settings/wording.h"
@@ -35,7 +35,7 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
   std::uint64_t ended = 0;
   std::atomic<bool> stop = false;
   const auto start = std::chrono::steady_clock::now();
-  const studies::Measure measure = figure_measure(plan.columns(), plan.scenario());
+  const studies::Measure measure = quantity_measure(plan.columns(), plan.scenario());
   // Of all scenarios, where there are several.
   const std::uint64_t pack = std::min<std::uint64_t>(points.runs(), 8);
   const auto timed = [&](std::uint64_t k) {
@@ -74,6 +74,8 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
 
 void print_notes(const studies::Plan& plan, bool quiet) {
   if (quiet) return;
+  for (const Problem& note : plan.study().notes) say(to_string(note.place), "note", note.text);
+  for (const Problem& note : plan.short_runs()) say(to_string(note.place), "note", note.text);
   for (const Problem& note : plan.refused_ends()) say(to_string(note.place), "note", note.text);
 }
 

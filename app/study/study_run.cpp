@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "app/study/study_figures.h"
+#include "app/study/study_quantities.h"
 #include "core/build_id.h"
 #include "core/errors.h"
 #include "core/settings/wording.h"
@@ -34,7 +34,7 @@ Team& team() {
 
 studies::Executor study_executor(const studies::Plan& plan, const StudyRunArguments& a) {
   const BatchSettings settings{study_threads(a.jobs), static_cast<std::size_t>(a.lanes)};
-  studies::Measure measure = figure_measure(plan.columns(), plan.scenario());
+  studies::Measure measure = quantity_measure(plan.columns(), plan.scenario());
   return team() ? team()(plan, settings, std::move(measure)) : local_executor(plan, settings, std::move(measure));
 }
 

@@ -41,7 +41,8 @@ std::vector<studies::Answers> other_answers(const studies::Plan& plan, const Stu
 /// Prints what of the plan would be run, and how long it takes: a few of its runs are timed.
 void print_plan(const studies::Plan& plan, const StudyRunArguments& arguments);
 
-/// Prints which ends of parameters the scenario refuses.
+/// Prints old names with the new ones, parameters whose slowest gait does not fit the duration, and ends of parameters that the
+/// scenario refuses.
 void print_notes(const studies::Plan& plan, bool quiet);
 
 /// Which build's rows are taken.

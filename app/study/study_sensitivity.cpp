@@ -36,7 +36,7 @@ bool of_trajectories(const Sensitivity& s) { return s.measures.front().name == "
 std::string basis(const Sensitivity& s) {
   std::string text = fmt::format("{} of {} {}", s.used, s.blocks, of_trajectories(s) ? "trajectories" : "samples");
   if (s.unusable > 0) text += fmt::format("; left out for {} without a value", counted(s.unusable, "point"));
-  if (s.infeasible > 0) text += fmt::format("; {} count all the same", counted(s.infeasible, "infeasible point"));
+  if (s.not_kept > 0) text += fmt::format("; {} not kept, which count all the same", counted(s.not_kept, "point"));
   return text;
 }
 

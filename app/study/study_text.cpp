@@ -91,6 +91,34 @@ std::string in_which_scenario(const JournalHead& head, std::uint64_t run) {
   return scenario < head.scenarios.size() ? " in " + clipped(head.scenarios[scenario]) : "";
 }
 
+/// `check stops` of `margin.stops >= 0`, `the verdict` of `feasible >= 1`; others as they are.
+std::string limit_text(const std::string& relation) {
+  constexpr std::string_view kMargin = "margin.";
+  constexpr std::string_view kKept = " >= 0";
+  if (relation == "feasible >= 1") return "the verdict";
+  if (!relation.starts_with(kMargin) || !relation.ends_with(kKept)) return clipped(relation);
+  return "check " + clipped(relation.substr(kMargin.size(), relation.size() - kMargin.size() - kKept.size()));
+}
+
+/// The sentences behind the verdicts of the best points that are not kept, where the best of all is one of them.
+std::string rejected_text(Journal& journal, const studies::Results& results) {
+  constexpr std::size_t kMost = 3;
+  const std::vector<std::size_t> order = studies::ranked(results.points, journal.head().objectives.front().maximize);
+  const std::size_t message = place_in(journal.columns().all(), "message");
+  std::string text;
+  for (std::size_t k = 0; k < std::min(kMost, order.size()); ++k) {
+    const studies::PointResult& point = results.points[order[k]];
+    if (point.kept() || point.failed > 0) continue;
+    for (std::uint64_t run = point.first_run; run < point.first_run + point.runs; ++run) {
+      const std::vector<std::string> row = journal.row(run);
+      if (row.size() <= message || row[message].empty()) continue;
+      text += fmt::format("run {} is not kept: {}\n", run, one_line(row[message]));
+      break;
+    }
+  }
+  return text;
+}
+
 std::string share(std::uint64_t part, std::uint64_t of) {
   return of == 0 ? "" : fmt::format(" ({:.0f} %)", 100 * static_cast<double>(part) / static_cast<double>(of));
 }
@@ -124,8 +152,8 @@ std::string shell_word(const std::string& word) {
 }
 
 std::string objective_unit(const JournalHead& head) {
-  const auto figure = std::ranges::find(head.figures, head.objectives.front().expression, &studies::FigureName::name);
-  return figure == head.figures.end() || figure->unit.empty() ? "" : " " + clipped(figure->unit);
+  const auto figure = std::ranges::find(head.quantities, head.objectives.front().expression, &studies::Quantity::name);
+  return figure == head.quantities.end() || figure->unit.empty() ? "" : " " + clipped(figure->unit);
 }
 
 std::string objective_text(const JournalHead& head) {
@@ -145,19 +173,19 @@ std::string points_table(Journal& journal, const studies::Results& results, cons
     places.push_back(place_in(names, journal.columns().parameters[k]));
   }
   constexpr std::size_t kFigures = 5;
-  for (std::size_t k = 0; k < head.figures.size(); ++k) {
-    const studies::FigureName& figure = head.figures[k];
+  for (std::size_t k = 0; k < head.quantities.size(); ++k) {
+    const studies::Quantity& figure = head.quantities[k];
     const std::size_t rank = place_in(head.shown, figure.name);
     const auto is_objective = [&](const studies::JournalObjective& o) { return o.expression == figure.name; };
     if (rank >= std::min(kFigures, head.shown.size()) || std::ranges::any_of(head.objectives, is_objective)) continue;
     columns.push_back({clipped(figure.name), clipped(figure.unit), {}});
-    places.push_back(place_in(names, journal.columns().figures[k]));
+    places.push_back(place_in(names, journal.columns().quantities[k]));
   }
   const std::size_t objective = columns.size();
   const std::string together = head.replicates > 1 ? " (" + clipped(head.combine) + ")" : "";
   for (const studies::JournalObjective& o : head.objectives) {
-    const auto unit = std::ranges::find(head.figures, o.expression, &studies::FigureName::name);
-    columns.push_back({clipped(o.expression) + together, unit == head.figures.end() ? "" : clipped(unit->unit), {}});
+    const auto unit = std::ranges::find(head.quantities, o.expression, &studies::Quantity::name);
+    columns.push_back({clipped(o.expression) + together, unit == head.quantities.end() ? "" : clipped(unit->unit), {}});
   }
   for (const std::string& scenario : head.scenarios)
     columns.push_back({"in " + clipped(scenario), columns[objective].under, {}});
@@ -188,8 +216,9 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
   const JournalHead& head = journal.head();
   std::uint64_t failed = 0;
   for (const auto& [outcome, one] : results.failures.by_outcome) failed += one.count;
-  std::string text = fmt::format("{}: {} of {} runs ended, {} feasible{}, {} failed\n", clipped(head.name), results.runs,
-                                 head.runs, results.feasible_runs, share(results.feasible_runs, results.runs), failed);
+  std::string text =
+      fmt::format("{}: {} of {} runs ended, {} kept{}, {} feasible, {} failed\n", clipped(head.name), results.runs, head.runs,
+                  results.kept_runs, share(results.kept_runs, results.runs), results.feasible_runs, failed);
   if (!head.guarded) text += "without guards: results may exploit the simulation\n";
   if (head.objectives.size() > 1) {
     const std::vector<std::size_t> best = studies::front(results.points, head.objectives);
@@ -197,7 +226,7 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
     if (!best.empty()) text += points_table(journal, results, best, 2 * most);
   } else if (!results.points.empty()) {
     const std::vector<std::size_t> order = studies::ranked(results.points, head.objectives.front().maximize);
-    text += fmt::format("best by {} ({}), feasible points first:\n{}", objective_text(head),
+    text += fmt::format("best by {} ({}), kept points first:\n{}", objective_text(head),
                         head.objectives.front().maximize ? "most" : "least", points_table(journal, results, order, most));
     if (order.size() > most) {
       std::vector<std::size_t> last(order.end() - static_cast<std::ptrdiff_t>(std::min(most, order.size() - most)),
@@ -205,11 +234,12 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
       text += fmt::format("worst:\n{}", points_table(journal, results, last, most));
     }
   }
+  text += rejected_text(journal, results);
   text += sensitivity_text(journal, results);
   constexpr std::size_t kLimits = 4;
   const std::vector<studies::BrokenLimit> limits = studies::broken_limits(journal);
   for (std::size_t k = 0; k < std::min(kLimits, limits.size()); ++k)
-    text += fmt::format("{}{} ({})", k == 0 ? "what most runs break: " : ", ", clipped(limits[k].text),
+    text += fmt::format("{}{} ({})", k == 0 ? "what most runs break: " : ", ", limit_text(limits[k].text),
                         counted(limits[k].runs, "run"));
   if (!limits.empty()) text += "\n";
   for (const auto& [outcome, one] : results.failures.by_outcome)
@@ -296,7 +326,7 @@ void StudyProgress::operator()(const studies::Standing& s) {
   last_ = now;
   std::string text = fmt::format("{}/{} runs", s.ended, s.wanted) + place_;
   if (s.best) text += fmt::format("  best {:.4g}{} (run {})", s.best->objective(), unit_, s.best_run);
-  text += fmt::format("  {} feasible  {} failed", s.feasible, s.failed);
+  text += fmt::format("  {} kept  {} feasible  {} failed", s.kept, s.feasible, s.failed);
   if (runs_per_s > 0)
     text += fmt::format("  {:.3g} runs/s  {:.0f} s left", runs_per_s, static_cast<double>(s.wanted - s.ended) / runs_per_s);
   if (terminal_) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "app/commands.h"
-#include "app/study/study_figures.h"
+#include "app/study/study_quantities.h"
 #include "app/study/study_run.h"
 #include "app/study/study_text.h"
 #include "app/study/sweep_arguments.h"
@@ -27,7 +27,7 @@ int sweep_study(const SweepArguments& a) {
   Study study = wanted_study(a);
   const studies::Shard shard = wanted_shard(a);
   if (study.name.empty()) study.name = read_scenario(study.scenario, study.sets, catalog).name;
-  Plan plan(std::move(study), figure_offer(), catalog);
+  Plan plan(std::move(study), quantity_offer(), catalog);
   if (a.dry_run) {
     print_notes(plan, a.quiet);
     print_plan(plan, a);
@@ -108,8 +108,8 @@ void add_sweep(Commands& commands) {
         command.add_option("--seeds", a.replicates, "runs of each point, which differ in their seed")
             ->check(CLI::Range(1, 1000000));
         repeatable(command.add_option(
-            "--figure", a.figures,
-            "figures to show and draw, by name with * and ?; the first orders the points of a scenario; may be repeated"));
+            "--show,--figure", a.quantities,
+            "quantities to show and draw, by name with * and ?; the first orders the points of a scenario; may be repeated"));
         command.add_option("--shard", a.shard,
                            "do one part of the runs, I/N, or auto in a Slurm array; then `gaitlab study merge`");
         command.add_flag("--dry-run", a.dry_run, "tell what would be run and how long it takes, and write nothing");

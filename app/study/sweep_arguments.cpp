@@ -87,7 +87,7 @@ Study wanted_study(const SweepArguments& a) {
     study = typed_study(a, problems);
   }
   problems.raise();
-  for (const std::string& figure : a.figures) study.figures.push_back(figure);
+  for (const std::string& pattern : a.quantities) study.quantities.push_back(pattern);
   return study;
 }
 
@@ -165,7 +165,7 @@ std::string goes_on(const SweepArguments& a, const std::filesystem::path& folder
   if (a.runs > 0) add("--runs", std::to_string(a.runs));
   if (a.replicates > 0) add("--seeds", std::to_string(a.replicates));
   for (const std::string& set : a.sets) add("--set", set);
-  for (const std::string& figure : a.figures) add("--figure", figure);
+  for (const std::string& pattern : a.quantities) add("--show", pattern);
   if (a.seed) add("--seed", *a.seed);
   for (const std::string& answers : a.answers) add("--answers", answers);
   if (!a.shard.empty()) add("--shard", a.shard);

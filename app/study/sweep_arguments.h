@@ -11,7 +11,7 @@
 namespace gaitlab::app {
 
 struct SweepArguments : ScenarioArguments, StudyRunArguments {
-  std::vector<std::string> grids, randoms, figures;
+  std::vector<std::string> grids, randoms, quantities;
   std::int64_t runs = 0, replicates = 0;
   bool sobol = false;
   std::string shard;

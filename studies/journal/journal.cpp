@@ -92,11 +92,11 @@ void Journal::bind(Statement& insert, const Row& row) const {
       add(number_of(row.values[k]));
     }
   }
-  for (std::size_t k = 0; k < head_.figures.size(); ++k) add(k < row.figures.size() ? row.figures[k] : std::nan(""));
+  for (std::size_t k = 0; k < head_.quantities.size(); ++k) add(k < row.quantities.size() ? row.quantities[k] : std::nan(""));
   add(row.verdict);
   for (std::size_t k = 0; k < head_.objectives.size(); ++k) add(row.score ? row.score->objectives[k] : std::nan(""));
   add(row.score ? row.score->violation : std::nan(""));
-  add(std::int64_t{row.score && row.score->feasible()});
+  add(std::int64_t{row.score && row.score->kept()});
 }
 
 void Journal::write(std::span<const Row> rows, const Effort& effort) {
@@ -134,16 +134,17 @@ void Journal::each_brief(const std::function<void(const Brief&)>& take) {
   std::string objectives;
   for (std::size_t k = 0; k < head_.objectives.size(); ++k) objectives += ", " + identifier(objective_column(k));
   Statement all =
-      database_.prepare("SELECT run, outcome, message, simulated, violation" + objectives + " FROM run ORDER BY run");
+      database_.prepare("SELECT run, outcome, message, simulated, violation, verdict" + objectives + " FROM run ORDER BY run");
   while (all.step()) {
     Brief brief{static_cast<std::uint64_t>(all.integer(0)), all.text(1), all.text(2), all.number(3)};
     if (!all.null(4)) {
       brief.score = Score{{}, all.number(4)};
       for (std::size_t k = 0; k < head_.objectives.size(); ++k) {
-        const int at = 5 + static_cast<int>(k);
+        const int at = 6 + static_cast<int>(k);
         brief.score->objectives[k] = all.null(at) ? std::nan("") : all.number(at);
       }
     }
+    brief.verdict = all.text(5);
     take(brief);
   }
 }
@@ -156,12 +157,12 @@ std::vector<std::string> Journal::row(std::uint64_t run) {
   return texts;
 }
 
-std::vector<std::string> Journal::figures(std::uint64_t run) {
+std::vector<std::string> Journal::quantities(std::uint64_t run) {
   const std::vector<std::string> names = columns_.all();
   const std::vector<std::string> all = row(run);
-  std::vector<std::string> texts(head_.figures.size());
+  std::vector<std::string> texts(head_.quantities.size());
   if (all.empty() || texts.empty()) return texts;
-  const auto first = std::ranges::find(names, columns_.figures.front()) - names.begin();
+  const auto first = std::ranges::find(names, columns_.quantities.front()) - names.begin();
   std::copy_n(all.begin() + first, texts.size(), texts.begin());
   return texts;
 }

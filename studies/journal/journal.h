@@ -15,7 +15,7 @@
 
 namespace gaitlab::studies {
 
-/// How a run ended. Where it did not end well, its figures are not known.
+/// How a run ended. Where it did not end well, its quantities are not known.
 struct Row {
   std::uint64_t run = 0;
   std::string point;     ///< name of its values, the same in every study of the scenario
@@ -23,10 +23,10 @@ struct Row {
   std::uint64_t replicate = 0;
   std::int64_t seed = 0;
   std::string outcome;              ///< done, diverged, refused, plugin
-  std::string message;              ///< why it is not `done`
+  std::string message;              ///< why it is not `done`, or its verdict not `feasible`
   double simulated = 0;             ///< s
   std::vector<std::string> values;  ///< of the parameters, then what is drawn
-  std::vector<double> figures;      ///< by column; none: not known
+  std::vector<double> quantities;   ///< by column; none: not known
   std::string verdict;
   std::optional<Score> score = {};
 };
@@ -58,8 +58,8 @@ struct JournalHead {
   std::uint64_t replicates = 1;  ///< runs of a point, in all scenarios
   std::int64_t seed = 1;
   std::vector<JournalParameter> parameters;
-  std::vector<FigureName> figures;
-  std::vector<std::string> shown;  ///< names of figures
+  std::vector<Quantity> quantities;
+  std::vector<std::string> shown;  ///< names of quantities
   std::vector<Limit> limits;
   bool guarded = true;
 };
@@ -68,8 +68,8 @@ struct JournalHead {
 struct Generation {
   std::uint64_t search = 0, generation = 0, restart = 0;
   std::uint64_t first_run = 0, runs = 0;  ///< of points that were not asked for before
-  std::uint64_t points = 0, feasible = 0;
-  double best = std::numeric_limits<double>::quiet_NaN(), median = best;  ///< of the feasible points, by the first objective
+  std::uint64_t points = 0, kept = 0;
+  double best = std::numeric_limits<double>::quiet_NaN(), median = best;  ///< of the kept points, by the first objective
   double spread = 0;  ///< largest deviation of a coordinate, as a share of the box
 };
 
@@ -98,18 +98,21 @@ std::string objective_column(std::size_t number);
 /// The columns of table `run` in their order, as SQL knows them.
 struct RunColumns {
   explicit RunColumns(const JournalHead& head);
-  std::vector<std::string> parameters, figures, objectives;
+  std::vector<std::string> parameters, quantities, objectives;
   bool scenario = false;  ///< whether there is a column of that name
-  std::string sql;        ///< that makes the table
+  /// Whether a run is kept: `kept`; `feasible` in journals of programs that had no quantity of that name.
+  std::string kept;
+  std::string sql;  ///< that makes the table
   [[nodiscard]] std::vector<std::string> all() const;
 };
 
-/// What is known of a run without its figures.
+/// What is known of a run without its quantities.
 struct Brief {
   std::uint64_t run = 0;
   std::string outcome, message;
   double simulated = 0;
   std::optional<Score> score = {};
+  std::string verdict = {};
 };
 
 class Journal {
@@ -148,8 +151,8 @@ class Journal {
   void each_brief(const std::function<void(const Brief&)>& take);
   /// Columns of one run as text, NULL as ""; empty: it has no row.
   [[nodiscard]] std::vector<std::string> row(std::uint64_t run);
-  /// Figures of one run as text, by column, NULL as "".
-  [[nodiscard]] std::vector<std::string> figures(std::uint64_t run);
+  /// Quantities of one run as text, by column, NULL as "".
+  [[nodiscard]] std::vector<std::string> quantities(std::uint64_t run);
   /// Columns of all runs in their order, numbers as the shortest text that gives the same double, NULL as "".
   void each_row(const std::vector<std::string>& columns, const std::function<void(const std::vector<std::string>&)>& take);
   /// Of the runs that came to their end, as numbers, not a number where one is not known.

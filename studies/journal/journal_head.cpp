@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array kBefore{"run", "point", "replicate", "seed", "outcome", "message", "simulated"};
 constexpr const char* kScenario = "scenario";
-constexpr std::array kBehind{"violation", "feasible"};
+constexpr const char* kViolation = "violation";
 constexpr std::uint64_t kMostRuns = 4'000'000'000;  // a journal with more is not one of this program
 
 std::string lower(std::string text) {
@@ -45,9 +45,11 @@ std::vector<std::string> joined_values(const std::string& text) {
 
 std::string objective_column(std::size_t number) { return fmt::format("objective.{}", number + 1); }
 
-RunColumns::RunColumns(const JournalHead& head) : scenario(!head.scenarios.empty()) {
+RunColumns::RunColumns(const JournalHead& head)
+    : scenario(!head.scenarios.empty()),
+      kept(std::ranges::find(head.quantities, "feasible", &Quantity::name) == head.quantities.end() ? "feasible" : "kept") {
   std::set<std::string> taken(kBefore.begin(), kBefore.end());
-  taken.insert(kBehind.begin(), kBehind.end());
+  taken.insert({kViolation, kept});
   taken.insert("verdict");
   if (scenario) taken.insert(kScenario);
   for (std::size_t k = 0; k < head.objectives.size(); ++k) objectives.push_back(*taken.insert(objective_column(k)).first);
@@ -65,23 +67,23 @@ RunColumns::RunColumns(const JournalHead& head) : scenario(!head.scenarios.empty
     parameters.push_back(unique(p.key, "parameter"));
     sql += ", " + identifier(parameters.back()) + (p.words ? " TEXT NOT NULL" : " REAL NOT NULL");
   }
-  for (const FigureName& figure : head.figures) {
-    figures.push_back(unique(figure.name, "figure"));
-    sql += ", " + identifier(figures.back()) + " REAL";
+  for (const Quantity& quantity : head.quantities) {
+    quantities.push_back(unique(quantity.name, "figure"));
+    sql += ", " + identifier(quantities.back()) + " REAL";
   }
   sql += ", verdict TEXT NOT NULL";
   for (const std::string& objective : objectives) sql += ", " + identifier(objective) + " REAL";
-  sql += ", violation REAL, feasible INTEGER NOT NULL) STRICT";
+  sql += fmt::format(", {} REAL, {} INTEGER NOT NULL) STRICT", kViolation, kept);
 }
 
 std::vector<std::string> RunColumns::all() const {
   std::vector<std::string> names(kBefore.begin(), kBefore.end());
   if (scenario) names.emplace_back(kScenario);
   names.insert(names.end(), parameters.begin(), parameters.end());
-  names.insert(names.end(), figures.begin(), figures.end());
+  names.insert(names.end(), quantities.begin(), quantities.end());
   names.emplace_back("verdict");
   names.insert(names.end(), objectives.begin(), objectives.end());
-  names.insert(names.end(), kBehind.begin(), kBehind.end());
+  names.insert(names.end(), {kViolation, kept});
   return names;
 }
 
@@ -90,7 +92,7 @@ void Journal::create() {
   database_.execute(fmt::format("PRAGMA user_version = {}", kSchema));
   for (const JournalTable& table : kTables) database_.execute(table.sql);
   database_.execute(columns_.sql);
-  database_.execute(std::string("CREATE VIEW best AS SELECT * FROM run WHERE feasible = 1 ORDER BY \"objective.1\" ") +
+  database_.execute("CREATE VIEW best AS SELECT * FROM run WHERE " + columns_.kept + (" = 1 ORDER BY \"objective.1\" ") +
                     (head_.objectives.front().maximize ? "DESC" : "ASC") + ", run");
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
@@ -119,13 +121,13 @@ void Journal::create() {
     parameter.bind(4, listed ? std::nan("") : p.low).bind(5, listed ? std::nan("") : p.high);
     parameter.bind(6, std::string(p.log ? "log" : "linear")).bind(7, split_values(p.values)).run();
   }
-  Statement figure = database_.prepare("INSERT INTO figure VALUES(?,?,?,?,?,?)");
-  for (std::size_t k = 0; k < head_.figures.size(); ++k) {
-    const FigureName& f = head_.figures[k];
+  Statement quantity = database_.prepare("INSERT INTO figure VALUES(?,?,?,?,?,?)");
+  for (std::size_t k = 0; k < head_.quantities.size(); ++k) {
+    const Quantity& f = head_.quantities[k];
     const auto shown = std::ranges::find(head_.shown, f.name) - head_.shown.begin();
     const bool is_shown = shown < static_cast<std::ptrdiff_t>(head_.shown.size());
-    figure.bind(0, static_cast<std::int64_t>(k + 1)).bind(1, columns_.figures[k]).bind(2, f.name).bind(3, f.unit);
-    figure.bind(4, f.meaning).bind(5, std::int64_t{is_shown ? shown + 1 : 0}).run();
+    quantity.bind(0, static_cast<std::int64_t>(k + 1)).bind(1, columns_.quantities[k]).bind(2, f.name).bind(3, f.unit);
+    quantity.bind(4, f.meaning).bind(5, std::int64_t{is_shown ? shown + 1 : 0}).run();
   }
   Statement objective = database_.prepare("INSERT INTO objective VALUES(?,?,?)");
   for (std::size_t k = 0; k < head_.objectives.size(); ++k) {
@@ -178,11 +180,11 @@ void Journal::read_head() {
     head.parameters.push_back({parameter.text(2), kind.ends_with("word"), kind.starts_with("drawn"), parameter.number(4),
                                parameter.number(5), parameter.text(6) == "log", joined_values(parameter.text(7))});
   }
-  Statement figure = database_.prepare("SELECT * FROM figure ORDER BY number");
+  Statement quantity = database_.prepare("SELECT * FROM figure ORDER BY number");
   std::vector<std::pair<std::int64_t, std::string>> shown;
-  while (figure.step()) {
-    head.figures.push_back({figure.text(2), figure.text(3), figure.text(4)});
-    if (figure.integer(5) > 0) shown.emplace_back(figure.integer(5), figure.text(2));
+  while (quantity.step()) {
+    head.quantities.push_back({quantity.text(2), quantity.text(3), quantity.text(4)});
+    if (quantity.integer(5) > 0) shown.emplace_back(quantity.integer(5), quantity.text(2));
   }
   std::ranges::sort(shown);
   for (auto& [rank, name] : shown) head.shown.push_back(std::move(name));

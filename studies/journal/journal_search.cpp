@@ -19,7 +19,7 @@ void Journal::write(std::span<const Generation> generations) {
   Statement insert = database_.prepare("INSERT OR IGNORE INTO search VALUES(?,?,?,?,?,?,?,?,?,?)");
   for (const Generation& g : generations) {
     int at = 0;
-    for (const std::uint64_t count : {g.search, g.generation, g.restart, g.first_run, g.runs, g.points, g.feasible})
+    for (const std::uint64_t count : {g.search, g.generation, g.restart, g.first_run, g.runs, g.points, g.kept})
       insert.bind(at++, static_cast<std::int64_t>(count));
     for (const double number : {g.best, g.median, g.spread}) insert.bind(at++, number);
     insert.run();

@@ -38,6 +38,8 @@ PointResult point_result(const JournalHead& head, std::span<const Brief> runs) {
   std::array<std::vector<double>, kMostObjectives> bad;  // more is worse
   std::vector<double> violation;
   for (const Brief& run : runs) {
+    if (run.verdict == "feasible") ++point.feasible_runs;
+    if (run.verdict == "infeasible") ++point.infeasible_runs;
     if (run.outcome != "done" || !run.score) {
       point.lived = point.failed == 0 ? run.simulated : std::min(point.lived, run.simulated);
       ++point.failed;
@@ -76,7 +78,8 @@ Results results(Journal& journal) {
   Gather gather(journal.head(), results);
   journal.each_brief([&](const Brief& run) {
     ++results.runs;
-    if (run.score && run.score->feasible()) ++results.feasible_runs;
+    if (run.score && run.score->kept()) ++results.kept_runs;
+    if (run.verdict == "feasible") ++results.feasible_runs;
     if (run.outcome != "done") {
       Failures::One& one = results.failures.by_outcome[run.outcome];
       if (one.count++ == 0) one = {1, run.run, run.message};
@@ -92,9 +95,9 @@ std::vector<BrokenLimit> broken_limits(Journal& journal) {
   std::vector<std::string> columns{"run"};  // one at least
   const Names names = [&](const std::string& name, const std::string& joint) -> Naming {
     const std::string full = joint.empty() ? name : name + "[" + joint + "]";
-    const auto at = std::ranges::find(head.figures, full, &FigureName::name);
-    if (at == head.figures.end()) return {{}, "unknown"};
-    const std::string& column = journal.columns().figures[static_cast<std::size_t>(at - head.figures.begin())];
+    const auto at = std::ranges::find(head.quantities, full, &Quantity::name);
+    if (at == head.quantities.end()) return {{}, "unknown"};
+    const std::string& column = journal.columns().quantities[static_cast<std::size_t>(at - head.quantities.begin())];
     const auto known = std::ranges::find(columns, column);
     const auto place = static_cast<std::size_t>(known - columns.begin());
     if (known == columns.end()) columns.push_back(column);
@@ -122,17 +125,17 @@ std::vector<BrokenLimit> broken_limits(Journal& journal) {
 }
 
 bool better(const PointResult& a, const PointResult& b, bool maximize) {
-  const auto rank = [](const PointResult& p) { return p.failed > 0 ? 2 : p.feasible() ? 0 : 1; };
+  const auto rank = [](const PointResult& p) { return p.failed > 0 ? 2 : p.kept() ? 0 : 1; };
   if (rank(a) != rank(b)) return rank(a) < rank(b);
   if (a.failed > 0) return a.lived != b.lived ? a.lived > b.lived : a.first_run < b.first_run;
-  const double x = a.feasible() ? (maximize ? -a.score.objective() : a.score.objective()) : a.score.violation;
-  const double y = b.feasible() ? (maximize ? -b.score.objective() : b.score.objective()) : b.score.violation;
+  const double x = a.kept() ? (maximize ? -a.score.objective() : a.score.objective()) : a.score.violation;
+  const double y = b.kept() ? (maximize ? -b.score.objective() : b.score.objective()) : b.score.violation;
   return x != y ? x < y : a.first_run < b.first_run;
 }
 
 std::vector<std::size_t> front(const std::vector<PointResult>& points, const std::vector<JournalObjective>& objectives) {
   std::vector<std::size_t> order = ranked(points, objectives.front().maximize);
-  std::erase_if(order, [&](std::size_t k) { return !points[k].feasible(); });
+  std::erase_if(order, [&](std::size_t k) { return !points[k].kept(); });
   const auto at_least = [&](const PointResult& a, const PointResult& b) {
     for (std::size_t k = 0; k < objectives.size(); ++k) {
       const double x = a.score.objectives[k];

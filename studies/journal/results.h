@@ -10,10 +10,12 @@ namespace gaitlab::studies {
 /// A point with all its replicates.
 struct PointResult {
   std::uint64_t first_run = 0, runs = 0;
-  std::uint64_t failed = 0;  ///< of its runs
-  Score score;               ///< of its replicates together
-  double lived = 0;          ///< s simulated, of the replicate that failed first
-  [[nodiscard]] bool feasible() const { return failed == 0 && score.feasible(); }
+  std::uint64_t failed = 0;                              ///< of its runs
+  Score score;                                           ///< of its replicates together
+  double lived = 0;                                      ///< s simulated, of the replicate that failed first
+  std::uint64_t feasible_runs = 0, infeasible_runs = 0;  ///< by the words of their verdicts
+  [[nodiscard]] bool kept() const { return failed == 0 && score.kept(); }
+  [[nodiscard]] bool feasible() const { return feasible_runs == runs; }
 };
 
 /// What failed, by outcome, with the first of each.
@@ -28,7 +30,7 @@ struct Failures {
 struct Results {
   std::vector<PointResult> points;  ///< in the order of runs; those of which a replicate is missing are left out
   Failures failures;
-  std::uint64_t runs = 0, feasible_runs = 0;
+  std::uint64_t runs = 0, kept_runs = 0, feasible_runs = 0;
 };
 
 /// Of the runs of one point, in their order.
@@ -36,7 +38,7 @@ PointResult point_result(const JournalHead& head, std::span<const Brief> runs);
 
 Results results(Journal& journal);
 
-/// Feasible points that no other is better than in all objectives, by the first objective, the best first. Of equal ones the
+/// Kept points that no other is better than in all objectives, by the first objective, the best first. Of equal ones the
 /// first.
 std::vector<std::size_t> front(const std::vector<PointResult>& points, const std::vector<JournalObjective>& objectives);
 
@@ -48,7 +50,7 @@ struct BrokenLimit {
 /// Those that any run breaks, the most often broken first.
 std::vector<BrokenLimit> broken_limits(Journal& journal);
 
-/// Feasible by objective; then infeasible by violation; then failed by how long they lived, the longest first.
+/// Kept ones by objective; then the others by violation; then failed by how long they lived, the longest first.
 bool better(const PointResult& a, const PointResult& b, bool maximize);
 
 /// Indices of points, the best first.

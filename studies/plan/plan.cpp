@@ -83,18 +83,18 @@ std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& s
   return sets;
 }
 
-/// Figures of joints that a pattern of the study names are the same in every scenario.
-void check_same(const std::vector<FigureName>& first, const std::vector<FigureName>& other, const SourceLocation& place,
+/// Quantities of joints that a pattern of the study names are the same in every scenario.
+void check_same(const std::vector<Quantity>& first, const std::vector<Quantity>& other, const SourceLocation& place,
                 Problems& problems) {
-  const auto check = [&](const std::vector<FigureName>& have, const std::vector<FigureName>& lack, const char* text) {
-    for (const FigureName& figure : have) {
-      if (std::ranges::find(lack, figure.name, &FigureName::name) != lack.end()) continue;
-      problems.add(place, fmt::format(fmt::runtime(text), in_quotes(figure.name)));
+  const auto check = [&](const std::vector<Quantity>& have, const std::vector<Quantity>& lack, const char* text) {
+    for (const Quantity& quantity : have) {
+      if (std::ranges::find(lack, quantity.name, &Quantity::name) != lack.end()) continue;
+      problems.add(place, fmt::format(fmt::runtime(text), in_quotes(quantity.name)));
       return;
     }
   };
-  check(first, other, "there is no figure {}, which the first scenario has");
-  if (problems.empty()) check(other, first, "there is a figure {}, which the first scenario does not have");
+  check(first, other, "there is no quantity {}, which the first scenario has");
+  if (problems.empty()) check(other, first, "there is a quantity {}, which the first scenario does not have");
 }
 
 /// Keeps what both have; the first time all.
@@ -105,7 +105,7 @@ void keep_common(std::vector<Limit>& kept, const std::vector<Limit>& limits, boo
 
 }  // namespace
 
-Plan::Plan(Study study, const FigureOffer& offer, Catalog& catalog)
+Plan::Plan(Study study, const QuantityOffer& offer, Catalog& catalog)
     : study_(std::move(study)), scenarios_(read_scenarios(study_, catalog)), points_(study_) {
   Problems problems;
   scenario_text_ = scenarios_text(scenarios_);
@@ -131,34 +131,29 @@ Plan::Plan(Study study, const FigureOffer& offer, Catalog& catalog)
 }
 
 /// Those of the first scenario, which the others must have.
-void Plan::find_columns(const FigureOffer& offer, Problems& problems) {
+void Plan::find_columns(const QuantityOffer& offer, Problems& problems) {
   columns_ = columns_of(study_, offer, scenarios_.front().joints);
   constexpr std::size_t kMostColumns = 400;
   if (columns_.size() > kMostColumns)
-    problems.add(study_.figures_place,
-                 fmt::format("the journal would have {} columns of figures; allowed are up to {}: name fewer joints",
+    problems.add(study_.quantities_place,
+                 fmt::format("the journal would have {} columns of quantities; allowed are up to {}: name fewer joints",
                              columns_.size(), kMostColumns));
 }
 
 /// What the study's expressions name exists in every scenario. The judges that stay are those of the first, which comes last.
-void Plan::make_judges(const FigureOffer& offer, const Catalog& catalog, Problems& problems) {
-  Study gait = study_;
-  gait.guarded = true;
-  gait.guards.clear();
+void Plan::make_judges(const QuantityOffer& offer, const Catalog& catalog, Problems& problems) {
   std::vector<Problems> found(scenarios_.size());
-  std::vector<std::vector<FigureName>> columns(scenarios_.size());
+  std::vector<std::vector<Quantity>> columns(scenarios_.size());
   for (std::size_t s = scenarios_.size(); s-- > 0;) {
     StudyScenario& one = scenarios_[s];
     columns[s] = s == 0 ? columns_ : columns_of(study_, offer, one.joints);
-    judge_ = std::make_unique<Judge>(study_, columns[s], offer, one.nominal.limits, one.joints, found[s]);
+    judge_ = std::make_unique<Judge>(study_, columns[s], offer, one.joints, found[s]);
     one.other_engine = other_engine_of(study_.verify, one.nominal, catalog, found[s]);
     stops_ = std::make_unique<StopRules>(study_, offer, one.joints, found[s]);
     keep_common(limits_, judge_->limits(), s + 1 == scenarios_.size());
-    Problems told;  // as of judge_
-    gait_judge_ = std::make_unique<Judge>(gait, columns[s], offer, one.nominal.limits, one.joints, told);
   }
   if (std::ranges::all_of(found, &Problems::empty)) {
-    for (std::size_t s = 1; s < scenarios_.size(); ++s) check_same(columns_, columns[s], study_.figures_place, found[s]);
+    for (std::size_t s = 1; s < scenarios_.size(); ++s) check_same(columns_, columns[s], study_.quantities_place, found[s]);
   }
   const std::string& engine = study_.verify.engine;
   for (std::size_t s = 0; s < scenarios_.size(); ++s) {
@@ -214,7 +209,7 @@ void Plan::find_nominal(StudyScenario& scenario, Problems& problems) const {
 }
 
 void Plan::choose_shown(Problems& problems) {
-  const std::vector<std::string> patterns = study_.figures.empty() ? std::vector<std::string>{"speed"} : study_.figures;
+  const std::vector<std::string> patterns = study_.quantities.empty() ? std::vector<std::string>{"speed"} : study_.quantities;
   for (const std::string& pattern : patterns) {
     bool any = false;
     for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -224,8 +219,9 @@ void Plan::choose_shown(Problems& problems) {
     }
     if (any) continue;
     std::vector<std::string> known;
-    for (const FigureName& column : columns_) known.push_back(column.name);
-    problems.add(study_.figures_place, "no figure is named " + in_quotes(pattern) + gaitlab::offer(pattern, known, "figures"));
+    for (const Quantity& column : columns_) known.push_back(column.name);
+    problems.add(study_.quantities_place,
+                 "no quantity is named " + in_quotes(pattern) + gaitlab::offer(pattern, known, "quantities"));
   }
 }
 
@@ -262,6 +258,27 @@ std::vector<Problem> Plan::refused_ends() const {
         }
       }
     }
+  }
+  return notes;
+}
+
+std::vector<Problem> Plan::short_runs() const {
+  constexpr double kPeriods = 3;  // as report/verdict/evidence.h
+  std::vector<Problem> notes;
+  for (const Parameter& p : study_.parameters) {
+    if (!p.sets.empty() || p.words || !p.key.starts_with("cpg.") || p.key.find("frequency") == std::string::npos) continue;
+    double least = p.low;  // Hz
+    for (const std::string& value : p.values)
+      least = &value == &p.values.front() ? number_of(value) : std::min(least, number_of(value));
+    double shortest = longest();
+    for (const StudyScenario& one : scenarios_) shortest = std::min(shortest, one.nominal.duration);
+    constexpr double kRounding = 1 - 1e-9;
+    if (!(least > 0) || shortest * least >= kPeriods * kRounding) continue;
+    notes.push_back(
+        {p.place, fmt::format("a gait of {} Hz has {:.2g} periods in {} s; without a limit cycle a verdict needs {:g}: "
+                              "take duration={:.4g}, or a low of {:.3g}",
+                              number_text(least), shortest * least, number_text(shortest), kPeriods, kPeriods / least,
+                              kPeriods / shortest)});
   }
   return notes;
 }
@@ -328,9 +345,10 @@ void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording
     return;
   }
   Judged judged = measure(scenario, recording);
-  row.figures = std::move(judged.figures);
+  row.quantities = std::move(judged.quantities);
   row.verdict = std::move(judged.verdict);
-  row.score = judge_->score(scenario, row.figures);
+  row.message = std::move(judged.why);
+  row.score = judge_->score(row.quantities, row.verdict);
 }
 
 std::string Plan::definition() const {
@@ -352,11 +370,11 @@ std::string Plan::definition() const {
   for (const Limit& limit : judge_->limits()) text += fmt::format("{}: {}\n", limit.guard ? "guard" : "constraint", limit.text);
   for (const std::string& stop : stops_->texts()) text += "stop: " + stop + "\n";
   std::string columns;
-  for (const FigureName& column : columns_) columns += column.name + "\n";
-  for (const FigureName& column : columns_) {
-    if (column.name.ends_with("]")) text += "figure: " + column.name + "\n";
+  for (const Quantity& column : columns_) columns += column.name + "\n";
+  for (const Quantity& column : columns_) {
+    if (column.name.ends_with("]")) text += "quantity: " + column.name + "\n";
   }
-  return text + "figures: " + digest(columns) + "\n";
+  return text + "quantities: " + digest(columns) + "\n";
 }
 
 JournalHead Plan::head() const {
@@ -377,7 +395,7 @@ JournalHead Plan::head() const {
   for (const Parameter& p : study_.parameters)
     head.parameters.push_back({p.key, p.words, false, p.low, p.high, p.log, p.values});
   for (const Variation& v : study_.replicates.vary) head.parameters.push_back({v.key, v.words, true, 0, 0, false, v.values});
-  head.figures = columns_;
+  head.quantities = columns_;
   for (const std::size_t column : shown_) head.shown.push_back(columns_[column].name);
   head.limits = limits_;
   head.guarded = study_.guarded;

@@ -17,7 +17,7 @@ namespace gaitlab::studies {
 class Plan {
  public:
   /// Reads the scenarios and checks the study against each. InputError with every problem found, before anything runs.
-  Plan(Study study, const FigureOffer& offer, Catalog& catalog);
+  Plan(Study study, const QuantityOffer& offer, Catalog& catalog);
 
   [[nodiscard]] const Study& study() const { return study_; }
   /// The first scenario, with the study's own settings.
@@ -32,10 +32,10 @@ class Plan {
   [[nodiscard]] const StopRules& stops() const { return *stops_; }
   /// Ends of parameters that a scenario refuses, its other keys as they are.
   [[nodiscard]] std::vector<Problem> refused_ends() const;
-  /// The same with all guards as they are by default: what makes a winner without guards suspect.
-  [[nodiscard]] const Judge& gait_judge() const { return *gait_judge_; }
-  [[nodiscard]] const std::vector<FigureName>& columns() const { return columns_; }
-  /// Figures to show, by column: those that the study's patterns name, in the order of the patterns; without any the speed.
+  /// Parameters whose slowest gait does not have the three periods in the run that a verdict needs.
+  [[nodiscard]] std::vector<Problem> short_runs() const;
+  [[nodiscard]] const std::vector<Quantity>& columns() const { return columns_; }
+  /// Quantities to show, by column: those that the study's patterns name, in the order of the patterns; without any the speed.
   [[nodiscard]] const std::vector<std::size_t>& shown() const { return shown_; }
 
   /// The next point of a study whose points are chosen by what came out, or by another program.
@@ -75,9 +75,9 @@ class Plan {
   void check_corners(std::size_t scenario, Problems& problems) const;
   void check_own_names(std::size_t scenario, Problems& problems) const;
   void find_nominal(StudyScenario& scenario, Problems& problems) const;
-  void find_columns(const FigureOffer& offer, Problems& problems);
+  void find_columns(const QuantityOffer& offer, Problems& problems);
   void choose_shown(Problems& problems);
-  void make_judges(const FigureOffer& offer, const Catalog& catalog, Problems& problems);
+  void make_judges(const QuantityOffer& offer, const Catalog& catalog, Problems& problems);
 
   Study study_;
   std::vector<StudyScenario> scenarios_;
@@ -85,8 +85,8 @@ class Plan {
   std::string scenario_digest_;
   Points points_;
   std::unique_ptr<Followers> followers_;
-  std::vector<FigureName> columns_;
-  std::unique_ptr<Judge> judge_, gait_judge_;
+  std::vector<Quantity> columns_;
+  std::unique_ptr<Judge> judge_;
   std::unique_ptr<StopRules> stops_;
   std::vector<std::size_t> shown_;
   std::vector<Limit> limits_;  ///< that are the same in every scenario

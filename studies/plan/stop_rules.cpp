@@ -9,24 +9,24 @@
 
 namespace gaitlab::studies {
 
-StopRules::StopRules(const Study& study, const FigureOffer& offer, const std::vector<std::string>& joints, Problems& problems)
+StopRules::StopRules(const Study& study, const QuantityOffer& offer, const std::vector<std::string>& joints, Problems& problems)
     : offer_(offer) {
-  const auto is_of = [](const std::vector<FigureName>& figures, const std::string& name) {
-    return std::ranges::find(figures, name, &FigureName::name) != figures.end();
+  const auto is_of = [](const std::vector<Quantity>& quantities, const std::string& name) {
+    return std::ranges::find(quantities, name, &Quantity::name) != quantities.end();
   };
   const Names names = [&](const std::string& name, const std::string& joint) -> Naming {
     const bool of_joint = !joint.empty();
     if (!is_of(of_joint ? offer.of_joints : offer.common, name))
-      return {{}, "unknown figure " + in_quotes(name) + gaitlab::offer(name, offer.so_far, "figures")};
+      return {{}, "unknown quantity " + in_quotes(name) + gaitlab::offer(name, offer.so_far, "quantities")};
     if (of_joint && std::ranges::find(joints, joint) == joints.end())
       return {{}, "no joint is called " + in_quotes(joint) + gaitlab::offer(joint, joints, "joints")};
     if (std::ranges::find(offer.so_far, name) == offer.so_far.end())
       return {{},
               fmt::format("{} is known when a run has ended; while it runs there are {}", name, fmt::join(offer.so_far, ", "))};
-    const std::pair figure{name, joint};
-    const auto at = std::ranges::find(figures_, figure);
-    const auto number = static_cast<std::size_t>(at - figures_.begin());
-    if (at == figures_.end()) figures_.push_back(figure);
+    const std::pair quantity{name, joint};
+    const auto at = std::ranges::find(quantities_, quantity);
+    const auto number = static_cast<std::size_t>(at - quantities_.begin());
+    if (at == quantities_.end()) quantities_.push_back(quantity);
     return {number};
   };
   for (const StopText& stop : study.stops) {
@@ -41,7 +41,7 @@ std::string StopRules::reason(const Scenario& scenario, const Recording& so_far)
   for (const Rule& rule : rules_) {
     if (so_far.simulated < rule.after) continue;
     if (values.empty()) {
-      for (const auto& [name, joint] : figures_) values.push_back(offer_.value_so_far(name, joint, scenario, so_far));
+      for (const auto& [name, joint] : quantities_) values.push_back(offer_.value_so_far(name, joint, scenario, so_far));
     }
     const double holds = rule.when.value(values);
     if (std::isfinite(holds) && holds != 0) return fmt::format("stopped by {} at t = {:.6g} s", rule.text, so_far.simulated);

@@ -10,8 +10,8 @@ namespace gaitlab::studies {
 /// The rules of a study, as `stop: [fell, "saturated.voltage > 0.3 after 4"]` says them.
 class StopRules {
  public:
-  /// Faults of expressions, and figures that are not known while a run goes on, are problems at their places.
-  StopRules(const Study& study, const FigureOffer& offer, const std::vector<std::string>& joints, Problems& problems);
+  /// Faults of expressions, and quantities that are not known while a run goes on, are problems at their places.
+  StopRules(const Study& study, const QuantityOffer& offer, const std::vector<std::string>& joints, Problems& problems);
 
   [[nodiscard]] bool empty() const { return rules_.empty(); }
   /// `stopped by RULE at t = 4 s`, of the first rule that holds of what is recorded so far (Simulation::watch); "": none does.
@@ -26,8 +26,8 @@ class StopRules {
     Formula when;
   };
   std::vector<Rule> rules_;
-  std::vector<std::pair<std::string, std::string>> figures_;  ///< names and joints, by their number in the formulas
-  FigureOffer offer_;
+  std::vector<std::pair<std::string, std::string>> quantities_;  ///< names and joints, by their number in the formulas
+  QuantityOffer offer_;
 };
 
 }  // namespace gaitlab::studies

@@ -150,10 +150,11 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
   if (stop_lines(head.definition) != stop_lines(plan.definition()))
     refuse("is of a study with other rules for stopping runs; its runs may have ended at other times");
   const std::vector<std::string> names = journal_->columns().all();
-  for (const FigureName& figure : plan.columns()) {
-    const auto at = std::ranges::find(head.figures, figure.name, &FigureName::name);
-    if (at == head.figures.end()) refuse("lacks the figure " + in_quotes(figure.name) + ", which this study needs");
-    figures_.push_back(column(names, journal_->columns().figures[static_cast<std::size_t>(at - head.figures.begin())]));
+  for (const Quantity& quantity : plan.columns()) {
+    const auto at = std::ranges::find(head.quantities, quantity.name, &Quantity::name);
+    if (at == head.quantities.end()) refuse("lacks the quantity " + in_quotes(quantity.name) + ", which this study needs");
+    quantities_.push_back(
+        column(names, journal_->columns().quantities[static_cast<std::size_t>(at - head.quantities.begin())]));
   }
   // By key; where the other study has other keys, its points have other names and none is found.
   std::vector<std::string> keys;
@@ -196,8 +197,8 @@ std::optional<Row> Answers::find(const Row& wanted) {
   row.simulated = number_of(there[simulated_]);
   row.verdict = there[verdict_];
   if (row.outcome != "done") return row;
-  for (const std::size_t k : figures_) row.figures.push_back(there[k].empty() ? std::nan("") : number_of(there[k]));
-  row.score = plan_.judge().score(plan_.scenario(wanted.run), row.figures);
+  for (const std::size_t k : quantities_) row.quantities.push_back(there[k].empty() ? std::nan("") : number_of(there[k]));
+  row.score = plan_.judge().score(row.quantities, row.verdict);
   return row;
 }
 

@@ -17,7 +17,7 @@ namespace gaitlab::studies {
 class Answers {
  public:
   /// `journal`: study.db, or the folder that holds it. The plan must outlive it. InputError: it is not a journal; it lacks a
-  /// figure that this study needs; its rules for stopping are others; another build wrote it than `build`, unless `any` is
+  /// quantity that this study needs; its rules for stopping are others; another build wrote it than `build`, unless `any` is
   /// taken.
   Answers(const Plan& plan, std::filesystem::path journal, const std::string& build, Journal::Build taken);
 
@@ -29,8 +29,8 @@ class Answers {
 
   const Plan& plan_;
   std::unique_ptr<Journal> journal_;
-  std::map<std::string, std::uint64_t> runs_;  ///< by point, replicate, seed and scenario
-  std::vector<std::size_t> values_, figures_;  ///< columns there of this study's
+  std::map<std::string, std::uint64_t> runs_;     ///< by point, replicate, seed and scenario
+  std::vector<std::size_t> values_, quantities_;  ///< columns there of this study's
   std::size_t outcome_ = 0, message_ = 0, simulated_ = 0, verdict_ = 0;
 };
 

@@ -10,7 +10,7 @@ using Json = nlohmann::json;
 
 Json json_of(const Row& row) {
   Json json = Json::array({row.run, row.point, row.scenario, row.replicate, row.seed, row.outcome, row.message, row.simulated,
-                           row.values, row.figures, row.verdict, nullptr});
+                           row.values, row.quantities, row.verdict, nullptr});
   if (row.score) json.back() = Json::array({row.score->objectives, row.score->violation});
   return json;
 }
@@ -28,7 +28,7 @@ Row row_of(const Json& json) {
   take(row.message);
   take(row.simulated);
   take(row.values);
-  take(row.figures);
+  take(row.quantities);
   take(row.verdict);
   if (const Json& score = json.at(at); !score.is_null()) {
     row.score.emplace();

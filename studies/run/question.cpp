@@ -96,7 +96,7 @@ Question read_question(const std::string& line, const SourceLocation& place, con
 }
 
 std::string answer(const Question& question, const JournalHead& head, std::span<const Brief> runs,
-                   std::span<const std::vector<std::string>> figures) {
+                   std::span<const std::vector<std::string>> quantities) {
   std::string text = fmt::format(R"({{"id":{})", question.id);
   const auto failed = std::ranges::find_if(runs, [](const Brief& run) { return run.outcome != "done"; });
   const bool done = !runs.empty() && failed == runs.end();
@@ -107,19 +107,19 @@ std::string answer(const Question& question, const JournalHead& head, std::span<
     if (!done) text += R"(,"message":)" + json_text(failed->message);
   }
   text += R"(,"figures":{)";
-  for (std::size_t k = 0; done && k < head.figures.size(); ++k) {
+  for (std::size_t k = 0; done && k < head.quantities.size(); ++k) {
     std::string values;
-    for (const std::vector<std::string>& row : figures)
+    for (const std::vector<std::string>& row : quantities)
       values += (values.empty() ? "" : ",") + (row[k].empty() ? "null" : json_number(number_of(row[k])));
     if (head.replicates > 1) values = "[" + values + "]";
-    text += (k == 0 ? "" : ",") + json_text(head.figures[k].name) + ":" + values;
+    text += (k == 0 ? "" : ",") + json_text(head.quantities[k].name) + ":" + values;
   }
   const PointResult point = done ? point_result(head, runs) : PointResult{};
   text += R"(},"objective":[)";
   for (std::size_t k = 0; k < head.objectives.size(); ++k)
     text += (k == 0 ? "" : ",") + (done ? json_number(point.score.objectives[k]) : "null");
-  text += fmt::format(R"(],"violation":{},"feasible":{}}})", done ? json_number(point.score.violation) : "null",
-                      done && point.feasible());
+  text += fmt::format(R"(],"violation":{},"kept":{},"feasible":{}}})", done ? json_number(point.score.violation) : "null",
+                      done && point.kept(), done && point.feasible());
   return text;
 }
 

@@ -20,9 +20,10 @@ struct Question {
 /// unknown or not of its kind. A value beyond what the study allows is a point that is refused.
 Question read_question(const std::string& line, const SourceLocation& place, const std::vector<Parameter>& parameters);
 
-/// What is told of a point: runs in the order of replicates with their figures, one row of values each by column; none: it was
-/// refused. With several replicates each figure is a list. Numbers are the shortest that give the same double; not known: null.
+/// What is told of a point: runs in the order of replicates with their quantities, one row of values each by column; none: it
+/// was refused. With several replicates each quantity is a list. Numbers are the shortest that give the same double; not known:
+/// null.
 std::string answer(const Question& question, const JournalHead& head, std::span<const Brief> runs,
-                   std::span<const std::vector<std::string>> figures);
+                   std::span<const std::vector<std::string>> quantities);
 
 }  // namespace gaitlab::studies

@@ -26,7 +26,7 @@ std::string utc_now() {
                      utc.tm_min, utc.tm_sec);
 }
 
-Brief brief(const Row& row) { return {row.run, row.outcome, row.message, row.simulated, row.score}; }
+Brief brief(const Row& row) { return {row.run, row.outcome, row.message, row.simulated, row.score, row.verdict}; }
 
 }  // namespace
 
@@ -117,8 +117,9 @@ void Runner::forget_stopped() {
 void Standing::add(const Brief& run, bool maximize) {
   ++ended;
   if (run.outcome != "done") ++failed;
-  if (!run.score || !run.score->feasible()) return;
-  ++feasible;
+  if (run.verdict == "feasible") ++feasible;
+  if (!run.score || !run.score->kept()) return;
+  ++kept;
   const double value = run.score->objective();
   const bool better = !best || (maximize ? value > best->objective() : value < best->objective()) ||
                       (value == best->objective() && run.run < best_run);

@@ -18,8 +18,8 @@ struct Standing {
   std::uint64_t wanted = 0;  ///< of this shard
   std::uint64_t ended = 0;   ///< have a row
   std::uint64_t before = 0;  ///< of these, had one when it began
-  std::uint64_t feasible = 0, failed = 0;
-  std::optional<Score> best;  ///< of feasible runs, by the first objective
+  std::uint64_t kept = 0, feasible = 0, failed = 0;
+  std::optional<Score> best;  ///< of kept runs, by the first objective
   std::uint64_t best_run = 0;
   [[nodiscard]] bool whole() const { return ended == wanted; }
   void add(const Brief& run, bool maximize);

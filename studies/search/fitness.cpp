@@ -7,7 +7,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-constexpr double kInfeasible = 1e6, kFailed = 2e6;
+constexpr double kNotKept = 1e6, kFailed = 2e6;
 constexpr double kMost = 1e5;  // of an objective as it is, and of a violation
 
 double pressed(double value) {
@@ -15,7 +15,7 @@ double pressed(double value) {
   return size <= kMost ? value : std::copysign(kMost * (9 - 8 * (kMost / size)), value);
 }
 
-double kind(double fitness) { return fitness >= kFailed ? kFailed : fitness >= kInfeasible ? kInfeasible : 0; }
+double kind(double fitness) { return fitness >= kFailed ? kFailed : fitness >= kNotKept ? kNotKept : 0; }
 
 }  // namespace
 
@@ -25,8 +25,8 @@ std::vector<double> fitness(const PointResult& point, const std::vector<JournalO
     const double value = point.score.objectives[k];
     if (point.failed > 0) {
       values.push_back(kFailed + 1 - std::clamp(point.lived / duration, 0.0, 1.0));
-    } else if (!point.feasible() || std::isnan(value)) {
-      values.push_back(kInfeasible + std::min(std::isnan(point.score.violation) ? kMost : point.score.violation, kMost));
+    } else if (!point.kept() || std::isnan(value)) {
+      values.push_back(kNotKept + std::min(std::isnan(point.score.violation) ? kMost : point.score.violation, kMost));
     } else {
       values.push_back(pressed(objectives[k].maximize ? -value : value));
     }

@@ -6,12 +6,12 @@
 
 namespace gaitlab::studies {
 
-/// By objective, less is better: of a feasible point its objective (with the other sign where most is wanted), beyond +-1e5
-/// pressed together below 9e5; of an infeasible one 1e6 + its violation, at most 1e5; of one that failed 2e6 + 1 - the share of
-/// its duration (s) that it lived.
+/// By objective, less is better: of a kept point its objective (with the other sign where most is wanted), beyond +-1e5
+/// pressed together below 9e5; of one that is not kept 1e6 + its violation, at most 1e5; of one that failed 2e6 + 1 - the share
+/// of its duration (s) that it lived.
 std::vector<double> fitness(const PointResult& point, const std::vector<JournalObjective>& objectives, double duration);
 
-/// By how much a value is better than a former best, as a share of that; of a better kind (feasible, infeasible, failed): 1.
+/// By how much a value is better than a former best, as a share of that; of a better kind (kept, not kept, failed): 1.
 double fitness_gain(double former, double value);
 
 }  // namespace gaitlab::studies

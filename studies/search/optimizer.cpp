@@ -145,17 +145,17 @@ class Optimizer {
                    .runs = course.added * plan_.points().runs_of_point(),
                    .points = course.points.size(),
                    .spread = course.search.spread()};
-      std::vector<double> feasible;
+      std::vector<double> kept;
       for (const std::uint64_t point : course.points) {
         const PointResult one = result(point);
         values.push_back(fitness(one, journal_.head().objectives, plan_.longest()));
-        if (one.feasible()) feasible.push_back(one.score.objective());
+        if (one.kept()) kept.push_back(one.score.objective());
       }
-      g.feasible = feasible.size();
-      if (!feasible.empty()) {
+      g.kept = kept.size();
+      if (!kept.empty()) {
         const bool maximize = plan_.study().objectives.front().maximize;
-        g.best = maximize ? std::ranges::max(feasible) : std::ranges::min(feasible);
-        g.median = combined(std::move(feasible), "median", 0.5);
+        g.best = maximize ? std::ranges::max(kept) : std::ranges::min(kept);
+        g.median = combined(std::move(kept), "median", 0.5);
       }
       generations.push_back(g);
       course.search.tell(values);

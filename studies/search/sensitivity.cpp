@@ -156,8 +156,8 @@ struct Output {
 };
 
 std::string unit_of(const JournalHead& head, const std::string& name) {
-  const auto figure = std::ranges::find(head.figures, name, &FigureName::name);
-  return figure == head.figures.end() ? "" : figure->unit;
+  const auto quantity = std::ranges::find(head.quantities, name, &Quantity::name);
+  return quantity == head.quantities.end() ? "" : quantity->unit;
 }
 
 /// Mean over the replicates of each point; not known where one does not know it.
@@ -211,20 +211,20 @@ std::vector<Sensitivity> sensitivities(Journal& journal, const Results& results)
   if (keys.empty() || all > kMostPoints) return {};
   const auto points = static_cast<std::size_t>(all);
   std::vector<Output> outputs;
-  std::uint64_t infeasible = 0;
+  std::uint64_t not_kept = 0;
   for (const JournalObjective& objective : head.objectives)
     outputs.push_back({objective.expression, unit_of(head, objective.expression), std::vector<double>(points, kNone)});
   for (const PointResult& point : results.points) {
     const std::size_t number = point.first_run / head.replicates;
     if (point.failed > 0 || number >= points) continue;
-    infeasible += point.feasible() ? 0 : 1;
+    not_kept += point.kept() ? 0 : 1;
     for (std::size_t k = 0; k < head.objectives.size(); ++k) outputs[k].values[number] = point.score.objectives[k];
   }
   for (const std::string& name : head.shown) {
     if (std::ranges::find(outputs, name, &Output::name) != outputs.end()) continue;
-    const auto at = std::ranges::find(head.figures, name, &FigureName::name) - head.figures.begin();
+    const auto at = std::ranges::find(head.quantities, name, &Quantity::name) - head.quantities.begin();
     outputs.push_back(
-        {name, unit_of(head, name), means(journal, journal.columns().figures[static_cast<std::size_t>(at)], points)});
+        {name, unit_of(head, name), means(journal, journal.columns().quantities[static_cast<std::size_t>(at)], points)});
   }
   std::vector<Sensitivity> found;
   for (const Output& output : outputs) {
@@ -233,7 +233,7 @@ std::vector<Sensitivity> sensitivities(Journal& journal, const Results& results)
     one.output = output.name;
     one.unit = output.unit;
     one.parameters = keys;
-    one.infeasible = infeasible;
+    one.not_kept = not_kept;
     one.unusable =
         static_cast<std::uint64_t>(std::ranges::count_if(output.values, [](double value) { return !std::isfinite(value); }));
     found.push_back(std::move(one));

@@ -23,13 +23,13 @@ struct Measure95 {
 };
 
 struct Sensitivity {
-  std::string output;                   ///< the figure or expression that answers
+  std::string output;                   ///< the quantity or expression that answers
   std::string unit;                     ///< of it
   std::vector<std::string> parameters;  ///< keys
   std::vector<Measure95> measures;      ///< the first orders the parameters
   std::uint64_t blocks = 0, used = 0;   ///< trajectories or rows of the study; those all of whose points have a value
-  std::uint64_t unusable = 0;           ///< points without one: failed, or the figure is not known
-  std::uint64_t infeasible = 0;         ///< points that are infeasible and count all the same
+  std::uint64_t unusable = 0;           ///< points without one: failed, or the quantity is not known
+  std::uint64_t not_kept = 0;           ///< points that are not kept and count all the same
 };
 
 /// Elementary effects (Morris 1991) by point, in the output's unit per whole range of a parameter: `mu_star`, the mean of their
@@ -43,7 +43,7 @@ Sensitivity morris(std::uint64_t seed, std::size_t parameters, std::span<const d
 Sensitivity sobol_indices(std::size_t parameters, std::span<const double> values);
 
 /// Of a journal whose method is `morris` or `sobol_indices`: of its objectives (as its replicates are combined), and of the
-/// figures shown beside (the mean over the replicates). None: another method.
+/// quantities shown beside (the mean over the replicates). None: another method.
 std::vector<Sensitivity> sensitivities(Journal& journal, const Results& results);
 
 }  // namespace gaitlab::studies

@@ -54,18 +54,14 @@ double apart(const Study& study, const std::vector<std::string>& a, const std::v
   return most;
 }
 
-/// What a verdict that is infeasible rests on, as far as figures tell.
-std::string verdict_text(const Plan& plan, const Scenario& scenario, const std::vector<double>& figures) {
-  const std::vector<std::string> broken = plan.gait_judge().broken(scenario, figures);
-  return "the verdict is infeasible" + (broken.empty() ? "" : fmt::format(": {}", fmt::join(broken, ", ")));
-}
+/// The sentence on an infeasible verdict. `why`: the sentence behind it.
+std::string verdict_text(const std::string& why) { return "the verdict is infeasible" + (why.empty() ? "" : ": " + why); }
 
 /// `in rubble: ` of a row, where the study has several scenarios.
 std::string in_scenario(const Row& row) { return row.scenario.empty() ? "" : "in " + row.scenario + ": "; }
 
-/// Why a point does not stand, or "". `jobs`: of the rows.
-std::string reason(const Plan& plan, const std::vector<Row>& rows, std::span<const Job> jobs, const PointResult& was,
-                   const PointResult& is) {
+/// Why a point does not stand, or "".
+std::string reason(const Plan& plan, const std::vector<Row>& rows, const PointResult& was, const PointResult& is) {
   std::string why;
   const auto add = [&](const std::string& text) { why += (why.empty() ? "" : "; ") + text; };
   for (const Row& row : rows) {
@@ -78,13 +74,14 @@ std::string reason(const Plan& plan, const std::vector<Row>& rows, std::span<con
       add(fmt::format("{} is {:.4g} instead of {:.4g}, beyond the {:.3g} % of verify.change",
                       clipped(plan.judge().objectives()[k]), now, then, 100 * plan.study().verify.change));
   }
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const Row& row = rows[k];
+  for (const Row& row : rows) {
     const bool breaks = is.score.violation > 0 && row.score && row.score->violation > 0;
     if (!breaks && row.verdict != "infeasible") continue;
-    const Scenario scenario = plan.with(jobs[k].sets, jobs[k].scenario);
-    if (breaks) add(in_scenario(row) + fmt::format("{}", fmt::join(plan.judge().broken(scenario, row.figures), ", ")));
-    if (row.verdict == "infeasible") add(in_scenario(row) + verdict_text(plan, scenario, row.figures));
+    const std::vector<std::string> broken = plan.judge().broken(row.quantities, row.verdict, row.message);
+    const std::string of_verdict = row.verdict + (row.message.empty() ? "" : ": " + row.message);
+    if (breaks) add(in_scenario(row) + fmt::format("{}", fmt::join(broken, ", ")));
+    const bool said = breaks && std::ranges::find(broken, of_verdict) != broken.end();
+    if (row.verdict == "infeasible" && !said) add(in_scenario(row) + verdict_text(row.message));
     break;  // of several replicates the first
   }
   return why;
@@ -102,13 +99,8 @@ Verification as_run(const Plan& plan, Journal& journal, const PointResult& point
     const std::string& word = row[place("verdict")];
     if (own.verdict.empty()) own.verdict = word;
     if (word != "infeasible" || !own.reason.empty()) continue;
-    std::vector<double> figures;
-    for (const std::string& column : journal.columns().figures) {
-      const std::string& cell = row[place(column)];
-      figures.push_back(cell.empty() ? std::nan("") : number_of(cell));
-    }
     own.verdict = word;
-    own.reason = in_scenario(plan.row(run)) + verdict_text(plan, plan.scenario(run), figures);
+    own.reason = in_scenario(plan.row(run)) + verdict_text(row[place("message")]);
   }
   for (std::size_t k = 0; k < plan.study().objectives.size(); ++k) own.objectives.push_back(point.score.objectives[k]);
   return own;
@@ -130,7 +122,7 @@ std::vector<std::size_t> candidates(const Plan& plan, const Results& results) {
   }
   const auto values = [&](std::size_t k) { return plan.points().values(plan.points().point(results.points[k].first_run)); };
   for (const std::size_t k : ranked(results.points, objectives.front().maximize)) {
-    if (chosen.size() == most || !results.points[k].feasible()) break;
+    if (chosen.size() == most || !results.points[k].kept()) break;
     const auto near = [&](std::size_t other) { return apart(plan.study(), values(k), values(other)) <= kApart; };
     if (std::ranges::none_of(chosen, near)) chosen.push_back(k);
   }
@@ -182,14 +174,9 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
                            rows.begin() + static_cast<std::ptrdiff_t>(at + runs_of_point));
       std::vector<Brief> briefs;
       for (std::size_t r = 0; r < runs_of_point; ++r)
-        briefs.push_back({point.first_run + r, own[r].outcome, own[r].message, own[r].simulated, own[r].score});
+        briefs.push_back({point.first_run + r, own[r].outcome, own[r].message, own[r].simulated, own[r].score, own[r].verdict});
       const PointResult is = point_result(journal.head(), briefs);
-      Verification v{point.first_run,
-                     way.what,
-                     {},
-                     is.score.violation,
-                     own.front().verdict,
-                     reason(plan, own, std::span(jobs).subspan(at, runs_of_point), point, is)};
+      Verification v{point.first_run, way.what, {}, is.score.violation, own.front().verdict, reason(plan, own, point, is)};
       for (const Row& row : own) {
         if (row.verdict == "infeasible") v.verdict = row.verdict;
       }

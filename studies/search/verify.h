@@ -5,12 +5,12 @@
 
 namespace gaitlab::studies {
 
-/// The points to try: feasible, the best first, each further than 1 % of the box from those before it. Of a front those that
-/// divide it evenly, its ends included.
+/// The points to try: those that are kept, the best first, each further than 1 % of the box from those before it. Of a front
+/// those that divide it evenly, its ends included.
 std::vector<std::size_t> candidates(const Plan& plan, const Results& results);
 
 /// Tries each again, as the study's `verify` says: with half the step, and in another engine with that one's step. It stands
-/// where it comes to its end, stays feasible, its objectives change by at most `change`, and no verdict, that of the point's
+/// where it comes to its end, is kept, its objectives change by at most `change`, and no verdict, that of the point's
 /// own runs included, is `infeasible`. By point, then by what was tried; the first of each point is what its own runs were (`as
 /// run`). `told`: how many of the runs have ended, one call at a time. Nothing: `stop` was set.
 std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journal, const Results& results,

@@ -55,12 +55,12 @@ void Formula::check(Term& term, const Names& names, const Node& node, Problems& 
   }
 }
 
-double Formula::value(const Term& term, std::span<const double> figures) {
+double Formula::value(const Term& term, std::span<const double> quantities) {
   if (term.kind == Term::Kind::number) return term.number;
-  if (term.kind == Term::Kind::name) return figures[static_cast<std::size_t>(term.number)];
+  if (term.kind == Term::Kind::name) return quantities[static_cast<std::size_t>(term.number)];
   std::array<double, 3> operands{};
   for (std::size_t k = 0; k < term.arguments.size(); ++k) {
-    operands[k] = value(term.arguments[k], figures);
+    operands[k] = value(term.arguments[k], quantities);
     // A comparison with what is not known would be false, and what was meant to forbid it would not.
     if (std::isnan(operands[k])) return std::numeric_limits<double>::quiet_NaN();
   }
@@ -69,10 +69,10 @@ double Formula::value(const Term& term, std::span<const double> figures) {
   return result;
 }
 
-bool Formula::names(const Term& term, const std::string& figure) {
-  if (term.kind == Term::Kind::name && term.name == figure) return true;
+bool Formula::names(const Term& term, const std::string& quantity) {
+  if (term.kind == Term::Kind::name && term.name == quantity) return true;
   for (const Term& argument : term.arguments) {
-    if (names(argument, figure)) return true;
+    if (names(argument, quantity)) return true;
   }
   return false;
 }

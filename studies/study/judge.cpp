@@ -12,39 +12,19 @@ namespace gaitlab::studies {
 
 namespace {
 
-constexpr double kTrackingFails = 2;  // times limits.tracking_error, where the verdict says no
-
-constexpr Guard kGuards[] = {
-    {"judged.saturated.voltage", false, [](const Limits& l) { return l.saturated_share; }, "limits.saturated_share"},
-    {"judged.saturated.current", false, [](const Limits& l) { return l.saturated_share; }, "limits.saturated_share"},
-    {"range.share", false, [](const Limits& l) { return l.beyond_range_share; }, "limits.beyond_range_share"},
-    {"range.setpoint_share", false, [](const Limits&) { return 0.0; }, ""},
-    {"judged.tracking_error.peak", false, [](const Limits& l) { return kTrackingFails * l.tracking_error; },
-     "twice limits.tracking_error"},
-    {"limit_cycle.found", true, [](const Limits&) { return 1.0; }, ""},
-    {"airborne_share", false, [](const Limits&) { return 0.0; }, ""},
-    {"fell", false, [](const Limits&) { return 0.0; }, ""},
-    {"energy.residual_share", false, [](const Limits& l) { return l.energy_residual; }, "limits.energy_residual"},
-    {"verdict_excess", false, [](const Limits&) { return 0.0; }, ""},
-    {"energy.created_share", false, [](const Limits& l) { return l.energy_created; },
-     "limits.energy_created, where the objective names cost_of_transport.electrical"},
-};
-
 std::string full(const std::string& name, const std::string& joint) { return joint.empty() ? name : name + "[" + joint + "]"; }
 
-std::size_t column_of(const std::vector<FigureName>& columns, const std::string& name) {
-  return static_cast<std::size_t>(std::ranges::find(columns, name, &FigureName::name) - columns.begin());
+std::size_t column_of(const std::vector<Quantity>& columns, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(columns, name, &Quantity::name) - columns.begin());
 }
 
-std::vector<std::string> names_of(const std::vector<FigureName>& figures) {
+std::vector<std::string> names_of(const std::vector<Quantity>& quantities) {
   std::vector<std::string> names;
-  for (const FigureName& figure : figures) names.push_back(figure.name);
+  for (const Quantity& quantity : quantities) names.push_back(quantity.name);
   return names;
 }
 
 }  // namespace
-
-std::span<const Guard> guards() { return kGuards; }
 
 double broken(double value, double limit, bool least) {
   if (std::isnan(value) || std::isnan(limit)) return 1;
@@ -52,20 +32,21 @@ double broken(double value, double limit, bool least) {
   return limit == 0 ? beyond : beyond / std::abs(limit);
 }
 
-double broken(const Formula& relation, std::span<const double> figures, bool guard) {
-  const double a = relation.operand(0, figures);
-  const double b = relation.operand(1, figures);
+double broken(const Formula& relation, std::span<const double> quantities, bool guard) {
+  const double a = relation.operand(0, quantities);
+  const double b = relation.operand(1, quantities);
   if (guard && std::isnan(a)) return 0;
   const double above = relation.compares(">=") ? 0 : broken(a, b, false);
   const double below = relation.compares("<=") ? 0 : broken(a, b, true);
   return std::max(above, below);
 }
 
-std::vector<FigureName> columns_of(const Study& study, const FigureOffer& offer, const std::vector<std::string>& joints) {
-  std::vector<FigureName> columns = offer.common;
-  const auto add = [&](const FigureName& figure, const std::string& joint) {
-    const std::string name = full(figure.name, joint);
-    if (column_of(columns, name) == columns.size()) columns.push_back({name, figure.unit, "Of this joint: " + figure.meaning});
+std::vector<Quantity> columns_of(const Study& study, const QuantityOffer& offer, const std::vector<std::string>& joints) {
+  std::vector<Quantity> columns = offer.common;
+  const auto add = [&](const Quantity& quantity, const std::string& joint) {
+    const std::string name = full(quantity.name, joint);
+    if (column_of(columns, name) == columns.size())
+      columns.push_back({name, quantity.unit, "Of this joint: " + quantity.meaning});
   };
   const auto add_named = [&](const Text& text) {
     for (const auto& [name, joint] : named_joints(text.text)) {
@@ -75,20 +56,27 @@ std::vector<FigureName> columns_of(const Study& study, const FigureOffer& offer,
   };
   for (const Objective& objective : study.objectives) add_named(objective.expression);
   for (const Text& text : study.constraints) add_named(text);
-  for (const std::string& pattern : study.figures) {
+  for (const Guard& guard : study.guards) {
+    const auto check = std::ranges::find(offer.checks, guard.check, &CheckOffer::id);
+    if (guard.asks == Guard::Asks::limit && check != offer.checks.end() && check->limited)
+      columns.push_back(
+          {margin_column(guard), "",
+           fmt::format("Margin of check {} against the limit {} of the study.", guard.check, number_text(guard.number))});
+  }
+  for (const std::string& pattern : study.quantities) {
     if (pattern.find('[') == std::string::npos) continue;
-    for (const FigureName& figure : offer.of_joints) {
+    for (const Quantity& quantity : offer.of_joints) {
       for (const std::string& joint : joints) {
-        if (glob(pattern, full(figure.name, joint))) add(figure, joint);
+        if (glob(pattern, full(quantity.name, joint))) add(quantity, joint);
       }
     }
   }
   return columns;
 }
 
-Judge::Judge(const Study& study, const std::vector<FigureName>& columns, const FigureOffer& offer, const Limits& limits,
+Judge::Judge(const Study& study, const std::vector<Quantity>& columns, const QuantityOffer& offer,
              const std::vector<std::string>& joints, Problems& problems)
-    : columns_(columns), offer_(offer), limits_(limits), joints_(joints) {
+    : columns_(columns), offer_(offer), joints_(joints) {
   const Names names = [this](const std::string& name, const std::string& joint) { return find(name, joint); };
   for (const Objective& objective : study.objectives) {
     objectives_.emplace_back(objective.expression, names, problems);
@@ -103,26 +91,8 @@ Judge::Judge(const Study& study, const std::vector<FigureName>& columns, const F
     constraints_.push_back(std::move(formula));
     constraint_texts_.push_back(text.text);
   }
-  read_guards(study, problems);
-}
-
-void Judge::read_guards(const Study& study, Problems& problems) {
-  std::vector<std::string> known;
-  for (const Guard& guard : kGuards) known.emplace_back(guard.figure);
-  for (const GuardLimit& given : study.guards) {
-    if (std::ranges::find(known, given.name) == known.end())
-      problems.add(given.place, "unknown guard " + in_quotes(given.name) + offer(given.name, known, "guards"));
-  }
-  if (!study.guarded) return;
-  for (const Guard& guard : kGuards) {
-    const auto given = std::ranges::find(study.guards, guard.figure, &GuardLimit::name);
-    const bool of_energy = &guard == &kGuards[std::size(kGuards) - 1];
-    const auto of_cost = [](const Formula& f) { return f.names("cost_of_transport.electrical"); };
-    if (of_energy && given == study.guards.end() && std::ranges::none_of(objectives_, of_cost)) continue;
-    Kept kept{&guard, column_of(columns_, guard.figure), {}};
-    if (given != study.guards.end()) kept.limit = given->limit;
-    if (kept.column < columns_.size()) kept_.push_back(kept);
-  }
+  const auto of_cost = [](const Formula& f) { return f.names("cost_of_transport.electrical"); };
+  guards_ = Guards(study, names_of(columns_), offer.checks, std::ranges::any_of(objectives_, of_cost), problems);
 }
 
 Naming Judge::find(const std::string& name, const std::string& joint) const {
@@ -133,53 +103,40 @@ Naming Judge::find(const std::string& name, const std::string& joint) const {
     return {{}, "no joint is called " + in_quotes(joint) + offer(joint, joints_, "joints")};
   if (!joint.empty() && column_of(columns_, name) < columns_.size())
     return {{}, in_quotes(name) + " is of the whole robot; expected it without [" + clipped(joint) + "]"};
-  return {{},
-          "unknown figure " + in_quotes(name) + offer(name, joint.empty() ? names_of(offer_.common) : of_joints, "figures")};
+  return {
+      {},
+      "unknown quantity " + in_quotes(name) + offer(name, joint.empty() ? names_of(offer_.common) : of_joints, "quantities")};
 }
 
 std::vector<Limit> Judge::limits() const {
   std::vector<Limit> all;
   for (const std::string& text : constraint_texts_) all.push_back({text});
-  for (const Kept& kept : kept_) {
-    all.push_back({fmt::format("{} {} {}", kept.guard->figure,
-                               kept.guard->least ? ">=" : "<=", number_text(kept.limit.value_or(kept.guard->limit(limits_)))),
-                   true});
-  }
+  for (std::string& text : guards_.texts()) all.push_back({std::move(text), true});
   return all;
 }
 
-std::vector<std::string> Judge::broken(const Scenario& scenario, std::span<const double> figures) const {
+std::vector<std::string> Judge::broken(std::span<const double> quantities, const std::string& verdict,
+                                       const std::string& why) const {
   std::vector<std::string> all;
   for (std::size_t k = 0; k < objectives_.size(); ++k) {
-    if (!std::isfinite(objectives_[k].value(figures))) all.push_back(objective_texts_[k] + " is not known");
+    if (!std::isfinite(objectives_[k].value(quantities))) all.push_back(objective_texts_[k] + " is not known");
   }
   for (std::size_t k = 0; k < constraints_.size(); ++k) {
-    if (studies::broken(constraints_[k], figures) > 0)
-      all.push_back(fmt::format("{} ({:.4g})", constraint_texts_[k], constraints_[k].operand(0, figures)));
+    if (studies::broken(constraints_[k], quantities) > 0)
+      all.push_back(fmt::format("{} ({:.4g})", constraint_texts_[k], constraints_[k].operand(0, quantities)));
   }
-  for (const Kept& kept : kept_) {
-    const double value = figures[kept.column];
-    const double limit = kept.limit.value_or(kept.guard->limit(scenario.limits));
-    if (!std::isnan(value) && studies::broken(value, limit, kept.guard->least) > 0)
-      all.push_back(
-          fmt::format("{} {} {} ({:.4g})", kept.guard->figure, kept.guard->least ? ">=" : "<=", number_text(limit), value));
-  }
+  for (std::string& text : guards_.broken(quantities, verdict, why)) all.push_back(std::move(text));
   return all;
 }
 
-Score Judge::score(const Scenario& scenario, std::span<const double> figures) const {
+Score Judge::score(std::span<const double> quantities, const std::string& verdict) const {
   Score score;
   for (std::size_t k = 0; k < objectives_.size(); ++k) {
-    score.objectives[k] = objectives_[k].value(figures);
+    score.objectives[k] = objectives_[k].value(quantities);
     if (!std::isfinite(score.objectives[k])) score.violation += 1;
   }
-  for (const Formula& constraint : constraints_) score.violation += studies::broken(constraint, figures);
-  for (const Kept& kept : kept_) {
-    // Not known is what the run does not have: motors, a ground, or a height to fall from.
-    if (std::isnan(figures[kept.column])) continue;
-    score.violation +=
-        studies::broken(figures[kept.column], kept.limit.value_or(kept.guard->limit(scenario.limits)), kept.guard->least);
-  }
+  for (const Formula& constraint : constraints_) score.violation += studies::broken(constraint, quantities);
+  score.violation += guards_.violation(quantities, verdict);
   return score;
 }
 

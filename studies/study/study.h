@@ -59,15 +59,17 @@ struct Replicates {
 };
 
 struct Objective {
-  Text expression;  ///< empty: the first figure that is shown
+  Text expression;  ///< empty: the first quantity that is shown
   bool maximize = true;
 };
 inline constexpr std::size_t kMostObjectives = 3;
 
-/// Another limit of a guard, or none at all.
-struct GuardLimit {
-  std::string name;
-  double limit = 0;
+/// A guard that the study names: a check of the verdict by its id.
+struct Guard {
+  enum class Asks { limit, margin, kept, nothing };
+  std::string check;
+  Asks asks = Asks::kept;  ///< limit: that `number` replaces the check's own; margin: of at least `number`; kept: of 0
+  double number = 0;
   SourceLocation place = {};
 };
 
@@ -146,11 +148,12 @@ struct Study {
   Replicates replicates;
   std::vector<Objective> objectives{1};  ///< several: none is worth another
   std::vector<Text> constraints;
-  bool guarded = true;
-  std::vector<GuardLimit> guards;
+  bool guarded = true;         ///< by the verdict; false: by nothing
+  std::vector<Guard> guards;   ///< beside the verdict, or otherwise than it
+  std::vector<Problem> notes;  ///< old names, with what to write
   std::vector<StopText> stops;
-  SourceLocation figures_place{"--figure"};
-  std::vector<std::string> figures;  ///< patterns: what is shown
+  SourceLocation quantities_place{"--show"};
+  std::vector<std::string> quantities;  ///< patterns: what is shown
   Method method = Method::grid;
   SearchKeys search;
   Verify verify;

@@ -12,6 +12,7 @@
 #include "core/settings/reader.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
+#include "studies/study/guards.h"
 #include "studies/study/parameter_file.h"
 #include "studies/study/study_keys.h"
 
@@ -104,22 +105,14 @@ void read_stops(const Node& node, Study& study, Problems& problems) {
   }
 }
 
-void read_guards(const Node& node, Study& study, Problems& problems) {
-  if (node.kind == Node::Kind::scalar && (node.text == "gait" || node.text == "none")) {
-    study.guarded = node.text == "gait";
-    return;
-  }
-  if (node.kind != Node::Kind::map) {
-    problems.add(node.place, "guards is " + found(node) + "; expected gait, none, or limits by name: {range.share: 0.1}");
-    return;
-  }
-  for (std::size_t i = 0; i < node.keys.size(); ++i) {
-    const Reading<double> limit = read_number(node.items[i], "");
-    if (limit.ok()) {
-      study.guards.push_back({node.keys[i].first, limit.value, node.keys[i].second});
-    } else {
-      problems.add(node.items[i].place, "guards." + clipped(node.keys[i].first) + " " + limit.wrong);
-    }
+/// Gives keys of earlier editions their present names.
+void rename_old_keys(Node& root, Study& study, Problems& problems) {
+  for (auto& [key, place] : root.keys) {
+    if (key != "figures") continue;
+    if (root.find("quantities") != nullptr)
+      problems.add(place, "figures is the old name of quantities, which is given, too; expected one of them");
+    study.notes.push_back({place, "figures is the old name of quantities"});
+    key = "quantities";
   }
 }
 
@@ -149,14 +142,17 @@ Explainer study_keys() {
                 "How a key of the scenario is drawn; {times: LAW}: as a multiple of the value that the point has.");
   explainer.row("  combine", "", "worst", "mean, worst, median or quantile(Q)",
                 "What the replicates of a point, in all its scenarios, count for together.");
-  explainer.row("objective", "", "{maximize: FIGURE}", "{maximize: EXPRESSION} or {minimize: EXPRESSION}",
-                "What points are ordered by; without it by the first of `figures`. A list of two or three: the points that no "
-                "other is better than in all.");
-  explainer.row("constraints", "", "[]", "texts a <= b, a >= b or a == b", "What a point must keep to be feasible.");
-  explainer.row("guards", "", "gait", "gait, none or {NAME: LIMIT}",
-                "Limits without which the figures of a gait may be those of a numerical accident.");
-  explainer.row("stop", "", "[]", "texts EXPRESSION or EXPRESSION after SECONDS",
-                "Rules that end a run early, asked once every simulated second of figures so far: fell, or what a joint did.");
+  explainer.row(
+      "objective", "", "{maximize: QUANTITY}", "{maximize: EXPRESSION} or {minimize: EXPRESSION}",
+      "What points are ordered by; without it by the first of `quantities`. A list of two or three: the points that no "
+      "other is better than in all.");
+  explainer.row("constraints", "", "[]", "texts a <= b, a >= b or a == b", "What a point must keep.");
+  explainer.row("guards", "", "verdict", "verdict, none or {CHECK: LIMIT, CHECK: {margin: M}, CHECK: true or false}",
+                "Checks of the verdict that a point must keep. verdict: the word `feasible`. Checks by id are asked for beside "
+                "it, or otherwise than it: with another limit, a least margin, at all, or not.");
+  explainer.row(
+      "stop", "", "[]", "texts EXPRESSION or EXPRESSION after SECONDS",
+      "Rules that end a run early, asked once every simulated second of quantities so far: fell, or what a joint did.");
   MethodKeys method{study};
   explainer.group("method", method, "How points are chosen.");
   BudgetKeys budget{study.runs};
@@ -180,8 +176,9 @@ Study read_study(const std::string& file, Purpose purpose) {
   Study study;
   study.asked = purpose == Purpose::evaluate;
   study.file = file;
-  const Node root = read_yaml(file);
+  Node root = read_yaml(file);
   Problems problems;
+  rename_old_keys(root, study, problems);
   Reader reader(root, "the study", problems, nullptr);
   if (!reader.version("gaitlab_study")) problems.raise();
   std::string scenario;
@@ -195,7 +192,7 @@ Study read_study(const std::string& file, Purpose purpose) {
   if (const Node* sets = root.find("set")) {
     for (const Node& set : sets->items) study.set_places.push_back(set.place);
   }
-  if (const Node* figures = root.find("figures")) study.figures_place = figures->place;
+  if (const Node* quantities = root.find("quantities")) study.quantities_place = quantities->place;
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   study.scenario = (folder / scenario).lexically_normal().string();
   if (const Node* node = reader.take("scenarios")) {
@@ -234,7 +231,7 @@ Study read_study(const std::string& file, Purpose purpose) {
 std::string explain_study() {
   return wrapped(
              "A study runs the points of a scenario: `gaitlab sweep STUDY.yaml`; `gaitlab optimize STUDY.yaml` searches the "
-             "best. Expressions name figures as summary.json "
+             "best. Expressions name quantities as summary.json "
              "does, with "
              "dots; one per joint without the joint is its largest, torque.peak[m3/active] that of one. They take + - * / ^, "
              "comparisons, and, or, not, min, max, abs, sqrt, log, if and the other functions of CPG `equations`.") +

@@ -17,8 +17,9 @@ struct PlainKeys {
     f.text("scenario", scenario, "Scenario file, relative to this file; or `scenarios`.");
     f.texts("set", study.sets, "Settings of all runs, as for --set: physics.step=0.001.");
     f.integer("seed", study.seed, {"", 0, 9e15, "Seed of what is drawn: points and replicates."});
-    f.texts("figures", study.figures,
-            "Figures shown in tables and drawn, by name with * and ?; without any the speed. Those of one joint, "
+    f.texts("quantities", study.quantities,
+            "Quantities of a run that are shown in tables and drawn, by name with * and ?; without any the speed. Those of one "
+            "joint, "
             "torque.peak[m3/*], become columns.");
   }
 };

@@ -1,6 +1,6 @@
 // The JSON Schema of a study file, for editors: from the same walks as its reader, and what that reads piece by piece.
 #include "core/settings/schema_fields.h"
-#include "studies/study/judge.h"
+#include "studies/study/guards.h"
 #include "studies/study/study_file.h"
 #include "studies/study/study_keys.h"
 
@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kStudyParts = R"json({
   "scalar": {"type": ["string", "number", "boolean"]},
-  "expression": {"type": ["string", "number"], "description": "An expression over figures, as summary.json names them."},
+  "expression": {"type": ["string", "number"], "description": "An expression over quantities, as summary.json names them."},
   "values": {"type": "array", "minItems": 1, "uniqueItems": true, "items": {"$ref": "#/definitions/scalar"},
     "description": "Instead of low and high: numbers or words, one by one."},
   "law": {"type": "object", "additionalProperties": false, "properties": {
@@ -50,9 +50,9 @@ constexpr const char* kStudyRest = R"json({
     {"type": "array", "minItems": 1, "maxItems": 3, "items": {"$ref": "#/definitions/objective"}}],
     "description": "What points are ordered by; of two or three, the points that no other is better than in all."},
   "constraints": {"type": "array", "items": {"$ref": "#/definitions/scalar"}, "default": [],
-    "description": "What a point must keep to be feasible: a <= b, a >= b or a == b."},
-  "guards": {"anyOf": [{"enum": ["gait", "none"]}, {"$ref": "#/definitions/guards"}], "default": "gait",
-    "description": "Limits without which the figures of a gait may be those of a numerical accident."},
+    "description": "What a point must keep: a <= b, a >= b or a == b."},
+  "guards": {"anyOf": [{"enum": ["verdict", "none", "gait"]}, {"$ref": "#/definitions/guards"}], "default": "verdict",
+    "description": "Checks of the verdict that a point must keep. verdict: the word feasible; checks by id are asked for beside it, or otherwise than it."},
   "stop": {"type": "array", "items": {"$ref": "#/definitions/scalar"}, "default": [],
     "description": "Rules that end a run early: EXPRESSION, or EXPRESSION after SECONDS."}
 })json";
@@ -87,20 +87,32 @@ Json parameter_schema() {
   return schema;
 }
 
-Json guards_schema() {
+Json guards_schema(std::span<const CheckOffer> checks) {
   Json properties = Json::object();
-  for (const Guard& guard : guards()) properties[guard.figure] = {{"type", "number"}};
+  const Json margin{{"type", "object"},
+                    {"additionalProperties", false},
+                    {"required", {"margin"}},
+                    {"properties", {{"margin", {{"type", "number"}}}}}};
+  for (const CheckOffer& check : checks) {
+    Json& schema = properties[check.id];
+    schema["anyOf"] = Json::array({{{"type", "boolean"}}, margin});
+    if (check.limited) schema["anyOf"].push_back({{"type", "number"}});
+    schema["description"] = check.definition + (check.limited && !check.unit.empty() ? " (" + check.unit + ")" : "");
+  }
+  for (const std::string& old : old_guards()) properties[old] = {{"type", "number"}, {"description", "An old name."}};
   return object_schema(std::move(properties));
 }
 
 }  // namespace
 
-std::string study_schema() {
+std::string study_schema(std::span<const CheckOffer> checks) {
   Study study;
   std::string scenario;
   Json properties = Json::parse(kStudyHead);
   properties.update(properties_of(PlainKeys{study, scenario}));
   properties.update(Json::parse(kStudyRest));
+  properties["figures"] = properties["quantities"];
+  properties["figures"]["description"] = "Old name of quantities.";
   properties["method"] = group_of(MethodKeys{study}, "How points are chosen.");
   properties["budget"] = group_of(BudgetKeys{study.runs}, "How much is run.");
   properties["budget"]["properties"]["runs"].erase("default");
@@ -113,7 +125,7 @@ std::string study_schema() {
   schema["oneOf"] = Json::array({{{"required", {"scenario"}}}, {{"required", {"scenarios"}}}});
   schema["definitions"] = Json::parse(kStudyParts);
   schema["definitions"]["parameter"] = parameter_schema();
-  schema["definitions"]["guards"] = guards_schema();
+  schema["definitions"]["guards"] = guards_schema(checks);
   return schema.dump(1) + "\n";
 }
 

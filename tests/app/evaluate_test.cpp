@@ -53,7 +53,7 @@ TEST_F(Evaluate, AnswersWithTheFiguresOfTheJournal) {
   EXPECT_EQ(
       result.out.substr(0, result.out.find('\n')),
       R"({"id":7,"run":null,"outcome":"refused","message":"cpg.phase_lag is 0.30000000000000004; allowed are 0.5 to 1.5",)"
-      R"("figures":{},"objective":[null],"violation":null,"feasible":false})");
+      R"("figures":{},"objective":[null],"violation":null,"kept":false,"feasible":false})");
   EXPECT_EQ(all[1].at("id"), "a\u00e9");
   EXPECT_EQ(all[1].at("outcome"), "done");
   EXPECT_EQ(all[1].at("run"), 0);
@@ -64,12 +64,12 @@ TEST_F(Evaluate, AnswersWithTheFiguresOfTheJournal) {
   studies::Journal journal(folder_ / "e/study.db");
   EXPECT_EQ(journal.rows(), 2U);
   EXPECT_EQ(journal.head().runs, 2U);
-  const auto figures = journal.figures(0);
+  const auto figures = journal.quantities(0);
   for (std::size_t k = 0; k < figures.size(); ++k) {
-    const nlohmann::json& value = all[1].at("figures").at(journal.head().figures[k].name);
-    ASSERT_EQ(value.is_null(), figures[k].empty()) << journal.head().figures[k].name;
+    const nlohmann::json& value = all[1].at("figures").at(journal.head().quantities[k].name);
+    ASSERT_EQ(value.is_null(), figures[k].empty()) << journal.head().quantities[k].name;
     if (value.is_null()) continue;
-    EXPECT_EQ(value.get<double>(), std::stod(figures[k])) << journal.head().figures[k].name;
+    EXPECT_EQ(value.get<double>(), std::stod(figures[k])) << journal.head().quantities[k].name;
   }
   EXPECT_EQ(all[1].at("objective").at(0), all[1].at("figures").at("speed"));
   // The same run as anybody's.
@@ -92,7 +92,7 @@ TEST_F(Evaluate, OfSeveralReplicatesEachFigureIsAList) {
   std::ranges::sort(speeds);
   EXPECT_EQ(all[0].at("objective").size(), 2U);
   EXPECT_EQ(all[0].at("objective").at(0), speeds[1]);
-  EXPECT_EQ(all[0].at("feasible"), true);
+  EXPECT_EQ(all[0].at("kept"), true);
 }
 
 TEST_F(Evaluate, RefusesLinesThatAreNoQuestionsAndLosesNothing) {

@@ -43,7 +43,7 @@ TEST_F(FollowersOfNumbers, AreSetAndTheNumberIsTheColumn) {
   EXPECT_TRUE(contains(read(folder_ / "r/summary.json"), "\"speed\": " + row.at("speed") + ",")) << row.at("speed");
   const Result again = call("study rerun s 7");
   EXPECT_EQ(again.code, 0) << again.err;
-  EXPECT_TRUE(contains(again.out, "the figures are those of the journal")) << again.out;
+  EXPECT_TRUE(contains(again.out, "the quantities are those of the journal")) << again.out;
   EXPECT_TRUE(contains(call("sweep s.yaml --dry-run").out, "first  cpg.offset=-0.1 cpg.phase_lag=1 cpg.frequency=1 "));
 }
 

@@ -107,7 +107,7 @@ TEST_F(Optimize, NothingFeasibleIsToldSo) {
   study("parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nconstraints: [speed >= 1000]\nbudget: {runs: 20}\n");
   const Result result = call("optimize s.yaml --out o --quiet");
   EXPECT_EQ(result.code, 3);
-  EXPECT_EQ(result.err, "o: no point is feasible; `gaitlab study show o` says which limits most runs break\n");
+  EXPECT_EQ(result.err, "o: no point is kept; `gaitlab study show o` says which limits most runs break\n");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "o/table.csv"));
 }
 
@@ -132,7 +132,7 @@ TEST_F(Optimize, RunsThatAreRefusedAreResults) {
       "parameters: {cpg.amplitude: {low: 0.05, high: 1}}\nbudget: {runs: 20}\n");
   const Result result = call("optimize s.yaml --out o --quiet");
   EXPECT_EQ(result.code, 3);
-  EXPECT_EQ(result.err, "o: no point is feasible; `gaitlab study show o` says which limits most runs break\n");
+  EXPECT_EQ(result.err, "o: no point is kept; `gaitlab study show o` says which limits most runs break\n");
 }
 
 TEST_F(Optimize, CommandsAreToldApart) {

@@ -1,7 +1,7 @@
 // Forged folders of studies, and folders of users: FIFOs, names of shards, locks, files of other programs.
 #include <sys/stat.h>
 
-#include "app/study/study_figures.h"
+#include "app/study/study_quantities.h"
 #include "studies/journal/database.h"
 #include "studies/run/runner.h"
 #include "studies/study/study_file.h"
@@ -233,7 +233,7 @@ TEST_F(StudyFolder, MemoryThatIsNotEnoughIsToldWithARemedy) {
   folder_.write("study.yaml",
                 "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.phase_lag: {low: 0, high: 1}}\n"
                 "method: {type: random}\nbudget: {runs: 8}\n");
-  const studies::Plan plan(studies::read_study(folder_ / "study.yaml", studies::Purpose::sweep), app::figure_offer(),
+  const studies::Plan plan(studies::read_study(folder_ / "study.yaml", studies::Purpose::sweep), app::quantity_offer(),
                            catalog());
   studies::Journal journal(folder_ / "study.db", plan.head(), studies::Journal::Build::same);
   const studies::Executor executor = [](const studies::Work&, std::atomic<bool>&) -> bool { throw std::bad_alloc(); };

@@ -33,7 +33,7 @@ class StudyScenarios : public StudyFixture {
 
 TEST_F(StudyScenarios, EveryPointRunsInEach) {
   study(
-      "replicates: {count: 2, vary: {ground.friction: {times: {uniform: [0.9, 1.1]}}}}\nfigures: [speed, "
+      "replicates: {count: 2, vary: {ground.friction: {times: {uniform: [0.9, 1.1]}}}}\nquantities: [speed, "
       "'torque.peak[m1/active]']\n");
   const Result sweep = call("sweep s.yaml --out s");
   ASSERT_EQ(sweep.code, 0) << sweep.err;
@@ -63,7 +63,7 @@ TEST_F(StudyScenarios, EveryPointRunsInEach) {
               summary.at("per_joint").at("m1/active").at("torque").at("peak").get<double>());
     const Result again = call("study rerun s " + row.at("run"));
     EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_TRUE(contains(again.out, "the figures are those of the journal")) << again.out;
+    EXPECT_TRUE(contains(again.out, "the quantities are those of the journal")) << again.out;
   }
   // The worst of all four rows of a point orders them; the table says what each scenario gave.
   const std::string shown = call("study show s").out;
@@ -72,7 +72,7 @@ TEST_F(StudyScenarios, EveryPointRunsInEach) {
   for (std::size_t k = 0; k < 4; ++k) worst = std::min(worst, std::stod(rows[k].at("speed")));
   EXPECT_TRUE(contains(shown, fmt::format("{:.4g}", worst))) << shown;
   const std::string csv = read(folder_ / "s/replicates.csv");
-  EXPECT_EQ(csv.substr(0, csv.find('\n')), "point,scenario,replicate,speed,feasible");
+  EXPECT_EQ(csv.substr(0, csv.find('\n')), "point,scenario,replicate,speed,kept");
   EXPECT_TRUE(contains(csv, ",long,1,"));
   EXPECT_TRUE(
       contains(call("sweep s.yaml --dry-run").out, "8 runs: 2 points, 4 runs each\nfirst  scenario short: cpg.phase_lag=0.5 "));
@@ -204,8 +204,8 @@ TEST_F(StudyScenarios, WhatOneLacksIsToldWithItsName) {
             "e.yaml:4:16: error: no joint is called 'm2/active'; did you mean 'm0/active'? (in scenario short)\n");
   EXPECT_EQ(error(lag + "stop: ['torque.peak[m2/active] > 1']\n"),
             "e.yaml:4:9: error: no joint is called 'm2/active'; did you mean 'm0/active'? (in scenario short)\n");
-  EXPECT_EQ(error(lag + "figures: [speed, 'torque.peak[m*/active]']\n"),
-            "e.yaml:4:10: error: there is a figure 'torque.peak[m2/active]', which the first scenario does not have (in "
+  EXPECT_EQ(error(lag + "quantities: [speed, 'torque.peak[m*/active]']\n"),
+            "e.yaml:4:10: error: there is a quantity 'torque.peak[m2/active]', which the first scenario does not have (in "
             "scenario long)\n");
 }
 

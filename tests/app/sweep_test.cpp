@@ -19,11 +19,69 @@ TEST_F(Sweep, WhatTheVerdictFailsIsNotFeasible) {
   const auto rows = table("s");
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].at("verdict"), "infeasible");
-  EXPECT_GT(std::stod(rows[0].at("verdict_excess")), 1);
-  EXPECT_EQ(rows[0].at("violation"), rows[0].at("verdict_excess")) << "no other guard is broken";
+  EXPECT_EQ(rows[0].at("feasible"), "0");
+  EXPECT_LT(std::stod(rows[0].at("margin.heat")), -1);
+  EXPECT_EQ("-" + rows[0].at("violation"), rows[0].at("margin.heat")) << "no other guard is broken";
+  EXPECT_EQ(rows[0].at("margin"), rows[0].at("margin.heat"));
+  EXPECT_TRUE(contains(rows[0].at("message"), "A RMS, ")) << rows[0].at("message");
   EXPECT_EQ(rows[1].at("verdict"), "feasible");
-  EXPECT_EQ(rows[1].at("verdict_excess"), "0");
+  EXPECT_EQ(rows[1].at("violation"), "0");
+  EXPECT_EQ(rows[1].at("message"), "");
   EXPECT_EQ(rows[1].at("feasible"), "1");
+  EXPECT_EQ(rows[1].at("kept"), "1");
+}
+
+/// One word, one meaning: a study without guards keeps what its verdict calls infeasible, and does not call it feasible.
+TEST_F(Sweep, WithoutGuardsInfeasibleGaitsAreKeptAndNotFeasible) {
+  folder_.write("study.yaml", "gaitlab_study: 1\nscenario: " + kScenarios +
+                                  "caterpillar.yaml\nset: [physics.engine=articulated, duration=6]\nguards: none\n"
+                                  "parameters: {cpg.amplitude: {values: [1.7]}}\n");
+  const Result swept = call("sweep study.yaml --out s");
+  ASSERT_EQ(swept.code, 0) << swept.err;
+  EXPECT_TRUE(contains(swept.out, "study: 1 of 1 runs ended, 1 kept (100 %), 0 feasible, 0 failed\n")) << swept.out;
+  const Result shown = call("study show s");
+  EXPECT_TRUE(contains(shown.out, "study: 1 of 1 runs ended, 1 kept (100 %), 0 feasible, 0 failed\n")) << shown.out;
+  const auto rows = table("s");
+  EXPECT_EQ(rows[0].at("verdict"), "infeasible");
+  EXPECT_EQ(rows[0].at("kept"), "1");
+  EXPECT_EQ(rows[0].at("feasible"), "0");
+}
+
+/// A rejected point is explained by its check and the part, not by a number.
+TEST_F(Sweep, SaysWhyAPointIsNotKept) {
+  const Result swept =
+      call("sweep two.yaml --set duration=6 --set cpg.amplitude=0.3 --grid actuator.i_continuous=1e-6 --out s");
+  ASSERT_EQ(swept.code, 0) << swept.err;
+  EXPECT_TRUE(contains(swept.out, "two: 1 of 1 runs ended, 0 kept (0 %), 0 feasible, 0 failed\n")) << swept.out;
+  EXPECT_TRUE(contains(swept.out, "run 0 is not kept: the motor of joint m")) << swept.out;
+  EXPECT_TRUE(contains(swept.out, "what most runs break: the verdict (1 run), check heat (1 run)\n")) << swept.out;
+  const Result best = call("study best s");
+  EXPECT_EQ(best.code, 3);
+  EXPECT_EQ(best.err, "s: no point is kept\n");
+}
+
+/// Old studies are read: their names, with a note on what to write.
+TEST_F(Sweep, OldNamesAreRead) {
+  folder_.write("old.yaml",
+                "gaitlab_study: 1\nscenario: two.yaml\nfigures: [speed]\nguards: {fell: 0, judged.tracking_error.peak: 2}\n"
+                "parameters: {cpg.phase_lag: {values: [1]}}\n");
+  const Result old = call("sweep old.yaml --out s --figure distance");
+  EXPECT_EQ(old.code, 0);
+  EXPECT_EQ(old.err,
+            "old.yaml:3:1: note: figures is the old name of quantities\n"
+            "old.yaml:4:10: note: fell is an old name; write guards: {fall: true}\n"
+            "old.yaml:4:19: note: judged.tracking_error.peak is an old name; write guards: {tracking: 2}\n");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "s/distance.svg"));
+  EXPECT_NE(table("s")[0].at("margin.tracking[2]"), table("s")[0].at("margin.tracking"));
+}
+
+/// A gait that is too slow for the run is told of before the first run.
+TEST_F(Sweep, NotesRunsThatAreTooShortForAVerdict) {
+  const Result swept = call("sweep two.yaml --set duration=3 --random cpg.frequency=0.25:1 --runs 1 --out s");
+  EXPECT_EQ(swept.code, 0);
+  EXPECT_EQ(swept.err,
+            "--random cpg.frequency=0.25:1: note: a gait of 0.25 Hz has 0.75 periods in 3 s; without a limit cycle a "
+            "verdict needs 3: take duration=12, or a low of 1\n");
 }
 
 TEST_F(Sweep, ItsFilesAreMadeAnew) {
@@ -58,7 +116,7 @@ TEST_F(Sweep, ItsRowsAreRuns) {
     EXPECT_EQ(std::stod(row.at("torque.peak")), peak);
     const Result again = call("study rerun s " + row.at("run"));
     EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_TRUE(contains(again.out, "the figures are those of the journal")) << again.out;
+    EXPECT_TRUE(contains(again.out, "the quantities are those of the journal")) << again.out;
   }
   EXPECT_TRUE(contains(read(folder_ / "s/speed.svg"), "cpg.phase_lag"));
   EXPECT_EQ(read(folder_ / "s/speed.csv").substr(0, 45), "cpg.phase_lag,speed,least,largest,state,best\n");
@@ -91,7 +149,7 @@ TEST_F(Sweep, WhatFailsIsAResult) {
   EXPECT_EQ(rows[1].at("outcome"), "refused");
   EXPECT_TRUE(contains(rows[1].at("message"), "not a whole multiple of the step")) << rows[1].at("message");
   EXPECT_EQ(rows[1].at("speed"), "");
-  EXPECT_EQ(rows[1].at("feasible"), "0");
+  EXPECT_EQ(rows[1].at("kept"), "0");
   const Result diverged =
       call("sweep two.yaml --grid controller.Kp=1e8 --set actuator.type=torque --set 'controller.unit=N m' --out d");
   EXPECT_EQ(diverged.code, 1) << diverged.out;
@@ -130,8 +188,8 @@ TEST_F(Sweep, RefusesWhatCannotBeRun) {
   refused("sweep two.yaml --grid cpg.phase_lag=2:1:3",
           "--grid cpg.phase_lag=2:1:3: error: cpg.phase_lag: low is 2, not below high, 1");
   refused("sweep two.yaml --random cpg.phase_lag=1:2", "--runs: error: is missing; --random needs a number of runs");
-  refused("sweep two.yaml --grid cpg.phase_lag=1:2:3 --figure spede",
-          "--figure: error: no figure is named 'spede'; did you mean 'speed'?");
+  refused("sweep two.yaml --grid cpg.phase_lag=1:2:3 --show spede",
+          "--show: error: no quantity is named 'spede'; did you mean 'speed'?");
   refused("sweep two.yaml --grid cpg.phase_lag=1:2:3 --shard 3/3 --out s",
           "--shard: error: is '3/3'; expected I/N with I from 0 to N - 1, or auto");
   refused("study show nowhere", "nowhere: error: holds no study: there is no study.db");
@@ -194,7 +252,7 @@ TEST_F(Sweep, RulesEndRunsAtTheSameTimeWhateverTheLanes) {
     EXPECT_EQ(rows[k].at("outcome"), "stopped");
     EXPECT_EQ(rows[k].at("simulated"), "2");
     EXPECT_EQ(rows[k].at("speed"), "");
-    EXPECT_EQ(rows[k].at("feasible"), "0");
+    EXPECT_EQ(rows[k].at("kept"), "0");
   }
   const Result again = call("study rerun one 2");
   EXPECT_EQ(again.code, 0) << again.err;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/app.h"
-#include "app/study/study_figures.h"
+#include "app/study/study_quantities.h"
 #include "app/study/study_text.h"
 #include "core/errors.h"
 #include "core/files/hash.h"
@@ -108,7 +108,7 @@ inline constexpr const char* kTwo =
 inline void study(const std::string& text) {
   folder().write("two.yaml", kTwo);
   studies::Study read = studies::read_study(folder().write("study.yaml", text), studies::Purpose::sweep);
-  const studies::Plan plan(std::move(read), app::figure_offer(), catalog());
+  const studies::Plan plan(std::move(read), app::quantity_offer(), catalog());
   if (!studies::is_search(plan.study().method) && plan.points().runs() > 0) (void)plan.sets(plan.points().runs() - 1);
 }
 
@@ -163,7 +163,7 @@ inline const std::string& good_journal() {
         "phase_oscillator]}}\nmethod: {type: random}\nbudget: {runs: 8}\nreplicates: {count: 2, combine: mean}\n"
         "objective: [{maximize: speed}, {minimize: torque.rms}]\nconstraints: [speed >= 0.1]\n";
     const studies::Plan plan(studies::read_study(folder().write("study.yaml", text), studies::Purpose::sweep),
-                             app::figure_offer(), catalog());
+                             app::quantity_offer(), catalog());
     const std::string file = folder() / "good.db";
     {
       studies::Journal made(file, plan.head(), studies::Journal::Build::same);
@@ -175,7 +175,7 @@ inline const std::string& good_journal() {
         row.simulated = 0.3;
         row.verdict = run == 5 ? "failed" : "feasible";
         if (run == 5) continue;
-        row.figures.assign(plan.columns().size(), 0.1 * static_cast<double>(run));
+        row.quantities.assign(plan.columns().size(), 0.1 * static_cast<double>(run));
         row.score = studies::Score{{}, run == 2 ? 0.5 : 0};
         for (double& objective : row.score->objectives) objective = 0.1 * static_cast<double>(run);
       }

@@ -198,12 +198,12 @@ RIGHT_STUDIES = [
     STUDY + "parameters: {cpg.phase_lag: {low: 0.5, high: 1.5, scale: log, count: 3}, cpg.type: {values: [sine, hopf]}}\n",
     STUDY + "parameters: {legs: {low: 0, high: 1, sets: {cpg.offset: 0.3*legs - 0.1, cpg.phase_lag: 1}}}\n",
     "gaitlab_study: 1\nscenarios: {flat: two.yaml, 2: two.yaml}\nparameters: {cpg.phase_lag: {values: [1, 2]}}\n",
-    LAG + "name: s\nset: [physics.step=0.001]\nseed: 3\nfigures: [speed]\n",
+    LAG + "name: s\nset: [physics.step=0.001]\nseed: 3\nquantities: [speed]\n",
     LAG + "replicates: {count: 2, vary: {ground.friction: {normal: [0.8, 0.1], low: 0.3}, actuator.R: {times: {uniform: [0.9, 1]}}}, "
     "combine: quantile(0.9)}\n",
     LAG + "objective: [{maximize: speed}, {minimize: torque.peak}]\nconstraints: [torque.rms <= 1]\n",
     LAG + "guards: none\nstop: [fell, speed > 9 after 1]\n",
-    LAG + "guards: {range.share: 0.1}\nmethod: {type: cma, population: 16}\nbudget: {runs: 99}\nverify: {engine: none}\n",
+    LAG + "guards: {stops: 0.1, dock_bending: {margin: 0.2}, periodic: true, slip: false}\nmethod: {type: cma, population: 16}\nbudget: {runs: 99}\nverify: {engine: none}\n",
 ]
 WRONG_STUDIES = [
     STUDY,
@@ -224,7 +224,9 @@ WRONG_STUDIES = [
     LAG + "objective: {maximize: speed, minimize: torque.peak}\n",
     LAG + "constraints: torque.rms <= 1\n",
     LAG + "guards: walk\n",
-    LAG + "guards: {range.shar: 0.1}\n",
+    LAG + "guards: {stop: 0.1}\n",
+    LAG + "guards: {stops: {limit: 0.1}}\n",
+    LAG + "guards: {field: 0.1}\n",
     LAG + "replicates: {combine: worst}\n",
     LAG + "replicates: {count: 0}\n",
     LAG + "replicates: {count: 2, combine: best}\n",

@@ -30,7 +30,7 @@ void draw_box(Canvas& canvas, const Panel& panel, double x, double half, const B
   canvas.line({x, high}, {x, y(known.back())}, kBoxLine);
   for (const double end : {known.front(), known.back()}) canvas.line({x - half / 3, y(end)}, {x + half / 3, y(end)}, kBoxLine);
   canvas.rectangle({x - half, high}, 2 * half, low - high,
-                   {.stroke = colour::kInk, .fill = group.feasible ? "#C6DDF0" : colour::kWhite, .width = 1.3});
+                   {.stroke = colour::kInk, .fill = group.kept ? "#C6DDF0" : colour::kWhite, .width = 1.3});
   canvas.line({x - half, middle}, {x + half, middle}, {.stroke = colour::kBlue, .width = 2.4});
   if (in_order.size() > kMostDots) return;
   // Side by side in the order of the replicates.
@@ -68,8 +68,7 @@ std::string box_svg(const BoxFigure& figure) {
     svg.text({x, kBoxPlot.bottom + 18}, figure.groups[k].name, {.anchor = Anchor::middle});
   }
   svg.text({(kBoxPlot.left + kBoxPlot.right) / 2, kBoxPlot.bottom + 38}, figure.below, {.anchor = Anchor::middle});
-  svg.text({kBoxPlot.left, kBoxPlot.bottom + 66}, "box: quartiles and median; dots: replicates; white: infeasible together",
-           {.size = 12});
+  svg.text({kBoxPlot.left, kBoxPlot.bottom + 66}, "box: quartiles and median; dots: replicates; white: not kept", {.size = 12});
   draw_sheet_note(svg, figure.note, kBoxSheetHigh - 14);
   return svg.finish();
 }

@@ -8,7 +8,7 @@ namespace gaitlab::report {
 struct BoxGroup {
   std::string name;
   std::vector<double> values;  ///< NaN: not known
-  bool feasible = true;
+  bool kept = true;
 };
 
 struct BoxFigure {

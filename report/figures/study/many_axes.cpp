@@ -36,7 +36,7 @@ std::vector<std::pair<double, std::string>> Spread::labels(int count) const {
 Bounds value_range(const ManyFigure& figure) {
   Bounds range;
   for (const ManyPoint& p : figure.points) {
-    if (p.state == PointState::feasible) range.add(p.value);
+    if (p.state == PointState::kept) range.add(p.value);
   }
   if (range.lo < range.hi) return range;
   for (const ManyPoint& p : figure.points) {

@@ -27,7 +27,7 @@ class Spread {
   std::vector<std::string> words_;
 };
 
-/// The range that colours span: of the feasible points, or where they have one value or none of all that have one.
+/// The range that colours span: of the kept points, or where they have one value or none of all that have one.
 Bounds value_range(const ManyFigure& figure);
 
 }  // namespace gaitlab::report

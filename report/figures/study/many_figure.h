@@ -16,7 +16,7 @@ struct ManyAxis {
 struct ManyPoint {
   std::vector<double> at;  ///< by axis
   double value = 0;        ///< NaN where not known
-  PointState state = PointState::feasible;
+  PointState state = PointState::kept;
 };
 
 struct ManyFigure {
@@ -27,7 +27,7 @@ struct ManyFigure {
   std::size_t best = 0;  ///< number of a point; points.size(): there is none
 };
 
-/// Parallel coordinates: a line per point over an axis per parameter, feasible ones coloured by their value, others grey, the
+/// Parallel coordinates: a line per point over an axis per parameter, kept ones coloured by their value, others grey, the
 /// best black. Above 20 000 stretches between axes a histogram of them. At most 16 parameters; the note tells what is left out.
 std::string parallel_svg(const ManyFigure& figure);
 /// A panel per parameter, at most 24: the value over it. Above 20 000 dots a histogram of them.

@@ -46,7 +46,7 @@ class Parallel {
     legend();
     std::string note = f_.note;
     if (f_.axes.size() > axes_) note = fmt::format("the first {} of {} parameters; {}", axes_, f_.axes.size(), note);
-    if (histogram) note = "width by the number of points, colour by the mean of the feasible ones; " + note;
+    if (histogram) note = "width by the number of points, colour by the mean of the kept ones; " + note;
     draw_sheet_note(svg_, note, kParallelHeight - 14);
     return svg_.finish();
   }
@@ -78,7 +78,7 @@ class Parallel {
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto rank = [&](std::size_t k) {
       const ManyPoint& p = f_.points[k];
-      const bool fit = p.state == PointState::feasible && std::isfinite(p.value);
+      const bool fit = p.state == PointState::kept && std::isfinite(p.value);
       return fit ? std::pair{1, p.value} : std::pair{0, 0.0};
     };
     std::ranges::stable_sort(order, {}, rank);
@@ -116,7 +116,7 @@ class Parallel {
         if (k + 1 == axes_ && !valued) continue;
         Stretch& one = found[{level_of(p, k), level_of(p, k + 1)}];
         most = std::max(most, ++one.points);
-        if (p.state != PointState::feasible || !valued) continue;
+        if (p.state != PointState::kept || !valued) continue;
         ++one.fit;
         one.sum += p.value;
       }
@@ -133,7 +133,7 @@ class Parallel {
     best();
   }
 
-  /// Colours stand beside the axis of the value: grey where no feasible point is.
+  /// Colours stand beside the axis of the value: grey where no point is kept.
   void strip() {
     constexpr int kSteps = 96;
     constexpr double kStripWide = 14;
@@ -180,11 +180,11 @@ class Parallel {
       x += 60 + text_width(name, 13);
     };
     const auto any = [&](bool fit) {
-      return std::ranges::any_of(f_.points, [&](const ManyPoint& p) { return (p.state == PointState::feasible) == fit; });
+      return std::ranges::any_of(f_.points, [&](const ManyPoint& p) { return (p.state == PointState::kept) == fit; });
     };
     const std::string middle = shade(0.6);
-    if (any(true)) entry("feasible, by its value", {.stroke = middle, .width = 1.5});
-    if (any(false)) entry("infeasible or failed", {.stroke = kUnfit, .width = 1.2});
+    if (any(true)) entry("kept, by its value", {.stroke = middle, .width = 1.5});
+    if (any(false)) entry("not kept or failed", {.stroke = kUnfit, .width = 1.2});
     if (f_.best < f_.points.size()) entry("best", {.stroke = colour::kBlack, .width = 2.4});
   }
 

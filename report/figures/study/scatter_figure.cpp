@@ -76,11 +76,11 @@ class Scatter {
     }
   }
 
-  /// The infeasible below the feasible.
+  /// What is not kept below what is.
   void dots(const Place& place, const Spread& spread, std::size_t k) {
     for (const bool fit : {false, true}) {
       for (const ManyPoint& p : f_.points) {
-        if ((p.state == PointState::feasible) != fit || p.state == PointState::failed || !std::isfinite(p.value)) continue;
+        if ((p.state == PointState::kept) != fit || p.state == PointState::failed || !std::isfinite(p.value)) continue;
         const Point at = place.at(spread.share(p.at[k]), p.value);
         if (fit) svg_.circle(at, kDot, {.fill = colour::kBlue});
         if (!fit) svg_.circle(at, kDot - 0.4, {.stroke = kUnfitDot, .width = 1});
@@ -125,8 +125,9 @@ class Scatter {
       return std::ranges::any_of(f_.points, [&](const ManyPoint& p) { return p.state == state; });
     };
     if (histogram) entry("many points (dark) to one (pale)", 5, {.fill = shade(0.8)});
-    if (!histogram && any(PointState::feasible)) entry("feasible", kDot, {.fill = colour::kBlue});
-    if (!histogram && any(PointState::infeasible)) entry("infeasible", kDot, {.stroke = kUnfitDot, .width = 1});
+    if (!histogram && any(PointState::kept)) entry("kept", kDot, {.fill = colour::kBlue});
+    const char* const others = not_kept_text(f_.points);
+    if (!histogram && *others != '\0') entry(others, kDot, {.stroke = kUnfitDot, .width = 1});
     if (f_.best < f_.points.size()) entry("best", kDot + 3, {.stroke = colour::kBlack, .width = 1.8});
   }
 

@@ -36,7 +36,7 @@ Curves curves_of(const std::vector<ConvergencePoint>& search, bool maximize) {
     curves.so_far.push_back(so_far);
     curves.best.push_back(p.best);
     curves.median.push_back(p.median);
-    curves.share.push_back(p.feasible);
+    curves.share.push_back(p.kept);
   }
   return curves;
 }
@@ -60,7 +60,7 @@ std::string convergence_svg(const ConvergenceFigure& figure) {
   Panel upper(svg, kObjectiveArea, across, values.ticks(7), {});
   upper.side_title(figure.value.title(), Side::left, 62);
   Panel lower(svg, kShareArea, across, ticks_around(0, 1, 2), {});
-  lower.side_title("feasible", Side::left, 62);
+  lower.side_title("kept", Side::left, 62);
   lower.axis_below("generation");
   for (std::size_t s = 0; s < all.size(); ++s) {
     upper.curve(all[s].generation, all[s].median, kMedian);
@@ -82,7 +82,7 @@ std::string convergence_svg(const ConvergenceFigure& figure) {
   };
   entry("best so far", kSoFar);
   entry("best of the generation", kOfGeneration);
-  entry("median, feasible points", kMedian);
+  entry("median, kept points", kMedian);
   const auto restarts = [](const std::vector<ConvergencePoint>& search) {
     return !search.empty() && search.back().restart > 0;
   };
@@ -92,12 +92,12 @@ std::string convergence_svg(const ConvergenceFigure& figure) {
 }
 
 std::string convergence_csv(const ConvergenceFigure& figure) {
-  std::string text = "search,generation,restart,points,best,median,feasible,spread\n";
+  std::string text = "search,generation,restart,points,best,median,kept,spread\n";
   const auto cell = [](double value) { return std::isfinite(value) ? number_text(value) : ""; };
   for (std::size_t s = 0; s < figure.searches.size(); ++s) {
     for (const ConvergencePoint& p : figure.searches[s])
       text += fmt::format("{},{},{},{},{},{},{},{}\n", s, cell(p.generation), cell(p.restart), cell(p.points), cell(p.best),
-                          cell(p.median), cell(p.feasible), cell(p.spread));
+                          cell(p.median), cell(p.kept), cell(p.spread));
   }
   return text;
 }

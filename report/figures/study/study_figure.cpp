@@ -54,7 +54,7 @@ struct Edges1 {
   std::vector<double> between;
 };
 
-/// The mean of several points: of the feasible ones, or else of the infeasible ones.
+/// The mean of several points: of the kept ones, or else of the others.
 class Pooled {
  public:
   void add(const StudyPoint& p) {
@@ -119,7 +119,7 @@ StudyFigure histogram(const StudyFigure& figure) {
     made.points.push_back(
         cells[k].at(centre(figure.x, x, k % across, across), figure.map ? centre(figure.y, y, k / across, upwards) : 0));
   }
-  made.note = fmt::format("each {} the mean of the feasible of its points; {}", figure.map ? "cell" : "mark", figure.note);
+  made.note = fmt::format("each {} the mean of the kept of its points; {}", figure.map ? "cell" : "mark", figure.note);
   if (best == cells.size()) made.best = made.points.size();
   return made;
 }
@@ -132,12 +132,12 @@ class Drawing {
       const StudyPoint& p = f_.points[k];
       x_.add(on_axis(f_.x, p.x));
       if (f_.map) y_.add(on_axis(f_.y, p.y));
-      if (p.state == PointState::failed || (f_.map && p.state != PointState::feasible)) continue;
+      if (p.state == PointState::failed || (f_.map && p.state != PointState::kept)) continue;
       values_.add(p.value);
       if (!f_.map) values_.add(p.low);
       if (!f_.map) values_.add(p.high);
     }
-    // The colours of a map are for feasible points: what exploits the simulation would leave all others pale.
+    // The colours of a map are for kept points: what exploits the simulation would leave all others pale.
     if (values_.lo < values_.hi || !f_.map) return;
     for (const StudyPoint& p : f_.points) {
       if (p.state != PointState::failed) values_.add(p.value);
@@ -188,7 +188,7 @@ class Drawing {
       if (p.state == PointState::failed) {
         draw_cross(svg_, {place(x, 0).x, kPlot.bottom - 8}, kMark);
       } else {
-        dot(place(x, p.value), p.state == PointState::feasible ? colour::kBlue : colour::kWhite);
+        dot(place(x, p.value), p.state == PointState::kept ? colour::kBlue : colour::kWhite);
       }
     }
     if (f_.best < f_.points.size()) draw_ring(svg_, place(on_axis(f_.x, f_.points[f_.best].x), f_.points[f_.best].value));
@@ -250,7 +250,7 @@ class Drawing {
     svg_.rectangle(corner, width, height, {.fill = fill});
     constexpr double kDark = 0.5;
     const bool dark = known && level(p.value) > kDark;
-    if (p.state == PointState::infeasible) hatch(svg_, corner, width, height, dark ? kPaleHatch : kHatchLine);
+    if (not_kept(p.state)) hatch(svg_, corner, width, height, dark ? kPaleHatch : kHatchLine);
     if (p.state == PointState::failed)
       draw_cross(svg_, {corner.x + width / 2, corner.y + height / 2}, std::min({kMark, width / 3, height / 3}));
     if (best) best_at_ = {corner.x + width / 2, corner.y + height / 2};
@@ -264,7 +264,7 @@ class Drawing {
   void mark(const StudyPoint& p, Point at, bool best) {
     if (p.state == PointState::failed) return draw_cross(svg_, at, kMark - 1);
     const std::string fill = std::isfinite(p.value) ? shade(level(p.value)) : std::string(colour::kWhite);
-    if (p.state == PointState::infeasible) {
+    if (not_kept(p.state)) {
       slashed(at, fill);
     } else {
       svg_.circle(at, kMark, {.stroke = colour::kInk, .fill = fill, .width = 1});
@@ -283,9 +283,9 @@ class Drawing {
     const auto any = [&](PointState state) {
       return std::ranges::any_of(f_.points, [&](const StudyPoint& p) { return p.state == state; });
     };
-    if (any(PointState::feasible) && !f_.map) entry("feasible", [&](Point at) { dot(at, colour::kBlue); });
-    if (any(PointState::infeasible)) {
-      entry("infeasible", [&](Point at) {
+    if (any(PointState::kept) && !f_.map) entry("kept", [&](Point at) { dot(at, colour::kBlue); });
+    if (const char* const text = not_kept_text(f_.points); *text != '\0') {
+      entry(text, [&](Point at) {
         if (!f_.map) return dot(at, colour::kWhite);
         if (!f_.grid) return slashed(at, shade(0.3));
         svg_.rectangle({at.x - 8, at.y - 8}, 16, 16, {.stroke = colour::kInk, .width = 0.8});

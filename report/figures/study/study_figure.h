@@ -16,7 +16,8 @@ struct StudyAxis {
   [[nodiscard]] std::string title() const { return unit.empty() ? name : name + " (" + unit + ")"; }
 };
 
-enum class PointState { feasible, infeasible, failed };
+/// kept: no guard and no constraint is broken. Of the others infeasible: by the verdict of a run; broken: by no verdict.
+enum class PointState { kept, broken, infeasible, failed };
 
 }  // namespace report
 
@@ -24,7 +25,7 @@ template <>
 struct EnumNames<report::PointState> {
   using enum report::PointState;
   static constexpr EnumName<report::PointState> kTable[] = {
-      {feasible, "feasible"}, {infeasible, "infeasible"}, {failed, "failed"}};
+      {kept, "kept"}, {broken, "guard broken"}, {infeasible, "infeasible"}, {failed, "failed"}};
 };
 
 namespace report {
@@ -33,8 +34,21 @@ namespace report {
 struct StudyPoint {
   double x = 0, y = 0;
   double value = 0, low = 0, high = 0;
-  PointState state = PointState::feasible;
+  PointState state = PointState::kept;
 };
+
+/// Entry of a legend for the points that came to their end and are not kept; empty: there are none.
+template <class Points>
+const char* not_kept_text(const Points& points) {
+  bool broken = false;
+  bool infeasible = false;
+  for (const auto& point : points) {
+    broken = broken || point.state == PointState::broken;
+    infeasible = infeasible || point.state == PointState::infeasible;
+  }
+  return broken && infeasible ? "infeasible or guard broken" : broken ? "guard broken" : infeasible ? "infeasible" : "";
+}
+inline bool not_kept(PointState state) { return state == PointState::broken || state == PointState::infeasible; }
 
 struct StudyFigure {
   std::string title, note;  ///< note: a line below
@@ -45,7 +59,7 @@ struct StudyFigure {
   std::size_t best = 0;  ///< number of a point; points.size(): there is none
 };
 
-/// At most 20 000 marks: above that a histogram, whose cells are the means of their feasible points.
+/// At most 20 000 marks: above that a histogram, whose cells are the means of their kept points.
 std::string study_svg(const StudyFigure& figure);
 /// The points it draws.
 std::string study_csv(const StudyFigure& figure);

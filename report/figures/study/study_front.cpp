@@ -80,7 +80,7 @@ std::string front_svg(const FrontFigure& f) {
     x += 46 + text_width(name, 13);
   };
   entry("no other point is better in all objectives", 4.5, kFront);
-  entry("other feasible points", 3, kBehind);
+  entry("other kept points", 3, kBehind);
   if (std::ranges::any_of(f.points, [](const FrontPoint& p) { return p.state == FrontState::verified; }))
     entry("verified", 8, kVerified);
   svg.text({20, kFrontHeight - 14}, f.note, {.size = 11, .fill = colour::kGrey});

@@ -29,7 +29,7 @@ struct FrontFigure {
   std::string title, note;
   std::vector<StudyAxis> objectives;
   std::vector<bool> maximize;
-  std::vector<FrontPoint> points;  ///< feasible ones; those of the front by the first objective
+  std::vector<FrontPoint> points;  ///< kept ones; those of the front by the first objective
 };
 
 /// At most 20 000 marks: of those behind the front every n-th above that.

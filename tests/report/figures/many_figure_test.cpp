@@ -27,7 +27,7 @@ ManyFigure three(std::size_t points) {
   figure.value = {"speed", "m/s"};
   for (std::size_t k = 0; k < points; ++k) {
     const auto x = static_cast<double>(k);
-    ManyPoint point{{0.1 + 0.01 * x, 1 - x, static_cast<double>(k % 2)}, 0.1 * x - 0.2, PointState::feasible};
+    ManyPoint point{{0.1 + 0.01 * x, 1 - x, static_cast<double>(k % 2)}, 0.1 * x - 0.2, PointState::kept};
     if (k % 4 == 1) point.state = PointState::infeasible;
     if (k % 4 == 2) {
       point.state = PointState::failed;
@@ -44,10 +44,9 @@ TEST(ManyFigure, EveryPointIsALine) {
   const std::string svg = parallel_svg(figure);
   EXPECT_EQ(svg, parallel_svg(figure));
   EXPECT_EQ(number_of_parts(svg, "stroke-linejoin"), 9U + 2);  // the best in black, on white
-  for (const char* part : {"a &lt;study&gt;", ">cpg.frequency<", ">hopf<", ">best<", ">infeasible or failed<", "speed (m/s)"})
+  for (const char* part : {"a &lt;study&gt;", ">cpg.frequency<", ">hopf<", ">best<", ">not kept or failed<", "speed (m/s)"})
     EXPECT_EQ(number_of_parts(svg, part) > 0, true) << part;
-  EXPECT_EQ(many_csv(figure).substr(0, 82),
-            "cpg.frequency,cpg.phase_lag,cpg.type,speed,state,best\n0.1,1,hopf,-0.2,feasible,0\n0");
+  EXPECT_EQ(many_csv(figure).substr(0, 78), "cpg.frequency,cpg.phase_lag,cpg.type,speed,state,best\n0.1,1,hopf,-0.2,kept,0\n0");
 }
 
 /// None, one, all failed, one value everywhere: nothing that is not a number.

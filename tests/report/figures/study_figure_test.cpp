@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "report/verdict/figures.h"
+#include "report/verdict/quantities.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -28,7 +28,7 @@ StudyFigure small_map() {
   figure.value = {"speed", "m/s"};
   figure.map = figure.grid = true;
   for (int k = 0; k < 6; ++k) {
-    StudyPoint point{0.2 + 0.1 * (k % 3), k < 3 ? 1.0 : 2.0, 0.1 * k, 0.1 * k, 0.1 * k, PointState::feasible};
+    StudyPoint point{0.2 + 0.1 * (k % 3), k < 3 ? 1.0 : 2.0, 0.1 * k, 0.1 * k, 0.1 * k, PointState::kept};
     if (k == 1) point.state = PointState::infeasible;
     if (k == 2) {
       point.state = PointState::failed;
@@ -40,7 +40,7 @@ StudyFigure small_map() {
   return figure;
 }
 
-TEST(StudyFigure, AMapMarksWhatIsNotFeasibleAndTheBest) {
+TEST(StudyFigure, AMapMarksWhatIsNotKeptAndTheBest) {
   const StudyFigure figure = small_map();
   const std::string svg = study_svg(figure);
   EXPECT_EQ(svg, study_svg(figure));
@@ -49,12 +49,25 @@ TEST(StudyFigure, AMapMarksWhatIsNotFeasibleAndTheBest) {
   EXPECT_TRUE(contains(svg, ">failed<"));
   EXPECT_TRUE(contains(svg, ">best<"));
   EXPECT_EQ(occurrences(svg, "nan"), 0U);
-  EXPECT_EQ(
-      study_csv(figure).substr(0, 111),
-      "cpg.amplitude,cpg.phase_lag,speed,least,largest,state,best\n0.2,1,0,0,0,feasible,0\n0.30000000000000004,1,0.1,0.1");
+  EXPECT_EQ(study_csv(figure).substr(0, 107),
+            "cpg.amplitude,cpg.phase_lag,speed,least,largest,state,best\n0.2,1,0,0,0,kept,0\n0.30000000000000004,1,0.1,0.1");
 }
 
-/// A point alone, one value everywhere, nothing known, no feasible point: no figure is not a number.
+/// A gait that the verdict does not call infeasible is not called so, whatever guard it breaks.
+TEST(StudyFigure, ItsLegendTellsGuardsFromVerdicts) {
+  StudyFigure figure = small_map();
+  figure.points[1].state = PointState::broken;
+  for (const bool grid : {true, false}) {
+    figure.grid = grid;
+    EXPECT_TRUE(contains(study_svg(figure), ">guard broken<"));
+    EXPECT_FALSE(contains(study_svg(figure), ">infeasible<"));
+  }
+  EXPECT_TRUE(contains(study_csv(figure), ",guard broken,0\n"));
+  figure.points[0].state = PointState::infeasible;
+  EXPECT_TRUE(contains(study_svg(figure), ">infeasible or guard broken<"));
+}
+
+/// A point alone, one value everywhere, nothing known, no kept point: no figure is not a number.
 TEST(StudyFigure, ItsCornersAreDrawn) {
   for (const bool two : {false, true}) {
     for (const std::size_t points : {0U, 1U, 6U}) {
@@ -84,37 +97,37 @@ TEST(StudyFigure, HasAtMostTwentyThousandMarks) {
   EXPECT_LE(occurrences(study_svg(figure), "<circle"), 20010U);
 }
 
-TEST(Figures, AreTheNumbersOfTheSummary) {
+TEST(Quantities, AreTheNumbersOfTheSummary) {
   const Scenario scenario = shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=0.5"});
   const Recording record = run(scenario);
   const Summary summary = summarise(scenario, record, 1);
   const RunData data{scenario, record, summary};
   std::set<std::string> names;
-  for (const Figure& figure : figures()) {
-    EXPECT_TRUE(names.insert(figure.name).second) << figure.name;
-    EXPECT_FALSE(std::isinf(figure.value(data))) << figure.name;
-    if (figure.name == "speed") {
-      EXPECT_EQ(figure.value(data), summary.speed);
+  for (const Quantity& quantity : quantities()) {
+    EXPECT_TRUE(names.insert(quantity.name).second) << quantity.name;
+    EXPECT_FALSE(std::isinf(quantity.value(data))) << quantity.name;
+    if (quantity.name == "speed") {
+      EXPECT_EQ(quantity.value(data), summary.speed);
     }
-    if (figure.name == "limit_cycle.found") {
-      EXPECT_EQ(figure.value(data), summary.limit_cycle.found ? 1 : 0);
+    if (quantity.name == "limit_cycle.found") {
+      EXPECT_EQ(quantity.value(data), summary.limit_cycle.found ? 1 : 0);
     }
     // The whole robot's, not the largest of the joints.
-    if (figure.name == "energy.electrical") {
-      EXPECT_EQ(figure.value(data), record.ledger.electrical);
+    if (quantity.name == "energy.electrical") {
+      EXPECT_EQ(quantity.value(data), record.ledger.electrical);
     }
-    if (figure.name != "torque.peak") continue;
+    if (quantity.name != "torque.peak") continue;
     double most = 0;
     for (std::size_t j = 0; j < record.joints.size(); ++j) {
-      const double one = joint_figure("torque.peak", *scenario.robot, j)->value(data);
+      const double one = joint_quantity("torque.peak", *scenario.robot, j)->value(data);
       EXPECT_EQ(one, record.joints[j].torque_peak);
       most = std::max(most, one);
     }
-    EXPECT_EQ(figure.value(data), most);
+    EXPECT_EQ(quantity.value(data), most);
   }
   EXPECT_TRUE(names.contains("torque.peak") && names.contains("fell") && !names.contains("trace_hash") &&
               !names.contains("wall_time"));
-  EXPECT_FALSE(joint_figure("speed", *scenario.robot, 0).has_value());
+  EXPECT_FALSE(joint_quantity("speed", *scenario.robot, 0).has_value());
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ Row hostile_row() {
   row.message = std::string("no\0luck\xff\"\n", 10);
   row.simulated = 0.1 + 0.2;
   row.values = {"0.1", "hopf", ""};
-  row.figures = {
+  row.quantities = {
       1.0 / 3, -0.0, std::nan(""), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::denorm_min(),
       1e300,   0.5F, 16777217};
   row.verdict = "feasible";
@@ -44,8 +44,8 @@ void expect_same(const Row& a, const Row& b) {
     EXPECT_TRUE(std::isnan(x) ? std::isnan(y) : std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y))
         << x << " " << y;
   };
-  ASSERT_EQ(a.figures.size(), b.figures.size());
-  for (std::size_t k = 0; k < a.figures.size(); ++k) same(a.figures[k], b.figures[k]);
+  ASSERT_EQ(a.quantities.size(), b.quantities.size());
+  for (std::size_t k = 0; k < a.quantities.size(); ++k) same(a.quantities[k], b.quantities[k]);
   ASSERT_EQ(a.score.has_value(), b.score.has_value());
   if (!a.score) return;
   for (std::size_t k = 0; k < kMostObjectives; ++k) same(a.score->objectives[k], b.score->objectives[k]);

@@ -1,7 +1,7 @@
 // Wrong studies, each with its message, before anything runs.
 #include "studies/study/study_file.h"
 
-#include "app/study/study_figures.h"
+#include "app/study/study_quantities.h"
 #include "studies/plan/plan.h"
 #include "tests/program/fixture.h"
 
@@ -21,7 +21,7 @@ class StudyFile : public ::testing::Test {
   std::string error(const std::string& text) { return error_of(folder_.write("s.yaml", text), studies::Purpose::sweep); }
   std::string error_of(const std::string& file, studies::Purpose purpose) {
     try {
-      const studies::Plan plan(studies::read_study(file, purpose), app::figure_offer(), catalog());
+      const studies::Plan plan(studies::read_study(file, purpose), app::quantity_offer(), catalog());
     } catch (const InputError& error) {
       std::string what = error.what();
       for (std::size_t at = 0; (at = what.find(folder_.path().string() + "/")) != std::string::npos;)
@@ -53,13 +53,14 @@ class StudyFile : public ::testing::Test {
 TEST_F(StudyFile, IsTaken) {
   EXPECT_EQ(with(""), "taken");
   EXPECT_EQ(with("objective: {minimize: \"torque.peak[m0/active] / max(speed, 1e-6)\"}\nconstraints: [torque.rms <= 0.6]\n"
-                 "guards: {range.share: 0.2}\nreplicates: {count: 3, vary: {actuator.R: {times: {uniform: [0.9, 1.1]}}}}\n"),
+                 "guards: {stops: 0.2, dock_bending: {margin: 0.2}, periodic: true, slip: false}\nreplicates: {count: 3, vary: "
+                 "{actuator.R: {times: {uniform: [0.9, 1.1]}}}}\n"),
             "taken");
 }
 
 TEST_F(StudyFile, ItsRulesForStoppingAreChecked) {
   EXPECT_EQ(with("stop: [fell, saturated.voltage > 0.3 after 4, \"torque.peak[m0/active] > 2\"]\n"), "taken");
-  EXPECT_EQ(with("stop: [feel]\n"), "s.yaml:4:8: error: unknown figure 'feel'; did you mean 'fell'?");
+  EXPECT_EQ(with("stop: [feel]\n"), "s.yaml:4:8: error: unknown quantity 'feel'; did you mean 'fell'?");
   EXPECT_EQ(with("stop: [fell after noon]\n"),
             "s.yaml:4:8: error: a rule ends with after 'noon'; expected a number of seconds: fell after 2");
   EXPECT_TRUE(
@@ -107,7 +108,7 @@ TEST_F(StudyFile, ItsParametersAreChecked) {
 }
 
 TEST_F(StudyFile, ItsExpressionsAreChecked) {
-  EXPECT_EQ(with("objective: {maximize: spee}\n"), "s.yaml:4:23: error: unknown figure 'spee'; did you mean 'speed'?");
+  EXPECT_EQ(with("objective: {maximize: spee}\n"), "s.yaml:4:23: error: unknown quantity 'spee'; did you mean 'speed'?");
   EXPECT_EQ(with("objective: {maximize: speed + }\n"),
             "s.yaml:4:30: error: found the end of the text; expected a number, a name or '('");
   EXPECT_EQ(with("objective: {maximize: 2*lg(speed)}\n"), "s.yaml:4:25: error: unknown function 'lg'; did you mean 'log'?");
@@ -119,9 +120,26 @@ TEST_F(StudyFile, ItsExpressionsAreChecked) {
             "s.yaml:4:16: error: no joint is called 'm9/active'; did you mean 'm0/active'?");
   EXPECT_EQ(with("constraints: ['speed[m0/active] <= 1']\n"),
             "s.yaml:4:16: error: 'speed' is of the whole robot; expected it without [m0/active]");
-  EXPECT_EQ(with("guards: {range.shar: 0.1}\n"), "s.yaml:4:10: error: unknown guard 'range.shar'; did you mean 'range.share'?");
+  EXPECT_EQ(with("guards: {stop: 0.1}\n"), "s.yaml:4:10: error: unknown check 'stop'; did you mean 'stops'?");
+  EXPECT_EQ(with("guards: {stops: much}\n"),
+            "s.yaml:4:17: error: guards.stops is 'much'; expected a limit, {margin: NUMBER}, true or false");
+  EXPECT_EQ(with("guards: {stops: {limit: 1}}\n"),
+            "s.yaml:4:17: error: guards.stops is a map; expected a limit, {margin: NUMBER}, true or false");
+  EXPECT_EQ(with("guards: {field: 2}\n"),
+            "s.yaml:4:10: error: field has no limit that a number could replace; expected {margin: NUMBER}, true or false");
+  EXPECT_EQ(with("guards: {fall: true, fell: 0}\n"), "s.yaml:4:22: error: check 'fall' is guarded twice, once by an old name");
+  EXPECT_EQ(with("guards: {range.share: 0.2}\n"),
+            "s.yaml:4:10: error: range.share: 0.2 is an old guard without a check of the same meaning; write set: "
+            "[limits.beyond_range_share=0.2], or guards: {stops: ANGLE} with an angle in rad");
+  EXPECT_EQ(with("guards: {verdict_excess: 3}\n"),
+            "s.yaml:4:10: error: verdict_excess: 3 is an old guard without a check of the same meaning; write guards: {ID: "
+            "{margin: -0.1}} for a check that may fail");
+  EXPECT_EQ(with("guards: {verdict_excess: 0}\n"), "taken");
+  EXPECT_EQ(with("figures: [speed]\nquantities: [speed]\n"),
+            "s.yaml:4:1: error: figures is the old name of quantities, which is given, too; expected one of them");
   EXPECT_EQ(with("guards: walk\n"),
-            "s.yaml:4:9: error: guards is 'walk'; expected gait, none, or limits by name: {range.share: 0.1}");
+            "s.yaml:4:9: error: guards is 'walk'; expected verdict, none, or checks of the verdict: {stops: 0.1, "
+            "dock_bending: {margin: 0.2}, periodic: true, slip: false}");
 }
 
 TEST_F(StudyFile, ASearchIsChecked) {
@@ -190,6 +208,9 @@ TEST_F(StudyFile, ThoseThatComeWithTheProgramAreTaken) {
     searches += studies::is_search(method) ? 1 : 0;
     const auto purpose = studies::is_search(method) ? studies::Purpose::optimize : studies::Purpose::sweep;
     EXPECT_EQ(error_of(name, purpose), "taken") << name;
+    const studies::Plan plan(studies::read_study(name, purpose), app::quantity_offer(), catalog());
+    EXPECT_TRUE(plan.short_runs().empty()) << name << ": " << plan.short_runs().front().text;
+    EXPECT_TRUE(plan.study().notes.empty()) << name;
   }
   EXPECT_GE(searches, 4U);
   const studies::Study robust = studies::read_study(kScenarios + "studies/hexapod-robust.yaml", studies::Purpose::optimize);

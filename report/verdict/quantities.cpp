@@ -1,4 +1,4 @@
-#include "report/verdict/figures.h"
+#include "report/verdict/quantities.h"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +19,8 @@ constexpr std::array<std::string_view, 11> kSoFar{
     "simulated",     "displacement.x", "displacement.y",       "distance", "speed", "path_length", "straightness",
     "forward_speed", "heading_change", "tracking_error.worst", "fell"};
 
-std::vector<Figure> all_figures() {
-  std::vector<Figure> all;
+std::vector<Quantity> all_quantities() {
+  std::vector<Quantity> all;
   const auto has = [&](const std::string& name) {
     return std::ranges::any_of(summary_numbers(),
                                [&](const SummaryNumber& n) { return n.of_joint == nullptr && n.key == name; });
@@ -30,7 +30,7 @@ std::vector<Figure> all_figures() {
     if (number.of_joint == nullptr) {
       all.push_back({number.key, &number});
     } else if (!has(short_name(number))) {
-      all.push_back({short_name(number), &number, Figure::Of::largest});
+      all.push_back({short_name(number), &number, Quantity::Of::largest});
     }
   }
   return all;
@@ -38,7 +38,7 @@ std::vector<Figure> all_figures() {
 
 }  // namespace
 
-double Figure::value(const RunData& run) const {
+double Quantity::value(const RunData& run) const {
   if (of == Of::joint) return number->of_joint(run, joint);
   if (of == Of::largest) {
     double most = kNotKnown;
@@ -54,30 +54,30 @@ double Figure::value(const RunData& run) const {
   return value.is_number() ? value.get<double>() : kNotKnown;
 }
 
-std::string Figure::meaning() const {
+std::string Quantity::meaning() const {
   const std::string text = number->definition;
   return of == Of::largest ? "Of all joints the largest: " + text : of == Of::joint ? "Of this joint: " + text : text;
 }
 
-const std::vector<Figure>& figures() {
-  static const std::vector<Figure> kAll = all_figures();
+const std::vector<Quantity>& quantities() {
+  static const std::vector<Quantity> kAll = all_quantities();
   return kAll;
 }
 
-bool known_so_far(const Figure& figure) {
-  const std::string_view key = figure.number->key;
-  if (figure.of == Figure::Of::run) return std::ranges::find(kSoFar, key) != kSoFar.end();
+bool known_so_far(const Quantity& quantity) {
+  const std::string_view key = quantity.number->key;
+  if (quantity.of == Quantity::Of::run) return std::ranges::find(kSoFar, key) != kSoFar.end();
   return key.find(".judged.") == std::string_view::npos;
 }
 
-double value_so_far(const Figure& figure, const Scenario& scenario, const Recording& so_far) {
-  return figure.value({scenario, so_far, travelled(so_far)});
+double value_so_far(const Quantity& quantity, const Scenario& scenario, const Recording& so_far) {
+  return quantity.value({scenario, so_far, travelled(so_far)});
 }
 
-std::optional<Figure> joint_figure(const std::string& name, const Robot& robot, std::size_t joint) {
+std::optional<Quantity> joint_quantity(const std::string& name, const Robot& robot, std::size_t joint) {
   for (const SummaryNumber& number : summary_numbers()) {
     if (number.of_joint != nullptr && short_name(number) == name)
-      return Figure{name + "[" + robot.joints[joint].name + "]", &number, Figure::Of::joint, joint};
+      return Quantity{name + "[" + robot.joints[joint].name + "]", &number, Quantity::Of::joint, joint};
   }
   return {};
 }

@@ -1,0 +1,193 @@
+// Guards of studies: every check of the verdict, kept and broken by value.
+#include "studies/study/guards.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/study/study_quantities.h"
+#include "report/verdict/verdict.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using studies::Guard;
+using studies::Guards;
+using Asks = studies::Guard::Asks;
+
+const studies::QuantityOffer& offered() {
+  static const studies::QuantityOffer kOffer = app::quantity_offer();
+  return kOffer;
+}
+
+/// The guards of a study that names these, and runs with margins set by hand.
+class Guarded {
+ public:
+  explicit Guarded(std::vector<Guard> guards, bool guarded = true, bool of_energy = false) {
+    study_.guards = std::move(guards);
+    study_.guarded = guarded;
+    for (const studies::Quantity& column : studies::columns_of(study_, offered(), {})) columns_.push_back(column.name);
+    guards_ = Guards(study_, columns_, offered().checks, of_energy, problems_);
+    values_.assign(columns_.size(), std::nan(""));
+  }
+  Guarded& set(const std::string& column, double value) {
+    const auto at = std::ranges::find(columns_, column);
+    EXPECT_NE(at, columns_.end()) << column;
+    if (at != columns_.end()) values_[static_cast<std::size_t>(at - columns_.begin())] = value;
+    return *this;
+  }
+  [[nodiscard]] double violation(const std::string& word) const { return guards_.violation(values_, word); }
+  [[nodiscard]] std::vector<std::string> broken(const std::string& word, const std::string& why = "") const {
+    return guards_.broken(values_, word, why);
+  }
+  [[nodiscard]] std::vector<std::string> texts() const { return guards_.texts(); }
+  [[nodiscard]] std::string problem() const { return problems_.empty() ? "" : problems_.list().front().text; }
+
+ private:
+  studies::Study study_;
+  std::vector<std::string> columns_;
+  Problems problems_;
+  Guards guards_;
+  std::vector<double> values_;
+};
+
+TEST(Guards, OfEveryCheckAreKeptFromTheirMarginOnAndBrokenBelow) {
+  ASSERT_EQ(offered().checks.size(), report::check_kinds().size());
+  for (const studies::CheckOffer& check : offered().checks) {
+    SCOPED_TRACE(check.id);
+    const std::string own = "margin." + check.id;
+    Guarded kept({{check.id, Asks::kept}});
+    EXPECT_EQ(kept.violation("feasible"), 0) << "the run does not have it";
+    EXPECT_EQ(kept.set(own, 0).violation("feasible"), 0);
+    EXPECT_EQ(kept.set(own, -0.25).violation("feasible"), 0.25);
+    EXPECT_EQ(kept.broken("feasible"),
+              std::vector{fmt::format("check {} has a margin of -0.25; the study asks for 0", check.id)});
+    Guarded margin({{check.id, Asks::margin, 0.5}});
+    EXPECT_EQ(margin.set(own, 0.5).violation("feasible"), 0);
+    EXPECT_EQ(margin.set(own, 0.25).violation("feasible"), 0.25);
+    EXPECT_EQ(margin.broken("feasible"),
+              std::vector{fmt::format("check {} has a margin of 0.25; the study asks for 0.5", check.id)});
+    Guarded dropped({{check.id, Asks::nothing}});
+    EXPECT_EQ(dropped.set(own, -0.25).violation(check.can_fail ? "infeasible" : "feasible"), 0);
+    if (!check.limited) continue;
+    Guarded limit({{check.id, Asks::limit, 0.1}});
+    EXPECT_EQ(limit.set(own, -9).set(own + "[0.1]", 0).violation(check.can_fail ? "infeasible" : "feasible"), 0);
+    EXPECT_EQ(limit.set(own, 9).set(own + "[0.1]", -0.25).violation("feasible"), 0.25);
+  }
+}
+
+/// Checks that can fail count for the verdict, which every study is guarded by; those that only warn do not.
+TEST(Guards, OfTheVerdictAreTheChecksThatCanFail) {
+  for (const studies::CheckOffer& check : offered().checks) {
+    SCOPED_TRACE(check.id);
+    Guarded verdict({});
+    verdict.set("margin." + check.id, -0.25);
+    EXPECT_EQ(verdict.violation("infeasible"), check.can_fail ? 0.25 : 1);
+    EXPECT_EQ(verdict.broken("infeasible", "a sentence"), std::vector<std::string>{"infeasible: a sentence"});
+    Guarded none({}, false);
+    EXPECT_EQ(none.set("margin." + check.id, -0.25).violation("infeasible"), 0);
+    EXPECT_TRUE(none.broken("infeasible", "a sentence").empty());
+  }
+}
+
+TEST(Guards, AskForTheWordFeasible) {
+  EXPECT_EQ(Guarded({}).set("margin.stops", -1e-9).violation("feasible"), 0) << "the word decides";
+  Guarded verdict({});
+  EXPECT_EQ(verdict.violation("feasible"), 0);
+  for (const char* word : {"not judged", "infeasible"}) {
+    EXPECT_EQ(verdict.violation(word), 1) << "no margin is negative";
+    EXPECT_EQ(verdict.broken(word, "why"), std::vector{std::string(word) + ": why"});
+  }
+  verdict.set("margin.stops", -0.5).set("margin.voltage", -0.25).set("margin.slip", -3);
+  EXPECT_EQ(verdict.violation("infeasible"), 0.75) << "slip only warns";
+  EXPECT_EQ(verdict.texts().front(), "feasible >= 1");
+}
+
+/// A study may ask less of a check than the verdict; then that check alone does not make a run infeasible for it.
+TEST(Guards, MayAskLessThanTheVerdict) {
+  Guarded guards({{"stops", Asks::limit, 0.1}});
+  guards.set("margin.stops", -0.5).set("margin.stops[0.1]", 0.2);
+  EXPECT_EQ(guards.violation("infeasible"), 0);
+  EXPECT_TRUE(guards.broken("infeasible", "why").empty());
+  EXPECT_EQ(guards.violation("not judged"), 1) << "evidence is missing";
+  guards.set("margin.voltage", -0.25);
+  EXPECT_EQ(guards.violation("infeasible"), 0.25);
+  EXPECT_EQ(guards.texts().front(), "verdict but for stops");
+}
+
+TEST(Guards, OfCreatedEnergyStandWhereElectricalEnergyIsTheObjective) {
+  Guarded without({});
+  EXPECT_EQ(without.set("margin.created", -0.25).violation("feasible"), 0);
+  Guarded with({}, true, true);
+  EXPECT_EQ(with.set("margin.created", -0.25).violation("feasible"), 0.25);
+  Guarded dropped({{"created", Asks::nothing}}, true, true);
+  EXPECT_EQ(dropped.set("margin.created", -0.25).violation("feasible"), 0);
+}
+
+/// Old names with their number, and the check that each is.
+TEST(Guards, HaveOldNames) {
+  struct Old {
+    const char *name, *check;
+    double number;
+    Asks asks;
+  };
+  for (const Old& old :
+       {Old{"judged.saturated.voltage", "voltage", 0.1, Asks::limit},
+        Old{"judged.saturated.current", "current", 0.1, Asks::limit},
+        Old{"range.setpoint_share", "setpoints", 0.1, Asks::limit},
+        Old{"judged.tracking_error.peak", "tracking", 0.1, Asks::limit}, Old{"airborne_share", "airborne", 0.1, Asks::limit},
+        Old{"energy.residual_share", "ledger", 0.1, Asks::limit}, Old{"energy.created_share", "created", 0.1, Asks::limit},
+        Old{"fell", "fall", 0, Asks::kept}, Old{"fell", "fall", 1, Asks::nothing},
+        Old{"limit_cycle.found", "periodic", 1, Asks::kept}, Old{"limit_cycle.found", "periodic", 0, Asks::nothing}}) {
+    SCOPED_TRACE(old.name);
+    const Node node = parse_yaml(fmt::format("guards: {{{}: {}}}\n", old.name, old.number), "s.yaml");
+    studies::Study study;
+    Problems problems;
+    studies::read_guards(*node.find("guards"), study, problems);
+    ASSERT_TRUE(problems.empty());
+    ASSERT_EQ(study.guards.size(), 1U);
+    EXPECT_EQ(study.guards[0].check, old.check);
+    EXPECT_EQ(study.guards[0].asks, old.asks);
+    EXPECT_EQ(study.notes.size(), 1U);
+    EXPECT_EQ(Guarded(study.guards).problem(), "");
+  }
+}
+
+/// The columns of a run: the margins of its verdict, and those against the study's limits.
+TEST(Guards, MarginsAreThoseOfTheVerdict) {
+  const Scenario scenario = shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=4", "cpg.amplitude=1.2"});
+  const Recording record = run(scenario);
+  const report::Verdict verdict =
+      report::verdict(scenario, record, report::summarise(scenario, record, 0), report::overlaps(scenario, record));
+  std::vector<studies::Quantity> columns{{"feasible", "", ""}, {"margin", "", ""}};
+  for (const report::Check& check : verdict.checks) {
+    columns.push_back({"margin." + check.id, "", ""});
+    columns.push_back({"margin." + check.id + "[0.25]", "", ""});
+  }
+  const studies::Judged judged = app::quantity_measure(columns, scenario)(scenario, record);
+  EXPECT_EQ(judged.verdict, name_of(verdict.word));
+  EXPECT_EQ(judged.why, verdict.why());
+  EXPECT_EQ(judged.quantities[0], verdict.word == report::Word::feasible ? 1 : 0);
+  EXPECT_EQ(judged.quantities[1], verdict.tightest()->margin);
+  std::size_t known = 0;
+  for (std::size_t k = 0; k < verdict.checks.size(); ++k) {
+    const report::Check& check = verdict.checks[k];
+    SCOPED_TRACE(check.id);
+    const double margin = judged.quantities[2 + 2 * k];
+    if (check.status == report::CheckStatus::fail) {
+      EXPECT_LT(margin, 0);
+    }
+    if (check.status == report::CheckStatus::pass && !std::isnan(margin)) {
+      EXPECT_GE(margin, 0);
+    }
+    const double other = judged.quantities[3 + 2 * k];
+    if (std::isnan(check.margin) || check.criteria.size() > 1) continue;
+    ++known;
+    EXPECT_EQ(other, (check.least ? check.value - 0.25 : 0.25 - check.value) / 0.25);
+  }
+  EXPECT_GT(known, 5U);
+}
+
+}  // namespace
+}  // namespace gaitlab::test
