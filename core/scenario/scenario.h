@@ -140,7 +140,7 @@ struct Scenario {
   /// The same, with the key's section before the file.
   [[nodiscard]] SourceLocation nearest_place(const std::string& key) const {
     const SourceLocation exact = place(key);
-    return exact.line > 0 ? exact : place(key.substr(0, key.find('.')));
+    return exact.line > 0 || exact.file != file ? exact : place(key.substr(0, key.find('.')));
   }
 };
 

@@ -18,9 +18,9 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kLeastTravel = 0.01, kLeastTurn = 0.01;  // of the extent, and rad: per period, ten times that without one
-constexpr double kNotLimited = std::numeric_limits<double>::quiet_NaN();  // the margin of a limit that nothing fails by
-constexpr double kMostCycleError = 0.02;                                  // as core/recording/limit_cycle.h
-constexpr double kSpeedsUp = 1.2;  // of the first half's speed, where gravity drives the robot
+constexpr const char* kTooShort = "the run is too short";
+constexpr double kMostCycleError = 0.02;  // as core/recording/limit_cycle.h
+constexpr double kSpeedsUp = 1.2;         // of the first half's speed, where gravity drives the robot
 
 /// Control ticks in the judged window.
 struct Rows {
@@ -113,13 +113,17 @@ void progress(const CheckedRun& run, Check& made) {
   const double turn = std::abs(run.summary.heading_change) * (made.to - made.from) / std::max(r.simulated, 1e-9) / per;
   const char* const each = periods > 0 ? "per period" : "in the judged time";
   const bool goes = made.value >= made.limit || (asked == 0 && turn >= factor * kLeastTurn);
-  made.status = goes ? CheckStatus::pass : asked > 0 ? CheckStatus::fail : CheckStatus::warn;
+  made.status = goes                             ? CheckStatus::pass
+                : asked > 0                      ? CheckStatus::fail
+                : run.evidence.too_short.empty() ? CheckStatus::warn
+                                                 : CheckStatus::not_judged;
   made.text = fmt::format("the robot goes {:.3g} m {}{}", made.value, each,
                           goes ? "" : fmt::format(", less than {:.3g} m", made.limit));
-  if (asked == 0) made.margin = kNotLimited;
+  made.can_fail = asked > 0;
   const double fallen = gravity_work(s, m);
   double driven = 0;
   for (const JointStatistics& joint : r.joints) driven += joint.shaft;
+  if (!run.evidence.not_borne.empty()) return;  // a fall is not a slide
   const double faster = speed_up(run, m, rows);
   if (!(fallen > std::max(driven, least_energy(s))) || !(faster > kSpeedsUp)) return;
   made.criteria = {{made.value, made.limit, made.unit, true}, {faster, kSpeedsUp}};
@@ -128,6 +132,7 @@ void progress(const CheckedRun& run, Check& made) {
   made.unit = "";
   made.least = false;
   made.margin = made.criteria.back().margin();
+  made.can_fail = true;
   made.status = CheckStatus::fail;
   made.text = fmt::format(
       "the robot slides down: gravity does {:.3g} J of work, the motors {:.3g} J, and its speed grows {:.3g} "
@@ -172,6 +177,8 @@ void periodic(const CheckedRun& run, Check& made) {
   const MotionCycle& cycle = run.summary.limit_cycle;
   made.text = "the set points do not repeat";
   if (!cycle.found && !run.evidence.repeats) return;
+  made.text = kTooShort;
+  if (!cycle.found && !run.evidence.too_short.empty()) return;
   made.value = cycle.error;
   made.limit = kMostCycleError;
   made.source = "chosen";

@@ -149,7 +149,8 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
     const AtLimit one = at_limit(run, j, column, judged.joints[j].*share);
     if (one.share > 0) ++made.parts;
     if (!worst || std::pair(-one.margin(), one.share) > std::pair(-worst->margin(), worst->share)) worst = one;
-    if (const double error = error_of(run, j); error > 0) {
+    // A larger error is no evidence of anything.
+    if (const double error = error_of(run, j); error > 0 && error <= run.limits().torque_error) {
       const double near = one.share + near_limit(run, j, error, limit);
       if (near > bar) std::tie(bar, barred) = std::pair(near, j);
     }

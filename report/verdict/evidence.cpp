@@ -98,7 +98,10 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made) {
   const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
   const std::vector<Series> asked = set_points(s, r);
   if (made.not_trusted = makes_energy(s); !made.not_trusted.empty()) return;
-  if (error.estimated && error.share > s.limits.torque_error) {
+  if (driven && s.cpg.entry != nullptr && !asked.empty() && !moves(asked)) {
+    made.not_trusted = fmt::format("no set point changes: cpg {} moves no joint", s.cpg.entry->name);
+    made.remedy = "look for its amplitudes, frames or equations";
+  } else if (error.estimated && error.share > s.limits.torque_error) {
     made.not_trusted = fmt::format("the torque of joint {} is off by about {} of its peak, more than {}; take {}",
                                    s.robot->joints[error.joint].name, texts::rough_percent(error.share),
                                    texts::percent(s.limits.torque_error), torque_remedy(s, error.share));
@@ -109,9 +112,6 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made) {
   } else if (coarse > kTrustedCoarse) {
     made.not_trusted = fmt::format("in {} of the time the shortest steps do not reach the accuracy {}",
                                    texts::rough_percent(coarse), texts::rough_percent(s.physics.accuracy));
-  } else if (driven && s.cpg.entry != nullptr && !asked.empty() && !moves(asked)) {
-    made.not_trusted = fmt::format("no set point changes: cpg {} moves no joint", s.cpg.entry->name);
-    made.remedy = "look for its amplitudes, frames or equations";
   }
 }
 

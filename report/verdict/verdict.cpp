@@ -128,7 +128,8 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
     if (!made.of_rows.empty()) replace_end(check.definition, kOverAllSteps, ", over the rows of the trace");
     kind.judge(run, check);
     if (check.criteria.empty()) check.margin = Criterion{check.value, check.limit, check.unit, check.least}.margin();
-    if (check.status == CheckStatus::not_judged || check.id == "outcome") check.margin = kNone;
+    if (check.status == CheckStatus::not_judged || check.id == "outcome" || (kind.can_fail() && !check.can_fail))
+      check.margin = kNone;
     check.text = without_folders(std::move(check.text), scenario.plugins);
     const bool judged = check.status != CheckStatus::not_judged;
     if (judged && check.group == CheckGroup::motor) motors = {run.motor_source};

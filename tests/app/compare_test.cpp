@@ -213,11 +213,10 @@ TEST_F(Formats, TheFilesLineNamesTheTrace) {
     const std::string out = gaitlab_here("run good.yaml " + arguments).out;
     return out.substr(out.find("  files"));
   };
-  EXPECT_EQ(files("--out x"),
-            "  files         x: trace.h5, summary.json, verdict.json,\n                scenario.resolved.yaml, figure.svg\n"
-            "  page          x/report.html, opens in a browser\n");
+  EXPECT_EQ(files("--out x --verbose"),
+            "  files     x: trace.h5, summary.json, verdict.json,\n            scenario.resolved.yaml, figure.svg\n");
   EXPECT_EQ(files("--out y --format csv --no-report"),
-            "  files         y: trace.csv, recording.h5, summary.json, verdict.json,\n                scenario.resolved.yaml, "
+            "  files     y: trace.csv, recording.h5, summary.json, verdict.json,\n            scenario.resolved.yaml, "
             "figure.svg\n");
   const Result result = gaitlab_here("run good.yaml --format xml --out z");
   EXPECT_EQ(result.code, 2);

@@ -57,15 +57,21 @@ TEST_F(GoldenCommand, ApprovedIsGreen) {
 
 /// The golden is kept, but the robot cannot do it: 3, and whatever else is wrong comes first.
 TEST_F(GoldenCommand, FailsWhatIsInfeasible) {
+  // Three periods, which are evidence.
+  std::string walk = kCaterpillar + "physics: {engine: articulated, accuracy: 0.001}\n";
+  walk.replace(walk.find("duration: 0.1"), 13, "duration: 3");
+  walk.replace(walk.find("amplitude: 0.6"), 14, "amplitude: 0.1");
+  folder.write("good.yaml", walk);
+  ASSERT_EQ(call("approve good.yaml --reason 'a whole gait'").code, 0);
   EXPECT_EQ(call("test good.yaml --fail-infeasible").code, 0);
-  folder.write("good.yaml", kCaterpillar + "limits: {tracking_error: 1e-6}\n");
+  folder.write("good.yaml", walk + "limits: {tracking_error: 1e-6}\n");
   EXPECT_EQ(call("test good.yaml").code, 0);
   const Result result = call("test good.yaml --fail-infeasible --junit result.xml");
   EXPECT_EQ(result.code, 3);
   expect_contains(result.out, "  INFEASIBLE\n\n0 passed, 0 failed, 1 infeasible\n");
   expect_contains(result.err, "good.yaml: infeasible: joint ");
   expect_contains(read(folder / "result.xml"), "<failure message=\"INFEASIBLE\">good.yaml: infeasible: joint ");
-  folder.write("good.yaml", kCaterpillar + "limits: {tracking_error: 1e-6}\nactuator: {Kt: 0.0039895}\n");
+  folder.write("good.yaml", walk + "limits: {tracking_error: 1e-6}\nactuator: {Kt: 0.0039895}\n");
   EXPECT_EQ(call("test good.yaml --fail-infeasible").code, 4);
 }
 

@@ -30,8 +30,8 @@ TEST_P(ReadBack, GivesTheSameSummaryAndFigure) {
   EXPECT_EQ(read(folder / "again/summary.json"), summary);
   EXPECT_EQ(read(folder / "again/figure.svg"), read(folder / "run/figure.svg"));
   EXPECT_TRUE(read(folder / "again/report.html") == read(folder / "run/report.html"));
-  // The terminal, but for the line with the files.
-  const auto text = [](const std::string& out) { return out.substr(0, out.find("  files ")); };
+  // The terminal, but for the lines with page and files.
+  const auto text = [](const std::string& out) { return out.substr(0, std::min(out.find("  page "), out.find("  files "))); };
   EXPECT_EQ(text(again.out), text(ran.out));
 }
 
@@ -154,7 +154,7 @@ class OldFolder : public testing::Test {
 };
 
 TEST_F(OldFolder, IsReadAsFarAsItGoes) {
-  const Result result = gaitlab("report old", folder_.path());
+  const Result result = gaitlab("report old --verbose", folder_.path());
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("two-modules: 0.2 s simulated"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("distance      0.0"), std::string::npos) << result.out;

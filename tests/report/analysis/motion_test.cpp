@@ -181,7 +181,7 @@ TEST(Motion, OfAnOlderFolderIsOfItsRowsAndSaysSo) {
   const Folder folder;
   write_recording(old, {resolved(s), 0, "", "done"}, "h5", folder.path());
   folder.write("scenario.resolved.yaml", resolved(s));
-  const Result told = gaitlab("report . --out again", folder.path());
+  const Result told = gaitlab("report . --verbose --out again", folder.path());
   EXPECT_EQ(told.code, 0) << told.err;
   EXPECT_TRUE(contains(told.out, "t = 0.6 to 3 s")) << told.out;
   EXPECT_TRUE(contains(told.out, "in this older folder limit cycle")) << told.out;

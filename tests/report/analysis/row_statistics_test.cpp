@@ -126,7 +126,6 @@ TEST(RowStatistics, LeaveOutHingesWithoutAMotor) {
     EXPECT_EQ(bare.tick(0, static_cast<TickColumn>(c)).back(), 0) << "of the castor";
   const Verdict steps = verdict_of(s, whole);
   const Verdict rows = verdict_of(s, bare);
-  EXPECT_EQ(rows.word, steps.word);
   for (const char* const id : {"voltage", "current", "envelope", "speed", "tracking"}) {
     EXPECT_NE(check_of(rows, id).status, CheckStatus::not_judged) << id << ": " << check_of(rows, id).text;
     EXPECT_EQ(check_of(rows, id).status, check_of(steps, id).status) << id;
@@ -152,14 +151,15 @@ TEST(RowStatistics, OfNothingAreNothing) {
 TEST(RowStatistics, JudgeFoldersOfCsv) {
   const Folder folder;
   const std::string run =
-      "run " + kScenarios + "caterpillar.yaml --set physics.engine=articulated --set duration=4 --set actuator.i_max=0.35 ";
+      "run " + kScenarios + "caterpillar.yaml --set physics.engine=articulated --set duration=12 --set actuator.i_max=0.35 ";
   ASSERT_EQ(gaitlab(run + "--format csv --no-report --out csv", folder.path()).code, 0);
   const auto before = nlohmann::json::parse(read(folder / "csv/verdict.json"));
   EXPECT_EQ(before.at("statistics"), "all steps");
   std::filesystem::remove(folder / "csv/recording.h5");
   const Result result = gaitlab("report csv --fail-infeasible --page page.html", folder.path());
   EXPECT_EQ(result.code, 3) << result.err;
-  EXPECT_TRUE(contains(result.out, "judged from the trace's rows, one per 5 ms: a peak between two\n")) << result.out;
+  EXPECT_TRUE(contains(result.out, "judged from the trace's rows, one per 5 ms: a peak between two rows is not seen\n"))
+      << result.out;
   EXPECT_TRUE(contains(result.out, "infeasible: ")) << result.out;
   EXPECT_TRUE(contains(read(folder / "page.html"), R"("statistics":"rows")"));
 }

@@ -52,10 +52,10 @@ LoadCase& crawl() {
 
 TEST(LoadChecks, NameTheDockThatBearsMost) {
   const std::tuple<const char*, const char*, const char*> all[] = {
-      {"dock_tension", "tension", "m3/dock is pulled apart by up to 77 N"},
-      {"dock_shear", "shear", "m3/dock is sheared by up to 77 N"},
-      {"dock_bending", "bending", "m3/dock is bent by up to 77 N m"},
-      {"dock_torsion", "torsion", "m3/dock is twisted by up to 77 N m"}};
+      {"dock_tension", "tension", "m3's dock is pulled apart by up to 77 N"},
+      {"dock_shear", "shear", "m3's dock is sheared by up to 77 N"},
+      {"dock_bending", "bending", "m3's dock is bent by up to 77 N m"},
+      {"dock_torsion", "torsion", "m3's dock is twisted by up to 77 N m"}};
   for (const auto& [id, column, text] : all) {
     LoadCase made = crawl();
     made.set(fmt::format("dock.3.{}", column), 77, made.last());
@@ -121,7 +121,7 @@ TEST(LoadChecks, TakeTheSmallerLimitOfBothConnectors) {
   EXPECT_EQ(weak.check("dock_tension").status, CheckStatus::fail);
   EXPECT_EQ(weak.check("dock_tension").source, "chosen: no source stated");
   EXPECT_TRUE(contains(weak.check("dock_tension").text, "of what it holds by a chosen figure"));
-  EXPECT_TRUE(contains(weak.check("dock_tension").text, "m5/dock is pulled apart")) << weak.check("dock_tension").text;
+  EXPECT_TRUE(contains(weak.check("dock_tension").text, "m5's dock is pulled apart")) << weak.check("dock_tension").text;
   const Verdict made = verdict(weak.scenario, weak.record, weak.summary(), overlaps(weak.scenario, weak.record));
   EXPECT_EQ(made.word, report::Word::infeasible);
 }
@@ -137,20 +137,19 @@ TEST(LoadChecks, OfATensionOnlyThePullCounts) {
   EXPECT_EQ(made.check("dock_torsion").value, 50);
 }
 
-TEST(LoadChecks, ReadTheJudgedWindow) {
-  // The window holds what is behind its first row: a load there does not count, one in the next row does.
-  const std::size_t first = crawl().summary().judged.first_row;
-  ASSERT_GT(first, 1U);
+/// A dock that opens once has opened, whenever that is.
+TEST(LoadChecks, AreOfTheWholeRun) {
+  ASSERT_GT(crawl().summary().judged.first_row, 1U);
   const auto with = [&](std::size_t row) {
     LoadCase made = crawl();
     made.set("dock.1.shear", 500, row);
     made.set("dock.1.shear", 1, row + 1);
     return made.check("dock_shear");
   };
-  EXPECT_LT(with(first).value, 100);
-  EXPECT_EQ(with(first + 1).value, 500);
-  EXPECT_EQ(with(first + 1).from, crawl().record.loads.at(first + 1, 0));
-  EXPECT_EQ(with(crawl().last()).value, 500) << "the end of the run is in it";
+  for (const std::size_t row : {std::size_t{0}, std::size_t{1}, crawl().last() - 1}) {
+    EXPECT_EQ(with(row).value, 500) << row;
+    EXPECT_EQ(with(row).from, crawl().record.loads.at(row, 0)) << row;
+  }
 }
 
 TEST(LoadChecks, WarnOfFeetThatSlide) {
@@ -191,7 +190,7 @@ TEST(LoadChecks, NoteWhatStandsAndWhatFalls) {
   made.set("stability", kUnknownLimit);
   EXPECT_EQ(made.check("stability").status, CheckStatus::not_judged);
   EXPECT_EQ(made.check("stability").text, "no foot bears a load");
-  made.scenario.ground.kind = Ground::Kind::heightfield;
+  made.scenario.ground.kind = Ground::Kind::boxes;
   EXPECT_TRUE(contains(made.check("stability").text, "plane"));
 }
 
@@ -205,7 +204,7 @@ TEST(LoadChecks, DoNotAssumeWhatTheyDoNotKnow) {
     EXPECT_EQ(old.check(id).status, CheckStatus::not_judged) << id;
     EXPECT_TRUE(contains(old.check(id).text, "not recorded")) << id;
     EXPECT_EQ(solver.check(id).status, CheckStatus::not_judged) << id;
-    EXPECT_TRUE(contains(solver.check(id).text, "contact.law bullet")) << id;
+    EXPECT_TRUE(contains(solver.check(id).text, "contact.law: bullet")) << id;
   }
   LoadCase held = crawl();
   held.scenario.base = Base::fixed;

@@ -49,9 +49,11 @@ TEST(Verdict, JudgesRatings) {
     return made;
   };
   const std::vector<JudgedJoint> joints = summarise(walk().scenario, walk().record, 0).judged.joints;
+  const std::vector<JudgedJoint> whole = summarise(walk().scenario, walk().record, 0).judged.whole;
   const auto most = [&](double JudgedJoint::*member) {
+    const bool peak = member == &JudgedJoint::torque_peak || member == &JudgedJoint::speed_peak;  // what breaks at once
     double largest = 0;
-    for (const JudgedJoint& joint : joints) largest = std::max(largest, joint.*member);
+    for (const JudgedJoint& joint : peak ? whole : joints) largest = std::max(largest, joint.*member);
     return largest;
   };
   for (const auto& [id, rating, value] : {std::tuple{"heat", "i_continuous", most(&JudgedJoint::current_rms)},
@@ -130,7 +132,6 @@ TEST(Verdict, OfAnActuatorWithoutALimit) {
   const Verdict real = with("{type: torque, limit: 100}");
   EXPECT_EQ(status(real, "voltage"), CheckStatus::not_judged);
   EXPECT_EQ(status(real, "current"), CheckStatus::pass);
-  EXPECT_EQ(real.word, report::Word::feasible);
 }
 
 }  // namespace

@@ -118,8 +118,9 @@ TEST(RunWarnings, TellANegativeCostOfTransportHoweverSmall) {
   r.joints[0].electrical -= drawn + 1e-9;
   r.ledger.electrical = -1e-9;  // far less than lifts the robot by 1 mm
   EXPECT_LT(summarise(s, r, 1).cost_electrical, 0);
-  ASSERT_EQ(messages(s, r).size(), 1U);
-  EXPECT_TRUE(contains(messages(s, r)[0], "so that the cost of transport is negative"));
+  std::string text;
+  for (const std::string& doubt : messages(s, r)) text += doubt + "\n";
+  EXPECT_TRUE(contains(text, "so that the cost of transport is negative")) << text;
 }
 
 TEST(RunWarnings, TellASetPointThatJumps) {

@@ -1,0 +1,142 @@
+// The word `feasible` is earned: runs of which the truth is known, and that were called feasible once.
+#include "report/verdict/screen.h"
+#include "tests/report/verdict/verdict_case.h"
+
+namespace gaitlab::test {
+namespace {
+
+/// A run with its loads, as `gaitlab run` judges it.
+struct Told {
+  Scenario scenario;
+  Recording record;
+  Summary summary;
+  Verdict made;
+
+  explicit Told(Scenario s) : scenario(std::move(s)) {
+    Simulation simulation({&scenario, 1}, Loads::recorded);
+    simulation.run();
+    record = simulation.take_recording(0);
+    summary = summarise(scenario, record, 0);
+    made = verdict(scenario, record, summary, overlaps(scenario, record));
+  }
+  [[nodiscard]] const Check& check(const std::string& id) const { return *std::ranges::find(made.checks, id, &Check::id); }
+};
+
+Scenario known_truth(const std::string& name) {
+  return read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/verdict/" + name + ".yaml", {}, catalog());
+}
+
+/// V1: docks are judged from the first step on.
+TEST(Earned, ADockThatOpensAtTheLanding) {
+  const Told drop(known_truth("V1-docks-at-landing"));
+  EXPECT_EQ(drop.made.word, Word::infeasible);
+  const Check& shear = drop.check("dock_shear");
+  EXPECT_EQ(shear.status, CheckStatus::fail);
+  EXPECT_EQ(shear.part, Part::dock);
+  // The largest of all rows, and when it was beyond 25 N first, from the table of loads alone.
+  double most = 0;
+  double first = -1;
+  const Trace& loads = drop.record.loads;
+  for (std::size_t row = 0; row < loads.rows(); ++row) {
+    for (const char* const column : {"dock.1.shear", "dock.2.shear"}) {
+      const double load = std::abs(loads.at(row, loads.find(column)));
+      if (load > 25 && first < 0) first = loads.at(row, 0);
+      most = std::max(most, load);
+    }
+  }
+  EXPECT_EQ(shear.value, most);
+  EXPECT_EQ(shear.first, first);
+  EXPECT_LT(shear.from, drop.made.from) << "before the judged window";
+}
+
+/// V2: so are gears.
+TEST(Earned, AGearThatBreaksAtTheLanding) {
+  const Told drop(known_truth("V2-gear-at-landing"));
+  EXPECT_EQ(drop.made.word, Word::infeasible);
+  double most = 0;
+  for (const JointStatistics& joint : drop.record.joints) most = std::max(most, joint.torque_peak);
+  EXPECT_NEAR(drop.check("gear_peak").value, most, 1e-6 * most) << "rows of ticks are single precision";
+  EXPECT_GT(most, 1);
+}
+
+/// V5: a fortieth of a period is no evidence.
+TEST(Earned, APieceOfAPeriod) {
+  const Told brief(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=0.05"}));
+  EXPECT_EQ(brief.made.word, Word::not_judged);
+  EXPECT_EQ(brief.made.why(), "0.05 s are 0.025 of a gait's 3 periods of 2 s; take duration: 6");
+  // The remedy helps.
+  EXPECT_EQ(Told(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=6"})).made.word, Word::feasible);
+}
+
+/// V6: a motor that makes energy, set points that never change, a ground that bears nothing.
+TEST(Earned, RunsThatAreWorthless) {
+  const std::vector<std::string> sets{"physics.engine=articulated", "duration=12"};
+  const auto with = [&](const std::string& set) {
+    std::vector<std::string> all = sets;
+    all.push_back(set);
+    return Told(shipped("caterpillar.yaml", all)).made;
+  };
+  EXPECT_EQ(with("actuator.Kt=1").word, Word::not_judged);
+  EXPECT_TRUE(contains(with("actuator.Kt=1").why(), "the motor of joint m0/active makes energy"))
+      << with("actuator.Kt=1").why();
+  EXPECT_EQ(with("cpg.type=keyframes").word, Word::not_judged);
+  EXPECT_TRUE(contains(with("cpg.type=keyframes").why(), "cpg keyframes moves no joint")) << with("cpg.type=keyframes").why();
+  const Verdict up = with("physics.gravity=[0, 0, 9.81]");
+  EXPECT_NE(up.word, Word::feasible);
+  EXPECT_NE(up.word, Word::infeasible) << "nothing breaks in free flight: " << up.why();
+  EXPECT_TRUE(contains(up.why(), "the ground carries 0 % of the weight on average")) << up.why();
+}
+
+/// V7: torques that are off by their own size.
+TEST(Earned, ATorqueErrorOfAHundredPercent) {
+  const Told stiff(shipped("hexapod.yaml", {"physics.engine=articulated", "contact.stiffness=1.47265e+11",
+                                            "actuator.Kt=0.545382", "contact.damping_exponent=5.42154", "duration=0.3"}));
+  EXPECT_NE(stiff.made.word, Word::feasible);
+}
+
+/// V9: on a slope of 30 degrees, without friction enough to stand, a robot slides down; that is no gait.
+TEST(Earned, SlidingDownASlope) {
+  const double g = 9.81;
+  const Told slide(shipped("hexapod.yaml", {"physics.engine=articulated", "duration=12", "ground.friction=0.3",
+                                            fmt::format("physics.gravity=[{}, 0, {}]", g / 2, -g * std::sqrt(3) / 2)}));
+  EXPECT_GT(slide.summary.distance, 50);
+  EXPECT_EQ(slide.check("progress").status, CheckStatus::fail) << slide.check("progress").text;
+  EXPECT_NE(slide.made.word, Word::feasible);
+}
+
+/// V14: the worst joint of a check is that of the terminal, and its message names no other.
+TEST(Earned, TheTerminalNamesTheJointOfTheCheck) {
+  const Told wide(shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=12", "cpg.amplitude=1.7"}));
+  const Check& stops = wide.check("stops");
+  ASSERT_EQ(stops.status, CheckStatus::fail);
+  std::size_t worst = 0;
+  const auto margin = [&](std::size_t j) {
+    const JointStatistics& joint = wide.record.joints[j];
+    return std::min((0.01 - joint.range_worst) / 0.01, (0.01 - joint.range_share) / 0.01);
+  };
+  for (std::size_t j = 1; j < wide.record.joints.size(); ++j) worst = margin(j) < margin(worst) ? j : worst;
+  EXPECT_EQ(stops.worst, wide.scenario.robot->joints[worst].name);
+  EXPECT_TRUE(contains(stops.text, "worst " + stops.worst + ": ")) << stops.text;
+  std::string screen;
+  for (const ScreenLine& line : first_screen({wide.scenario, wide.record, wide.summary}, wide.made)) screen += line.text + " ";
+  for (const Check& check : wide.made.checks) {
+    if (check.status != CheckStatus::fail || check.worst.empty()) continue;
+    EXPECT_TRUE(contains(screen, check.worst)) << check.id << ": " << screen;
+  }
+}
+
+/// The first screen is short whatever the run, and its lines fit a terminal.
+TEST(Earned, TheFirstScreenIsShort) {
+  for (const std::vector<std::string>& sets :
+       {std::vector<std::string>{}, {"actuator.i_max=0.35"}, {"cpg.amplitude=1.7"}, {"duration=1"}}) {
+    std::vector<std::string> all{"physics.engine=articulated", "duration=12"};
+    all.insert(all.end(), sets.begin(), sets.end());
+    const Told run(shipped("caterpillar.yaml", all));
+    const std::vector<ScreenLine> lines = first_screen({run.scenario, run.record, run.summary}, run.made);
+    EXPECT_LE(lines.size(), sets.empty() ? 9U : 26U);
+    for (const ScreenLine& line : lines) EXPECT_LE(line.text.size(), 88U) << line.text;
+  }
+}
+
+}  // namespace
+}  // namespace gaitlab::test
