@@ -41,7 +41,8 @@ struct ScenarioArguments {
 
 /// Reads it with --set and --seed applied; prints its notes on stderr unless quiet.
 Scenario read(const ScenarioArguments& arguments, Catalog& catalog);
-/// Prints on stderr the checks that do not pass and have a remedy, at the place of the setting, and numbers that are not finite.
+/// Prints on stderr the checks that do not pass and have a remedy, at the place of the setting, and numbers that are not
+/// finite.
 void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Verdict& verdict);
 /// Prints on stderr that part of the robot starts below the ground, where it does.
 void warn_of_start(const Scenario& scenario, bool quiet);

@@ -15,6 +15,7 @@
 #include "app/progress.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
+#include "core/recording/column_names.h"
 #include "golden/advice.h"
 #include "golden/cases.h"
 #include "golden/compare.h"
@@ -80,6 +81,9 @@ std::optional<Golden> golden_before(const fs::path& folder, bool replace) {
   }
 }
 
+/// `m7/passive torque`
+std::string label(const GoldenRun& run, const std::string& column) { return readable_column(column, {run.joints, {}}); }
+
 /// A golden holds finite numbers only.
 void check_finite(const GoldenRun& run, const std::string& which) {
   const Trace& trace = run.trace;
@@ -87,21 +91,22 @@ void check_finite(const GoldenRun& run, const std::string& which) {
     if (std::isfinite(trace.values[at])) continue;
     const std::size_t columns = trace.columns.size();
     throw RunError(fmt::format("{}: {} is not finite at t = {:.6g} s; nothing was written", which,
-                               trace.columns[at % columns].name, trace.at(at / columns, 0)));
+                               label(run, trace.columns[at % columns].name), trace.at(at / columns, 0)));
   }
   for (const Number& number : run.numbers) {
     if (!std::isfinite(number.value))
-      throw RunError(fmt::format("{}: {} is not finite; nothing was written", which, number.name));
+      throw RunError(fmt::format("{}: {} is not finite; nothing was written", which, readable_number(number.name)));
   }
 }
 
 /// One each; nothing is written where one of them fails. `names` are for messages.
-std::vector<GoldenRun> simulate(const std::vector<Scenario>& scenarios, const std::vector<std::string>& names, int jobs) {
+std::vector<GoldenRun> simulate(const std::vector<Scenario>& scenarios, const std::vector<std::string>& names, int jobs,
+                                bool judged = false) {
   std::vector<GoldenRun> runs;
-  std::vector<Outcome> outcomes;
+  std::vector<golden::Attempt> outcomes;
   {
     const Progress progress(false);
-    outcomes = golden_runs(scenarios, jobs, std::cref(progress));
+    outcomes = golden_runs(scenarios, jobs, std::cref(progress), judged);
   }
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     try {
@@ -150,13 +155,14 @@ void check_widest(const Calibration& made, const Scenario& scenario, int jobs) {
   const std::string remedy = narrower_columns(bands, scenario, made.halved, jobs, std::cref(progress));
   throw InputError(SourceLocation{scenario.file},
                    fmt::format("the band of {} would be {} of its range, more than {}: {}; {}. Nothing was written",
-                               made.halved.trace.columns[widest].name, percent(bands[widest].width()), percent(kWidestColumn),
-                               parts(bands[widest]), remedy));
+                               label(made.halved, made.halved.trace.columns[widest].name), percent(bands[widest].width()),
+                               percent(kWidestColumn), parts(bands[widest]), remedy));
 }
 
 /// What a person should see before it becomes the reference.
-void show_change(const Golden& before, const GoldenProvenance& now, const GoldenDifference& change) {
-  const std::string text = origin_changes(before, now) + differences(change, Shown::worst);
+void show_change(const Golden& before, const GoldenProvenance& now, const GoldenRun& run, const GoldenDifference& change) {
+  const std::string text =
+      origin_changes(before.origin, now, kAllSettings) + verdict_change(before, run) + differences(change, Shown::changed);
   fmt::print("{}", since_approval(before));
   fmt::print("{}", text.empty() ? "  nothing has changed\n" : text);
 }
@@ -170,7 +176,7 @@ std::uintmax_t size_of(const fs::path& folder) {
   return fs::file_size(folder / "golden.json") + fs::file_size(folder / "trace.golden");
 }
 
-void tell(const Golden& golden, const fs::path& folder, bool calibrated) {
+void tell(const Golden& golden, const GoldenRun& run, const fs::path& folder, bool calibrated) {
   fmt::print("{}: approval {}: {} of {}, {}, {:.0f} kB; bands {}\n", folder.string(), golden.history.back().number,
              plural(golden.bands.size() - 1, "column"), plural(golden.run.trace.rows(), "row"),
              plural(golden.numbers.size(), "number"), std::ceil(static_cast<double>(size_of(folder)) / 1000),
@@ -179,9 +185,9 @@ void tell(const Golden& golden, const fs::path& folder, bool calibrated) {
     fmt::print("  widest band: {} {} = {}\n", name, percent(band.width()), parts(band));
   };
   const std::size_t column = widest_of(golden.bands);
-  line(golden.run.trace.columns[column].name, golden.bands[column]);
+  line(label(run, golden.run.trace.columns[column].name), golden.bands[column]);
   const std::size_t number = widest_of(golden.number_bands);
-  line(golden.numbers[number].name, golden.number_bands[number]);
+  line(readable_number(golden.numbers[number].name), golden.number_bands[number]);
 }
 
 int approve(const ApproveArguments& arguments) {
@@ -197,7 +203,7 @@ int approve(const ApproveArguments& arguments) {
   }
   const std::optional<Golden> before = golden_before(folder, arguments.replace);
   if (why.empty() && !before) throw no_reason(arguments);
-  GoldenRun base = simulate({scenario}, {scenario.file}, arguments.jobs).front();
+  GoldenRun base = simulate({scenario}, {scenario.file}, arguments.jobs, true).front();
 
   Golden golden;
   golden.origin = golden_origin(scenario);
@@ -205,10 +211,11 @@ int approve(const ApproveArguments& arguments) {
   golden.rounding = mean_squares(base.trace, rounded.trace);
   golden.run = {base.trace, std::move(rounded.precision)};
   golden.numbers = golden_numbers(base);
+  golden.verdict = base.verdict;
   bool calibrates = arguments.calibrate || !before;
   if (before) {
     const GoldenDifference change = compare(*before, base);
-    show_change(*before, golden.origin, change);
+    show_change(*before, golden.origin, base, change);
     check_own(*before, folder, scenario, change);
     calibrates = calibrates || !can_keep(*before, change, golden);
     golden.history = before->history;
@@ -228,9 +235,9 @@ int approve(const ApproveArguments& arguments) {
     golden.bands = std::move(made.bands.columns);
     golden.number_bands = std::move(made.bands.numbers);
   }
-  if (before && calibrates) fmt::print("{}", band_changes(*before, golden));
+  if (before && calibrates) fmt::print("{}", band_changes(*before, golden, base.joints));
   write_golden(golden, folder);
-  tell(golden, folder, calibrates);
+  tell(golden, base, folder, calibrates);
   say(wide_numbers(golden, scenario));
   return 0;
 }

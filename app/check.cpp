@@ -20,7 +20,7 @@ namespace gaitlab::app {
 
 namespace {
 
-std::string_view name_of(const PluginSelection& choice) { return choice.entry == nullptr ? "none" : choice.entry->name; }
+std::string_view plugin_name(const PluginSelection& choice) { return choice.entry == nullptr ? "none" : choice.entry->name; }
 
 /// Checks the columns, the step and the memory. Who is refused a long run is told how long, too.
 std::unique_ptr<Simulation> made(const Scenario& s, const RunTime& time) try {
@@ -87,8 +87,8 @@ int check(const CheckArguments& arguments) {
              s.ground.kind == Ground::Kind::none ? "there is no ground"
              : s.on_ground                       ? "lowered onto the ground"
                                                  : "position gives the height, on_ground is off");
-  fmt::print("  cpg {}, controller {}, actuator {}, {} contact elements\n", name_of(s.cpg), name_of(s.controller),
-             name_of(s.actuator), contacts.size());
+  fmt::print("  cpg {}, controller {}, actuator {}, {} contact elements\n", plugin_name(s.cpg), plugin_name(s.controller),
+             plugin_name(s.actuator), contacts.size());
   const RowsNeeded needed = simulation->rows_needed(0);
   fmt::print("  records {:.0f} rows of {:.0f} columns ({:.3g} MB) in {:g} s\n", needed.rows, needed.columns,
              needed.bytes() / 1e6, s.duration);

@@ -9,9 +9,11 @@
 #include <optional>
 
 #include "app/commands.h"
+#include "app/stored_scenario.h"
 #include "core/errors.h"
 #include "core/model/pattern.h"
 #include "core/recording/run_files.h"
+#include "core/settings/changed_settings.h"
 #include "core/settings/wording.h"
 #include "report/verdict/numbers.h"
 
@@ -22,18 +24,24 @@ namespace {
 struct CompareArguments {
   std::string a, b;                  ///< run folders or trace files
   std::vector<std::string> columns;  ///< patterns; none: all
+  bool all = false;                  ///< print every column and setting that differs
 };
 
 using Json = nlohmann::json;
 
+constexpr std::size_t kMostShown = 10;
+
 // A pattern that matches nothing would otherwise look like "no difference".
-void check_patterns(const std::vector<std::string>& patterns, const Trace& a, const Trace& b) {
+void check_patterns(const CompareOptions& options, const Trace& a, const Trace& b) {
   std::vector<std::string> names;
   for (const Trace* trace : {&a, &b}) {
-    for (const Column& column : trace->columns) names.push_back(column.name);
+    for (const Column& column : trace->columns) {
+      names.push_back(column.name);
+      names.push_back(readable_column(column.name, options.names));
+    }
   }
   Problems problems;
-  for (const std::string& pattern : patterns) {
+  for (const std::string& pattern : options.columns) {
     if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return glob(pattern, name); })) continue;
     const std::string near = nearest(pattern, names);
     problems.add(SourceLocation{"--columns"}, fmt::format("{} matches no column of either trace{}", in_quotes(pattern),
@@ -44,16 +52,21 @@ void check_patterns(const std::vector<std::string>& patterns, const Trace& a, co
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
-/// What one looks for first: where it began, and where it is worst.
-void print_worst(const std::vector<ColumnDifference>& columns) {
-  const ColumnDifference* first = nullptr;
-  const ColumnDifference* worst = nullptr;
-  for (const ColumnDifference& d : columns) {
-    if (d.first_divergence && (first == nullptr || *d.first_divergence < *first->first_divergence)) first = &d;
-    if (!d.equal && (worst == nullptr || d.relative_rms > worst->relative_rms)) worst = &d;
+/// Names of joints or contacts in either summary; empty where the two do not agree: which of them a column means is not known.
+std::vector<std::string> common_names(const Json& a, const Json& b, const char* key) {
+  const auto of = [&](const Json& summary) {
+    std::vector<std::string> names;
+    if (!summary.contains(key) || !summary[key].is_array()) return names;
+    for (const Json& name : summary[key]) names.push_back(name.is_string() ? name.get<std::string>() : "");
+    return names;
+  };
+  std::vector<std::string> names = of(a);
+  const std::vector<std::string> others = of(b);
+  if (names.empty()) return others;
+  for (std::size_t i = 0; i < std::min(names.size(), others.size()); ++i) {
+    if (names[i] != others[i]) names[i].clear();
   }
-  if (first != nullptr) fmt::print("first to part: {} at t = {:.6g} s\n", first->name, *first->first_divergence);
-  if (worst != nullptr) fmt::print("farthest apart: {}, RMS {} of its range\n", worst->name, percent(worst->relative_rms));
+  return names;
 }
 
 /// Joints and contacts are compared by number: say so where the numbers mean different things.
@@ -66,27 +79,46 @@ void print_robots(const Json& a, const Json& b) {
   }
 }
 
-void print_columns(const TraceDifference& difference) {
-  std::size_t width = 6;
-  std::size_t equal = 0;
-  for (const ColumnDifference& d : difference.columns) {
-    width = std::max(width, d.name.size());
-    equal += d.equal ? 1 : 0;
+/// The settings of the two runs, by their scenarios; of a CSV file alone they are not known.
+void print_settings(const CompareArguments& arguments) {
+  std::vector<std::string> changed;
+  try {
+    const std::string a = stored_scenario(arguments.a).text;
+    const std::string b = stored_scenario(arguments.b).text;
+    changed = changed_settings(a, b, arguments.all ? std::string::npos : kMostShown);
+  } catch (const InputError&) {
+    fmt::print("\nsettings: not compared, a CSV file has none\n");
+    return;
   }
-  if (equal < difference.columns.size()) {
-    fmt::print("{:<{}}  {:<6} {:>10} {:>10} {:>10} {:>10} {:>11}  {}\n", "column", width, "unit", "RMS", "max", "RMS/range",
-               "max/range", "from t =", "late by");
-  }
+  fmt::print("\nsettings: {}\n", changed.empty() ? "the same" : "A -> B");
+  for (const std::string& setting : changed) fmt::print("  {}\n", setting);
+}
+
+/// What one looks for first: where it is worst, and where it began.
+void print_columns(const TraceDifference& difference, bool all) {
+  std::vector<const ColumnDifference*> apart;
+  const ColumnDifference* first = nullptr;
   for (const ColumnDifference& d : difference.columns) {
-    if (d.equal) continue;
-    const std::string from = d.first_divergence ? fmt::format("{:.6g} s", *d.first_divergence) : "never";
+    if (!d.equal) apart.push_back(&d);
+    if (d.first_divergence && (first == nullptr || *d.first_divergence < *first->first_divergence)) first = &d;
+  }
+  std::stable_sort(apart.begin(), apart.end(), [](const auto* a, const auto* b) { return a->relative_rms > b->relative_rms; });
+  const std::size_t shown = all ? apart.size() : std::min(apart.size(), kMostShown);
+  std::vector<std::vector<std::string>> rows{{"column", "RMS", "max", "RMS/range", "max/range", "from t =", "late by"}};
+  for (std::size_t i = 0; i < shown; ++i) {
+    const ColumnDifference& d = *apart[i];
+    const auto with_unit = [&](double value) { return fmt::format("{:.3g}{}{}", value, d.unit.empty() ? "" : " ", d.unit); };
     const std::string late =
-        d.time_shift == 0 ? "-" : fmt::format("{:+.4g} s, then {}", d.time_shift, percent(d.rms_after_shift / d.scale));
-    fmt::print("{:<{}}  {:<6} {:>10.3g} {:>10.3g} {:>10} {:>10} {:>11}  {}\n", d.name, width, d.unit, d.rms, d.maximum,
-               percent(d.relative_rms), percent(d.relative_maximum), from, late);
+        d.time_shift == 0 ? "-" : fmt::format("{:+.3g} s, then {}", d.time_shift, percent(d.rms_after_shift / d.scale));
+    rows.push_back({d.label, with_unit(d.rms), with_unit(d.maximum), percent(d.relative_rms), percent(d.relative_maximum),
+                    d.first_divergence ? fmt::format("{:.6g} s", *d.first_divergence) : "never", late});
   }
-  fmt::print("{} of {} columns are equal to the bit in {} rows\n", equal, difference.columns.size(), difference.rows);
-  print_worst(difference.columns);
+  fmt::print("\n");
+  if (shown > 0) fmt::print("{}", aligned(rows));
+  if (shown < apart.size()) fmt::print("and {} more: --all\n", apart.size() - shown);
+  fmt::print("{} of {} columns are equal to the bit in {} rows\n", difference.columns.size() - apart.size(),
+             difference.columns.size(), difference.rows);
+  if (first != nullptr) fmt::print("first to part: {} at t = {:.6g} s\n", first->label, *first->first_divergence);
 }
 
 // Null where a summary has not got it.
@@ -156,21 +188,22 @@ int compare(const CompareArguments& arguments) {
   const Json summary_a = summary_of(arguments.a);
   const Json summary_b = summary_of(arguments.b);
   CompareOptions options;
+  options.names = {common_names(summary_a, summary_b, "joints"), common_names(summary_a, summary_b, "contacts")};
   if (!arguments.columns.empty()) options.columns = arguments.columns;
-  check_patterns(options.columns, a, b);
+  check_patterns(options, a, b);
   const TraceDifference difference = gaitlab::compare(a, b, options);
 
   fmt::print("A: {} ({} rows)\n", one_line(trace_file(arguments.a).string()), a.rows());
   fmt::print("B: {} ({} rows)\n", one_line(trace_file(arguments.b).string()), b.rows());
   for (const std::string& finding : difference.findings) fmt::print("{}\n", finding);
   print_robots(summary_a, summary_b);
-  fmt::print("\n");
-  print_columns(difference);
+  print_settings(arguments);
   if (!summary_a.is_null() && !summary_b.is_null()) {
     print_summaries(summary_a, summary_b);
   } else {
     fmt::print("\nsummary numbers: not compared, a trace file has none\n");
   }
+  print_columns(difference, arguments.all);
   return 0;
 }
 
@@ -179,14 +212,17 @@ int compare(const CompareArguments& arguments) {
 void add_compare(Commands& commands) {
   add_command<CompareArguments>(
       commands, "compare",
-      "Report what differs between two runs, column by column; the exit code is 0 whether or not they differ.", compare,
-      [](CLI::App& command, CompareArguments& arguments) {
+      "Report what differs between two runs: settings, numbers, columns; the exit code is 0 whether or not they differ.",
+      compare, [](CLI::App& command, CompareArguments& arguments) {
         command.add_option("RUN_A", arguments.a, "run folder or trace file: the reference")->required();
         command.add_option("RUN_B", arguments.b, "run folder or trace file")->required();
-        command.add_option("--columns", arguments.columns, "only columns that match this pattern (with * and ?)")
+        command
+            .add_option("--columns", arguments.columns,
+                        "only columns that match this pattern (with * and ?): joint.3.*, or by name '*passive torque'")
             ->expected(1)
             ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        command.add_flag("--all", arguments.all, "print all columns and settings that differ, not the ten worst and first");
       });
 }
 

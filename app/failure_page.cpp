@@ -72,10 +72,12 @@ std::vector<std::string> lines(const std::string& text) {
 
 std::string failure_page(const GoldenCase& c) {
   const Scenario& scenario = *c.scenario;
-  const GoldenProvenance now = golden_origin(scenario);
+  GoldenProvenance then = c.golden->origin;
+  GoldenProvenance now = golden_origin(scenario);
+  for (GoldenProvenance* origin : {&then, &now}) origin->resolved = report::without_folders(origin->resolved, scenario.plugins);
   report::PageOverlay overlay;
   overlay.labels = {"golden", "now"};
-  overlay.differs = lines(report::without_folders(origin_changes(*c.golden, now), scenario.plugins));
+  overlay.differs = lines(origin_changes(then, now, kAllSettings) + verdict_change(*c.golden, c.run, std::string::npos));
   overlay.strayed = fmt::format("{}. The golden is of approval {} ({})", outside(c.difference), c.golden->history.back().number,
                                 c.golden->history.back().reason);
   for (const std::string& finding : c.difference.findings) overlay.strayed += "; " + finding;

@@ -13,6 +13,7 @@
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
 #include "report/figures/paper/recipe.h"
+#include "report/verdict/check_manual.h"
 #include "studies/study/study_file.h"
 
 namespace gaitlab::app {
@@ -34,7 +35,7 @@ void add_plugins(CLI::App& command, ManualArguments& arguments) {
 std::vector<std::string> kinds() {
   std::vector<std::string> all;
   for (const PluginKind& plugin : kPluginKinds) all.emplace_back(plugin.section);
-  all.insert(all.end(), {"engine", "module", "robot", "figure"});
+  all.insert(all.end(), {"engine", "module", "robot", "figure", "check"});
   return all;
 }
 
@@ -49,14 +50,20 @@ std::vector<std::string> kinds() {
 std::vector<std::string> names(const std::string& kind, const Catalog& catalog) {
   if (const PluginKind* plugin = find_kind(kind)) return catalog.names(plugin->kind);
   if (kind == "engine") return catalog.engines();
-  if (kind == "figure") return to_strings(report::kPanelKinds);
+  if (kind == "figure") return to_strings(enum_names<report::PanelKind>());
   std::vector<std::string> found;
+  if (kind == "check") {
+    for (const report::CheckKind& check : report::check_kinds()) found.emplace_back(check.id);
+    return found;
+  }
   for (const auto& [name, path] : shipped_files(kind)) found.push_back(name);
   return found;
 }
 
-report::PanelKind panel_kind(const std::string& name) {
-  return static_cast<report::PanelKind>(std::ranges::find(report::kPanelKinds, name) - report::kPanelKinds.begin());
+/// nullptr: no check has that id.
+const report::CheckKind* check_kind(const std::string& id) {
+  const auto found = std::ranges::find_if(report::check_kinds(), [&](const report::CheckKind& kind) { return kind.id == id; });
+  return found == report::check_kinds().end() ? nullptr : &*found;
 }
 
 std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
@@ -67,7 +74,8 @@ std::string about(const std::string& kind, const std::string& name, Catalog& cat
     return first_line(entry.manual) + (entry.origin == kBuiltIn ? "" : fmt::format(" ({})", entry.origin));
   }
   if (kind == "engine") return first_line(catalog.engine(name)->manual);
-  if (kind == "figure") return first_line(report::about_panel(panel_kind(name)));
+  if (kind == "figure") return first_line(report::about_panel(*named<report::PanelKind>(name)));
+  if (kind == "check") return check_kind(name)->title;
   const std::string file = shipped_files(kind).at(name);
   return kind == "module" ? module_row(read_module(file, catalog)) : file;
 }
@@ -108,9 +116,17 @@ int explain(const ManualArguments& arguments) {
     fmt::print("{}", studies::explain_study());
     return 0;
   }
+  if (kind == "verdict" && name.empty()) {
+    fmt::print("{}", report::explain_verdict());
+    return 0;
+  }
+  if (const report::CheckKind* check = check_kind(kind); check != nullptr && name.empty()) {
+    fmt::print("{}", report::explain_check(*check));
+    return 0;
+  }
   std::vector<std::string> known = kinds();
   if (std::find(known.begin(), known.end(), kind) == known.end()) {
-    known.emplace_back("study");
+    known.insert(known.end(), {"study", "verdict"});
     unknown("kind", kind, known);
   }
   if (name.empty())
@@ -129,7 +145,8 @@ int explain(const ManualArguments& arguments) {
                wrapped(fmt::format("integrators: {} (default {}); default step {}", fmt::join(engine.integrator_names(), ", "),
                                    engine.integrators.front().name, default_step(engine))));
   }
-  if (kind == "figure") fmt::print("{}", report::explain_panel(panel_kind(name)));
+  if (kind == "figure") fmt::print("{}", report::explain_panel(*named<report::PanelKind>(name)));
+  if (kind == "check") fmt::print("{}", report::explain_check(*check_kind(name)));
   if (kind == "robot") fmt::print("{}", read_text(shipped_files(kind).at(name)));
   return 0;
 }
@@ -148,26 +165,30 @@ int schema(const SchemaArguments& arguments) {
 
 int reference(const ManualArguments& arguments) {
   const Catalog catalog = standard_catalog();
-  fmt::print("{}", arguments.kind == "scenario" ? scenario_page(catalog)
-                   : arguments.kind == "figure" ? report::recipe_page()
-                   : arguments.kind == "study"  ? studies::study_page()
-                                                : plugins_page(catalog));
+  fmt::print("{}", arguments.kind == "scenario"  ? scenario_page(catalog)
+                   : arguments.kind == "figure"  ? report::recipe_page()
+                   : arguments.kind == "study"   ? studies::study_page()
+                   : arguments.kind == "verdict" ? report::verdict_page()
+                                                 : plugins_page(catalog));
   return 0;
 }
 
 }  // namespace
 
 void add_manuals(Commands& commands) {
-  add_command<ManualArguments>(commands, "list",
-                               "List what is registered: cpg, controller, actuator, engine, module, robot, figure.", list,
-                               [](CLI::App& command, ManualArguments& arguments) {
-                                 command.add_option("KIND", arguments.kind, "one of these kinds alone");
-                                 add_plugins(command, arguments);
-                               });
+  add_command<ManualArguments>(
+      commands, "list",
+      "List what is registered: cpg, controller, actuator, engine, module, robot, figure; and checks of the verdict.", list,
+      [](CLI::App& command, ManualArguments& arguments) {
+        command.add_option("KIND", arguments.kind, "one of these kinds alone");
+        add_plugins(command, arguments);
+      });
   add_command<ManualArguments>(
       commands, "explain", "Print the manual of KIND NAME; without them, that of the scenario file.", explain,
       [](CLI::App& command, ManualArguments& arguments) {
-        command.add_option("KIND", arguments.kind, "cpg, controller, actuator, engine, module, robot, figure; or study, alone");
+        command.add_option(
+            "KIND", arguments.kind,
+            "cpg, controller, actuator, engine, module, robot, figure, check; or alone study, verdict, or a check's id");
         command.add_option("NAME", arguments.name, "name as `gaitlab list` prints it; of a module also its file, NAME.yaml");
         add_plugins(command, arguments);
       });
@@ -179,9 +200,9 @@ void add_manuals(Commands& commands) {
   add_command<ManualArguments>(commands, "reference", "Print a page of docs/reference.", reference,
                                [](CLI::App& command, ManualArguments& arguments) {
                                  command.group("");  // not in the help
-                                 command.add_option("PAGE", arguments.kind, "scenario, plugins, figure or study")
+                                 command.add_option("PAGE", arguments.kind, "scenario, plugins, figure, study or verdict")
                                      ->required()
-                                     ->check(CLI::IsMember({"scenario", "plugins", "figure", "study"}));
+                                     ->check(CLI::IsMember({"scenario", "plugins", "figure", "study", "verdict"}));
                                });
 }
 

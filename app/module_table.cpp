@@ -137,7 +137,7 @@ std::string faces(const ModuleType& type) {
     for (std::size_t turn = 0; turn < face.turns.size(); ++turn) {
       if (face.turns[turn]) turns += fmt::format("{}{}", turns.empty() ? "" : " ", turn);
     }
-    rows.push_back({std::to_string(face.id), type.bodies[face.body].name, word(face.gender),
+    rows.push_back({std::to_string(face.id), type.bodies[face.body].name, name_of(face.gender),
                     face.connector.empty() ? "-" : face.connector, turns, direction(face.normal)});
   }
   return rows.size() > 1 ? aligned(rows) : "  no faces\n";

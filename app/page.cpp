@@ -26,8 +26,6 @@ Existing check_page(const std::string& name, const std::filesystem::path& own) {
   return Existing::refused;
 }
 
-void print_page(const std::filesystem::path& file) {
-  fmt::print("  {:<13} {}, opens in a browser\n", "page", one_line(file.string()));
-}
+void print_page(const std::filesystem::path& file) { fmt::print("  {:<9} {}\n", "page", one_line(file.string())); }
 
 }  // namespace gaitlab::app

@@ -33,7 +33,7 @@ Scenario read(const ScenarioArguments& arguments, Catalog& catalog) {
     raise_as_typed(error, seed);
   }
   if (!arguments.quiet) {
-    for (const std::string& note : scenario.notes) say(arguments.file, "note", note);
+    for (const Note& note : scenario.notes) say(to_string(note.place), "note", note.text);
   }
   return scenario;
 }

@@ -15,7 +15,7 @@
 #include "core/recording/run_files.h"
 #include "core/recording/run_folder.h"
 #include "core/scenario/resolved.h"
-#include "core/settings/changed_lines.h"
+#include "core/settings/changed_settings.h"
 #include "report/analysis/plugin_names.h"
 #include "report/analysis/summary.h"
 #include "report/figures/run/run_figure.h"
@@ -95,9 +95,10 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
   Recording& recording = run.read.stored.recording;
   draw_joints(scenario, joints);
   // A CSV file alone does not have it.
-  const nlohmann::json told =
-      run.read.stored.origin.outcome.empty() ? summarised(trace.parent_path(), "outcome") : nlohmann::json(recording.outcome);
-  if (told.is_string()) recording.outcome = told;
+  if (run.read.stored.origin.outcome.empty()) {
+    const nlohmann::json told = summarised(trace.parent_path(), "outcome");
+    if (told.is_string()) recording.outcome = Outcome::of(told.get<std::string>());
+  }
   run.summary = report::summarise(scenario, recording, wall_time(trace.parent_path()));
   run.summary.build = run.read.stored.origin.build;
   run.overlaps = report::overlaps(scenario, recording);
@@ -110,7 +111,7 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
 void warn(const JudgedRun& run) {
   const Recording& recording = run.recording();
   for (const std::string& missing : run.read.stored.missing) say(run.name, "note", missing);
-  if (recording.outcome != "done") say(run.name, "note", "this run ended early: " + recording.outcome);
+  if (!recording.outcome.done()) say(run.name, "note", "this run ended early: " + recording.outcome.text());
   warn_of_run(run.read.scenario, recording, run.verdict);
 }
 
@@ -161,7 +162,7 @@ int report_two(const ReportArguments& arguments) {
   const JudgedRun a = judged_run(arguments.runs[0], catalogs[0], {}, arguments.shown);
   const JudgedRun b = judged_run(arguments.runs[1], catalogs[1], {}, arguments.shown);
   report::PageOverlay overlay;
-  overlay.differs = changed_lines(settings(a.read.scenario), settings(b.read.scenario), 6);
+  overlay.differs = changed_settings(settings(a.read.scenario), settings(b.read.scenario), 6);
   constexpr std::size_t kEach = report::kMostData / 2;
   write_file(file, report::page(report::overlaid(a.page_data(kEach), b.page_data(kEach), overlay)), existing);
   int code = 0;

@@ -16,7 +16,7 @@
 #include "core/recording/h5.h"
 #include "core/recording/run_files.h"
 #include "core/scenario/resolved.h"
-#include "core/settings/changed_lines.h"
+#include "core/settings/changed_settings.h"
 #include "core/simulation/simulation.h"
 
 namespace gaitlab::app {
@@ -40,10 +40,10 @@ constexpr std::size_t kColumnsShown = 10;
 struct Past {
   fs::path file;  ///< of the trace
   Trace trace;
-  std::string scenario;              ///< inside trace.h5, or ""
-  std::string build;                 ///< "" where nothing recorded it
-  std::optional<std::string> ended;  ///< summary.json: "done", or why it ended early; without one: nothing
-  std::string summary_hash;          ///< of the trace that summary.json is about, or ""
+  std::string scenario;          ///< inside trace.h5, or ""
+  std::string build;             ///< "" where nothing recorded it
+  std::optional<Outcome> ended;  ///< of summary.json; without one: nothing
+  std::string summary_hash;      ///< of the trace that summary.json is about, or ""
 };
 
 bool is_there(const fs::path& file) {
@@ -70,7 +70,7 @@ Past read_past(const fs::path& run) {
     const auto at = summary.find(key);
     return at != summary.end() && at->is_string() ? at->get<std::string>() : std::string();
   };
-  if (!text("outcome").empty()) past.ended = text("outcome");
+  if (!text("outcome").empty()) past.ended = Outcome::of(text("outcome"));
   past.summary_hash = text("trace_hash");
   if (past.build.empty()) past.build = text("build");
   return past;
@@ -80,7 +80,7 @@ double last_time(const Trace& trace) { return trace.at(trace.rows() - 1, 0); }
 
 /// A run that was killed while it wrote, or a trace file alone, has no summary: then its last row tells.
 bool ended_early(const Past& past, const Scenario& scenario) {
-  if (past.ended) return *past.ended != "done";
+  if (past.ended) return !past.ended->done();
   return last_time(past.trace) < scenario.duration - 0.5 * scenario.physics.step;
 }
 
@@ -121,12 +121,12 @@ std::vector<std::string> changes(const StoredScenario& stored, const Past& past,
   }
   if (!past.scenario.empty() && past.scenario != stored.text) {
     found.push_back(fmt::format("scenario: {} is not the one in {}:\n    {}", stored.shown, past.file.filename().string(),
-                                fmt::join(changed_lines(past.scenario, stored.text), "\n    ")));
+                                fmt::join(changed_settings(past.scenario, stored.text), "\n    ")));
   }
   const std::string now = resolved(scenario);
   if (plugins.empty() && now != stored.text)  // their hashes stand in it
-    found.push_back(
-        fmt::format("scenario: resolved again it is another:\n    {}", fmt::join(changed_lines(stored.text, now), "\n    ")));
+    found.push_back(fmt::format("scenario: resolved again it is another:\n    {}",
+                                fmt::join(changed_settings(stored.text, now), "\n    ")));
   if (!past.summary_hash.empty() && past.summary_hash != hash(past.trace)) {
     found.push_back(fmt::format("trace: {} is not the one that summary.json was made from{}", past.file.filename().string(),
                                 past.summary_hash == hash(again.trace) ? "; the run again gives that one" : ""));
@@ -144,13 +144,13 @@ void print_worst_columns(const TraceDifference& difference) {
   fmt::print("  {} of {} columns are beyond {} of their range:\n", worst.size(), difference.columns.size(), kTolerance);
   for (std::size_t i = 0; i < std::min(worst.size(), kColumnsShown); ++i) {
     const std::string from = worst[i].first_divergence ? fmt::format(", from t = {:.6g} s", *worst[i].first_divergence) : "";
-    fmt::print("    {}: RMS {:.3g} of its range{}\n", worst[i].name, worst[i].relative_rms, from);
+    fmt::print("    {}: RMS {:.3g} of its range{}\n", worst[i].label, worst[i].relative_rms, from);
   }
   if (worst.size() > kColumnsShown) fmt::print("    ... and {} more\n", worst.size() - kColumnsShown);
 }
 
 /// Compares and prints. True: bit-equal or within tolerance.
-bool judge(const std::string& run, const Trace& then, const Again& again) {
+bool judge(const std::string& run, const Scenario& scenario, const Trace& then, const Again& again) {
   const std::string size = fmt::format("{} rows of {} columns", then.rows(), then.columns.size());
   if (hash(then) == hash(again.trace)) {
     fmt::print("{}: bit-equal: {}, trace hash {}\n", one_line(run), size, hash(then));
@@ -158,6 +158,7 @@ bool judge(const std::string& run, const Trace& then, const Again& again) {
   }
   CompareOptions options;
   options.divergence = kTolerance;
+  for (const Joint& joint : scenario.robot->joints) options.names.joints.push_back(joint.name);
   const TraceDifference difference = compare(then, again.trace, options);
   double worst = 0;
   std::size_t equal = 0;
@@ -185,10 +186,10 @@ int verify(const std::string& run, const PluginArguments& plugins) {
   const Scenario scenario = read_stored(stored, catalog, OtherPlugins::taken);
   const bool early = ended_early(past, scenario);
   const Again again = run_again(scenario, past, early);
-  const bool same = judge(run, past.trace, again);
+  const bool same = judge(run, scenario, past.trace, again);
   if (early) {
     fmt::print("  it ended early ({}): compared up to its last row, t = {:.6g} s\n",
-               past.ended.value_or("and no summary says why: the record is not whole"), last_time(past.trace));
+               past.ended ? past.ended->text() : "and no summary says why: the record is not whole", last_time(past.trace));
   }
   const std::vector<std::string> changed = changes(stored, past, scenario, again);
   for (const std::string& line : changed) fmt::print("  {}\n", line);

@@ -62,7 +62,8 @@ class RunFiles {
 
 void write_run(RunFiles& files, const std::string& format, const Scenario& scenario, const Recording& recording) {
   files.write(format == "csv" ? "trace.csv" : "trace.h5", [&](const std::filesystem::path& file) {
-    write_recording(recording, {resolved(scenario), scenario.seed, build_id(), recording.outcome}, format, file.parent_path());
+    write_recording(recording, {resolved(scenario), scenario.seed, build_id(), recording.outcome.text()}, format,
+                    file.parent_path());
   });
   files.write_text("scenario.resolved.yaml", [&] { return resolved(scenario); });
 }
@@ -103,29 +104,29 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   }
 
   const StopOnSignal stop(StopOnSignal::Second::is_ignored);
-  std::string failure;
+  std::optional<Outcome> early;
   const auto start = std::chrono::steady_clock::now();
   try {
     if (!arguments.quiet) note_time(scenario, simulation);
     const Progress progress(arguments.quiet);
     if (!simulation.run(std::cref(progress), &stopped()))
-      failure = fmt::format("interrupted at t = {:.6g} s", simulation.time());
+      early = {Ended::interrupted, fmt::format("interrupted at t = {:.6g} s", simulation.time())};
   } catch (const SimulationError& error) {
-    failure = error.what();
+    early = error.outcome();
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
 
   Recording recording = simulation.take_recording(0);
-  if (!failure.empty()) recording.outcome = failure;
+  if (early) recording.outcome = std::move(*early);
   RunFiles files(folder.path());
   const auto summarised = [&] { return report::summarise(scenario, recording, wall.count()); };
-  std::optional<report::Summary> early;  // the memory that a failed trace.h5 took may not come back
+  std::optional<report::Summary> made;  // the memory that a failed trace.h5 took may not come back
   try {
-    early = summarised();
+    made = summarised();
   } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the trace first, then again
   }
   write_run(files, arguments.format, scenario, recording);
-  const report::Summary summary = early ? std::move(*early) : summarised();
+  const report::Summary summary = made ? std::move(*made) : summarised();
   if (files.lost_any()) files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
   const report::Overlaps overlaps = report::overlaps(scenario, recording);
   const report::Verdict verdict = judged(scenario, recording, summary, overlaps, arguments.shown);
@@ -133,14 +134,17 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);
   if (!arguments.quiet && !files.lost_any()) {
-    fmt::print("  {:<13} {}: {}, summary.json, verdict.json,\n  {:<13} scenario.resolved.yaml, figure.svg\n", "files",
-               one_line(folder.path().string()), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
     if (!arguments.no_page) print_page(folder.path() / kPageFile);
+    if (arguments.no_page || arguments.shown.verbose) {
+      fmt::print("  {:<9} {}: {}, summary.json, verdict.json,\n  {:<9} scenario.resolved.yaml, figure.svg\n", "files",
+                 one_line(folder.path().string()), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
+    }
   }
   warn_of_run(scenario, recording, verdict);
   const bool sound = report::not_finite(scenario, recording).empty();
-  if (failure.empty()) return files.lost_any() || !sound ? 1 : exit_code(verdict, arguments.shown);
-  say(scenario.file, "error", fmt::format("{}; what was simulated until then is in {}", failure, folder.path().string()));
+  if (recording.outcome.done()) return files.lost_any() || !sound ? 1 : exit_code(verdict, arguments.shown);
+  say(scenario.file, "error",
+      fmt::format("{}; what was simulated until then is in {}", recording.outcome.message, folder.path().string()));
   return 1;
 }
 

@@ -1,7 +1,10 @@
 // What every command that has a run prints of it, warns of, and returns.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "app/commands.h"
@@ -14,6 +17,7 @@
 #include "report/analysis/summary.h"
 #include "report/verdict/demand.h"
 #include "report/verdict/number_texts.h"
+#include "report/verdict/screen.h"
 #include "report/verdict/summary_text.h"
 #include "report/verdict/trust.h"
 
@@ -36,15 +40,18 @@ std::string printed(const std::string& text) {
 
 void print_summary(const Scenario& scenario, const Recording& recording, const report::Summary& summary,
                    const report::Verdict& verdict, const SummaryOptions& shown) {
-  const std::string text = report::to_text(summary, scenario, recording, shown.verbose);
-  const std::size_t head = text.find('\n') + 1;
-  fmt::print("{}", printed(text.substr(0, head)));
-  const char* title = "verdict";
-  for (const std::string& line : report::to_lines(verdict)) {
-    fmt::print("  {:<13} {}\n", title, printed(line));
-    title = "";
-  }
-  fmt::print("{}", printed(text.substr(head)));
+  const char* const no_color = std::getenv("NO_COLOR");
+  const bool coloured = isatty(fileno(stdout)) != 0 && (no_color == nullptr || *no_color == '\0');
+  const auto painted = [&](const std::string& text, report::Tone tone) {
+    if (!coloured || tone == report::Tone::plain) return text;
+    const int colour = tone == report::Tone::good ? 32 : tone == report::Tone::bad ? 31 : 33;
+    return fmt::format("\033[{}m{}\033[0m", colour, text);
+  };
+  const report::RunData run{scenario, recording, summary};
+  for (const std::string& line : report::texts::simulated(run)) fmt::print("{}\n", printed(line));
+  for (const report::ScreenLine& line : report::first_screen(run, verdict))
+    fmt::print("  {:<9} {}\n", line.title, painted(printed(line.text), line.tone));
+  if (shown.verbose) fmt::print("{}", printed(report::to_text(summary, scenario, recording)));
   if (shown.joints) fmt::print("{}", printed(report::joint_table(summary, scenario)));
 }
 
@@ -74,7 +81,8 @@ void add_shown(CLI::App& command, SummaryOptions& shown) {
                    "exit code 3 unless the verdict is feasible, 1 where the run failed");
   command.add_flag("--demand", shown.demand,
                    "simulate once more without the limits of the motors where joints reach them, and tell how much is missing");
-  command.add_flag("--verbose", shown.verbose, "print the energy ledger and the limit of the step, too");
+  command.add_flag("--verbose", shown.verbose,
+                   "print all numbers of the run, the energy ledger and the limit of the step, too");
 }
 
 void add_joint(CLI::App& command, std::vector<std::string>& joints) {

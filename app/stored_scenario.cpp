@@ -133,7 +133,8 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
   };
   const std::size_t joints = scenario.robot->joints.size();
   if (recording.joints.size() != joints) refuse(fmt::format("{} joints, {} in the scenario", recording.joints.size(), joints));
-  if (const std::size_t columns = recording.poses.columns.size(); columns > 0 && columns != pose_columns(joints).size())
+  const std::size_t columns = recording.poses.columns.size();
+  if (columns > 0 && columns != old_pose_columns(joints) && columns != pose_columns(joints).size())
     refuse(fmt::format("{} columns of poses, of {} joints", columns, joints));
   const std::size_t places = recording.worst.source == Stability::Source::contact
                                  ? contact_elements(*scenario.robot, scenario.contact.on).size()

@@ -34,7 +34,7 @@ constexpr double kShown = 8;  // s, of set point and torque: their last
 struct Swapped {
   std::string cpg;
   std::optional<Scenario> scenario = {};
-  std::vector<std::string> notes = {};
+  std::vector<Note> notes = {};
   Recording record = {};
   report::Summary summary = {};
   report::Verdict verdict = {};
@@ -82,7 +82,7 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
     if (cpg != own) {
       const auto of_model = [](const std::string& set) { return set.starts_with("cpg.model"); };
       for (const std::string& set : with.sets) {
-        if (of_model(set)) swapped.notes.push_back(fmt::format("{}: dropped --set {}", cpg, set));
+        if (of_model(set)) swapped.notes.push_back({{with.file}, fmt::format("{}: dropped --set {}", cpg, set)});
       }
       std::erase_if(with.sets, of_model);
       with.sets.push_back("cpg.type=" + cpg);
@@ -103,8 +103,8 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   for (const Swapped& swapped : all) {
-    for (const std::string& note : swapped.notes) {
-      if (!arguments.quiet) say(arguments.file, "note", note);
+    for (const Note& note : swapped.notes) {
+      if (!arguments.quiet) say(to_string(note.place), "note", note.text);
     }
   }
   return all;
@@ -233,7 +233,7 @@ bool run_or_tell(const std::vector<Swapped*>& all, const SwapArguments& argument
 }
 
 bool any_broke_off(const std::vector<Swapped>& all) {
-  return std::ranges::any_of(all, [](const Swapped& s) { return s.summary.outcome != "done"; });
+  return std::ranges::any_of(all, [](const Swapped& s) { return !s.summary.outcome.done(); });
 }
 
 /// What is written of one scenario.

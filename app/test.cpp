@@ -35,17 +35,17 @@ constexpr std::size_t kMostDrawn = 6;  // columns; the figure is to be seen at o
 // ---- the table
 
 std::string row(const std::vector<std::size_t>& widths, const std::vector<std::string>& cells) {
-  return fmt::format("{:<{}}  {:<{}} {:>9}  {:<{}} {:>11}  {}\n", cells[0], widths[0], cells[1], widths[1], cells[2], cells[3],
-                     widths[2], cells[4], cells[5]);
+  return fmt::format("{:<{}}  {:<{}}  {:>8}  {:<{}}  {:>11}  {}\n", cells[0], widths[0], cells[1], widths[1], cells[2],
+                     cells[3], widths[2], cells[4], cells[5]);
 }
 
 std::vector<std::string> cells(const GoldenCase& c) {
   const ColumnCheck* column = c.difference.worst_column();
   const NumberCheck* number = c.difference.worst_number();
   return {c.file,
-          column == nullptr ? "-" : column->name,
+          column == nullptr ? "-" : column->label,
           column == nullptr ? "-" : bands(column->ratio()),
-          number == nullptr ? "-" : number->name,
+          number == nullptr ? "-" : number->label,
           number == nullptr ? "-" : bands(number->ratio()),
           to_string(c.verdict)};
 }
@@ -103,7 +103,7 @@ std::vector<const ColumnCheck*> strayed(const GoldenCase& c) {
 std::vector<report::OverlayPanel> panels(const GoldenCase& c) {
   std::vector<report::OverlayPanel> panels;
   for (const ColumnCheck* check : strayed(c)) {
-    report::OverlayPanel panel{check->name, check->unit};
+    report::OverlayPanel panel{check->label, check->unit};
     const Trace& golden = c.golden->run.trace;
     for (std::size_t k = 0; k < std::min(golden.rows(), c.run.trace.rows()); ++k) {
       panel.time.push_back(golden.at(k, 0));
@@ -148,21 +148,34 @@ class Figures {
   std::optional<RunFolder> folder_;
 };
 
-/// The same on screen and in XML.
-std::string failure(const GoldenCase& c) {
-  const std::string changes = origin_changes(*c.golden, golden_origin(*c.scenario));
-  return since_approval(*c.golden) + (changes.empty() ? "  build, engine, step and scenario are the same\n" : changes) +
-         differences(c.difference, Shown::failing) + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n") +
-         (c.page.empty() ? "" : "  page: " + c.page + ", opens in a browser\n");
+/// What changed, what strayed farthest, and where the rest is.
+std::string failure(const GoldenCase& c, bool all) {
+  const GoldenProvenance now = golden_origin(*c.scenario);
+  const std::string changes = origin_changes(c.golden->origin, now, all ? kAllSettings : kFewSettings);
+  std::string text = since_approval(*c.golden) + (changes.empty() ? "  build and scenario are the same\n" : changes) +
+                     verdict_change(*c.golden, c.run) + differences(c.difference, all ? Shown::strayed : Shown::brief);
+  const std::size_t more = all ? 0 : left_out(c.difference);
+  const std::string page = c.page.empty() ? "" : "page: " + c.page;
+  if (more > 0) {
+    text += fmt::format("  and {} more: --all shows them{}{}\n", more, page.empty() ? "" : "; ", page);
+  } else if (!page.empty()) {
+    text += "  " + page + "\n";
+  }
+  return text + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n");
 }
 
-/// What is not a failure: numbers of which little is seen; and another text than was approved, which explains a failure.
+/// What is not a failure: numbers of which little is seen; another verdict; and another text than was approved, which explains
+/// a failure.
 void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
     if (c.verdict != Verdict::passed) continue;
     if (const std::string names = wide_number_names(*c.golden); !names.empty()) {
       say(c.file, "note",
           fmt::format("numbers with bands above {}, within which a change is not seen: {}", percent(kWideNumber), names));
+    }
+    if (!c.golden->verdict.empty() && c.golden->verdict != c.run.verdict) {
+      say(c.file, "note",
+          fmt::format("the verdict was {} when it was approved, and is {}: {}", c.golden->verdict, c.run.verdict, c.run.why));
     }
     if (c.other_engine || hash(resolved(*c.scenario)) == c.golden->origin.scenario) continue;
     say(c.file, "note", "its resolved text is no longer that of the golden");
@@ -195,7 +208,7 @@ std::string junit(const std::vector<GoldenCase>& cases) {
       }
       return escaped;
     };
-    if (c.verdict == Verdict::regression) element("failure", outside(c.difference), lines(failure(c)));
+    if (c.verdict == Verdict::regression) element("failure", outside(c.difference), lines(failure(c, false)));
     if (c.verdict == Verdict::infeasible) element("failure", to_string(c.verdict), lines(c.problem));
     if (c.verdict == Verdict::bad_input || c.verdict == Verdict::run_failed)
       element("error", to_string(c.verdict), lines(c.problem));
@@ -248,7 +261,7 @@ int test_goldens(const TestArguments& arguments) {
   for (GoldenCase& c : cases) {
     if (c.verdict == Verdict::regression) {
       write([&] { figures.write(c); });
-      fmt::print("\n{}: {}\n{}", c.file, outside(c.difference), failure(c));
+      fmt::print("\n{}: {}\n{}", c.file, outside(c.difference), failure(c, arguments.all));
     }
     if (!c.problem.empty()) say(c.problem + "\n");
   }
@@ -278,6 +291,7 @@ void add_test(Commands& commands) {
         command.add_option("--out", arguments.out, "folder for figures and pages of what failed (default runs/test)");
         command.add_flag("--fail-infeasible", arguments.fail_infeasible,
                          "exit code 3 where the verdict on a run with motors is not feasible, and nothing worse came up");
+        command.add_flag("--all", arguments.all, "of what failed, show all columns, numbers and settings, not the worst ones");
         command.add_flag("--strict", arguments.strict, "in a folder, too, a scenario without a golden is an error");
       });
 }

@@ -91,7 +91,7 @@ Measured measure(const std::vector<Scenario>& lanes, double least) {
     const double cpu = cpu_seconds();
     simulation.run();
     for (std::size_t l = 0; l < lanes.size(); ++l) {
-      if (!simulation.failure(l).empty()) throw RunError(simulation.failure(l));
+      if (!simulation.outcome(l).done()) throw RunError(simulation.outcome(l).message);
     }
     sum.cpu += cpu_seconds() - cpu;
     sum.wall += wall_seconds() - wall;

@@ -14,6 +14,7 @@ struct SourceLocation {
   std::string file = {};
   int line = 0;
   int column = 0;
+  bool operator==(const SourceLocation&) const = default;
 };
 
 /// `FILE:LINE:COL` (`FILE` alone where there is no line).

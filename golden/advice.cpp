@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/recording/column_names.h"
 #include "core/settings/wording.h"
 #include "core/simulation/step_advice.h"
 #include "golden/report.h"
@@ -127,7 +128,7 @@ std::string narrower_columns(const std::vector<Band>& columns, const Scenario& s
     scenarios.insert(scenarios.end(), 2, *other);
     scenarios.back().physics.refine(2);
   }
-  const std::vector<Outcome> runs = golden_runs(scenarios, jobs, progress);
+  const std::vector<Attempt> runs = golden_runs(scenarios, jobs, progress);
   const std::string own = runs[0].error
                               ? "a smaller step"
                               : finer_setting(scenario, widest(columns, &Band::halving), halving_band(halved, runs[0].run));
@@ -150,8 +151,8 @@ std::string wide_numbers(const Golden& golden, const Scenario& scenario) {
       return fmt::format("{:.3g}{}{}", value, number.unit.empty() ? "" : " ", number.unit);
     };
     text += fmt::format("{}: warning: the band of {} is {}: {} would pass gaitlab test, where {} was approved; {}\n",
-                        scenario.file, number.name, percent(band.width()), with_its_unit(most), with_its_unit(number.value),
-                        explanation(number, band, scenario));
+                        scenario.file, readable_number(number.name), percent(band.width()), with_its_unit(most),
+                        with_its_unit(number.value), explanation(number, band, scenario));
   }
   if (found.size() > kMostExplained) {
     text += fmt::format("{}: warning: ... and {} with bands above {}\n", scenario.file,
@@ -165,7 +166,7 @@ std::string wide_number_names(const Golden& golden) {
   std::vector<std::string> names;
   names.reserve(found.size());
   for (const std::size_t i : found) {
-    names.push_back(fmt::format("{} {}", golden.numbers[i].name, percent(golden.number_bands[i].width())));
+    names.push_back(fmt::format("{} {}", readable_number(golden.numbers[i].name), percent(golden.number_bands[i].width())));
   }
   return joined(names);
 }

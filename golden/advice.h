@@ -28,7 +28,7 @@ std::string narrower_columns(const std::vector<Band>& columns, const Scenario& s
 /// more: what would pass unseen, why, and the remedy. "" where there is none.
 std::string wide_numbers(const Golden& golden, const Scenario& scenario);
 
-/// `m3/active.torque.peak 42.2 %, ...`: the same numbers by name alone; "" where there is none.
+/// `m3/active torque peak 42.2 %, ...`: the same numbers by name alone; "" where there is none.
 std::string wide_number_names(const Golden& golden);
 
 }  // namespace gaitlab::golden

@@ -7,10 +7,13 @@
 
 namespace gaitlab::golden {
 
-/// What a golden keeps of a run: trace (`t` first) and figures.
+/// What a golden keeps of a run: trace (`t` first), figures and the verdict's word; and what messages on it need.
 struct GoldenRun {
   Trace trace;
   std::vector<Number> numbers;
+  std::vector<std::string> joints = {};  ///< names, by their numbers in the columns
+  std::string verdict = {};              ///< `feasible`; empty: not asked for
+  std::string why = {};                  ///< a sentence behind a word that is not `feasible` (report/verdict/verdict.h)
 };
 
 /// What differences are relative to, one a column, in its unit: the column's range, but at least 1e-3 of the largest range

@@ -9,6 +9,8 @@
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/scenario/read_scenario.h"
+#include "report/verdict/numbers.h"
+#include "report/verdict/verdict.h"
 
 namespace gaitlab::golden {
 
@@ -128,7 +130,7 @@ void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog&
   }
 }
 
-void judge(GoldenCase& c, Outcome& outcome) {
+void judge(GoldenCase& c, Attempt& outcome) {
   c.seconds = outcome.seconds;
   try {
     if (outcome.error) std::rethrow_exception(outcome.error);
@@ -211,13 +213,16 @@ void run_cases(std::vector<GoldenCase>& cases, const TestArguments& arguments, c
   for (const GoldenCase& c : cases) {
     if (c.scenario) scenarios.push_back(*c.scenario);
   }
-  std::vector<Outcome> outcomes = golden_runs(scenarios, arguments.jobs, progress, arguments.fail_infeasible);
+  const bool judged = arguments.fail_infeasible ||
+                      std::ranges::any_of(cases, [](const GoldenCase& c) { return c.scenario && !c.golden->verdict.empty(); });
+  std::vector<Attempt> outcomes = golden_runs(scenarios, arguments.jobs, progress, judged);
   auto outcome = outcomes.begin();
   for (GoldenCase& c : cases) {
     if (!c.scenario) continue;
     judge(c, *outcome);
-    if (c.verdict == Verdict::passed && !outcome->infeasible.empty())
-      c.fail(Verdict::infeasible, fmt::format("{}: {}", c.file, outcome->infeasible));
+    if (arguments.fail_infeasible && c.verdict == Verdict::passed && report::has_motors(*c.scenario) &&
+        c.run.verdict != name_of(report::Word::feasible))
+      c.fail(Verdict::infeasible, fmt::format("{}: {}: {}", c.file, c.run.verdict, c.run.why));
     ++outcome;
   }
 }

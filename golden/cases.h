@@ -18,6 +18,7 @@ struct TestArguments {
   std::optional<std::string> junit, out;  ///< file; folder for figures
   bool fail_infeasible = false;           ///< a run that the robot cannot do is a failure, too
   bool strict = false;                    ///< in a folder, too, every scenario must have a golden
+  bool all = false;                       ///< show all columns, numbers and settings, not the worst and first
   int jobs = 1;                           ///< threads
 };
 

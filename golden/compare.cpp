@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/recording/column_names.h"
 #include "core/recording/time_shift.h"
 
 namespace gaitlab::golden {
@@ -29,6 +30,7 @@ class Comparison {
         a_(golden.run.trace),
         b_(run.trace),
         run_(run),
+        names_{run.joints, {}},
         other_engine_(other_engine),
         rows_(std::min(a_.rows(), b_.rows())) {}
 
@@ -45,13 +47,14 @@ class Comparison {
   }
 
  private:
+  [[nodiscard]] std::string label(const std::string& column) const { return readable_column(column, names_); }
   void find(std::string sentence) { found_.findings.push_back(std::move(sentence)); }
 
   void match_columns() {
-    const auto missing = [](const Trace& from, const Trace& in) {
+    const auto missing = [&](const Trace& from, const Trace& in) {
       std::vector<std::string> names;
       for (const Column& column : from.columns) {
-        if (in.find(column.name) == in.columns.size()) names.push_back(column.name);
+        if (in.find(column.name) == in.columns.size()) names.push_back(label(column.name));
       }
       return names;
     };
@@ -77,7 +80,7 @@ class Comparison {
   bool finite(std::size_t column) {
     for (std::size_t k = 0; k < b_.rows(); ++k) {
       if (std::isfinite(b_.at(k, column))) continue;
-      find(fmt::format("{} is not finite at t = {:.6g} s", b_.columns[column].name, b_.at(k, 0)));
+      find(fmt::format("{} is not finite at t = {:.6g} s", label(b_.columns[column].name), b_.at(k, 0)));
       return false;
     }
     return true;
@@ -85,7 +88,7 @@ class Comparison {
 
   void compare_column(std::size_t i, std::size_t j, double scale) {
     if (rows_ == 0) return;
-    ColumnCheck check{a_.columns[i].name, a_.columns[i].unit};
+    ColumnCheck check{a_.columns[i].name, label(a_.columns[i].name), a_.columns[i].unit};
     check.band = golden_.bands[i].width();
     check.scale = scale;
     std::vector<double> golden;
@@ -116,12 +119,12 @@ class Comparison {
       const auto now =
           std::find_if(run_.numbers.begin(), run_.numbers.end(), [&](const Number& n) { return n.name == number.name; });
       if (now == run_.numbers.end()) {
-        find(fmt::format("{} is a number of the golden only", number.name));
+        find(fmt::format("{} is a number of the golden only", readable_number(number.name)));
         continue;
       }
-      if (!std::isfinite(now->value)) find(fmt::format("{} is not finite", number.name));
+      if (!std::isfinite(now->value)) find(fmt::format("{} is not finite", readable_number(number.name)));
       const double change = std::abs(now->value - number.value) / scale[i];
-      found_.numbers.push_back({number.name, number.unit, number.value, now->value, change,
+      found_.numbers.push_back({number.name, readable_number(number.name), number.unit, number.value, now->value, change,
                                 std::max(golden_.number_bands[i].width(), other_engine_ ? kOtherEngine : 0.0)});
     }
   }
@@ -130,6 +133,7 @@ class Comparison {
   const Trace& a_;
   const Trace& b_;
   const GoldenRun& run_;
+  PartNames names_;
   bool other_engine_;
   std::size_t rows_;
   GoldenDifference found_;

@@ -10,10 +10,11 @@ namespace gaitlab::golden {
 
 inline constexpr double kOutside = 3;  ///< bands; an error whose RMS is one band rarely exceeds three bands
 
-/// One column. Shares are of its scale (bands.h); what the golden's own rounding explains is taken off, so that the same
-/// run differs by 0 and one that differs by less than the precision is measured right.
+/// One column. `name` is that of the trace, `label` for people: `m7/passive torque`. Shares are of its scale (bands.h); what
+/// the golden's own rounding explains is taken off, so that the same run differs by 0 and one that differs by less than the
+/// precision is measured right.
 struct ColumnCheck {
-  std::string name, unit;
+  std::string name, label, unit;
   double rms = 0, maximum = 0;         ///< share
   double band = 0;                     ///< share; the gate is rms <= band
   double scale = 0;                    ///< in the unit
@@ -27,7 +28,7 @@ struct ColumnCheck {
 inline constexpr double kOtherEngine = 1e-4;  ///< share; sums over steps differ by 3e-5 between the engines at 25 us
 
 struct NumberCheck {
-  std::string name, unit;
+  std::string name, label, unit;
   double golden = 0, now = 0;
   double change = 0, band = 0;  ///< share of the scale; the gate is change <= band
   [[nodiscard]] bool passed() const { return change <= band; }

@@ -47,6 +47,7 @@ struct Golden {
   std::vector<Band> bands;       ///< one a column of the trace; that of `t` is empty
   std::vector<Number> numbers;
   std::vector<Band> number_bands;  ///< one a number
+  std::string verdict = {};        ///< its word: `feasible`; empty in a golden of before it was kept
 };
 
 /// `scenarios/hexapod.golden` for `scenarios/hexapod.yaml`.

@@ -6,64 +6,104 @@
 #include <cmath>
 #include <vector>
 
-#include "core/settings/changed_lines.h"
+#include "core/recording/column_names.h"
+#include "core/settings/changed_settings.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab::golden {
 
 namespace {
 
 constexpr std::size_t kMostShown = 10;
+constexpr std::size_t kMostFindings = 5;
 constexpr double kBandChange = 1.2;  // times: less is not news
 
-// Those to show, by falling ratio where they are the worst, else in the golden's order.
 template <class Check>
-std::vector<const Check*> chosen(const std::vector<Check>& checks, Shown shown) {
-  std::vector<const Check*> some;
+using Checks = std::vector<const Check*>;
+
+/// The farthest in bands first; what is not a number is farther than any.
+template <class Check>
+Checks<Check> ordered(Checks<Check> checks) {
+  const auto size = [](const Check* check) { return std::isnan(check->ratio()) ? INFINITY : check->ratio(); };
+  std::stable_sort(checks.begin(), checks.end(), [&](const Check* a, const Check* b) { return size(a) > size(b); });
+  return checks;
+}
+
+template <class Check>
+Checks<Check> strayed(const std::vector<Check>& checks) {
+  Checks<Check> some;
   for (const Check& check : checks) {
-    if (shown == Shown::worst ? check.ratio() != 0 : !check.passed()) some.push_back(&check);
+    if (!check.passed()) some.push_back(&check);
   }
-  if (shown == Shown::failing) return some;
-  std::stable_sort(some.begin(), some.end(), [](const Check* a, const Check* b) { return a->ratio() > b->ratio(); });
-  some.resize(std::min(some.size(), kMostShown));
-  return some;
+  return ordered(some);
 }
 
 template <class Check>
-std::size_t failing(const std::vector<Check>& checks) {
-  return static_cast<std::size_t>(std::count_if(checks.begin(), checks.end(), [](const Check& c) { return !c.passed(); }));
+Checks<Check> worst(Checks<Check> checks) {
+  checks.resize(std::min(checks.size(), kMostShown));
+  return checks;
 }
 
 template <class Check>
-std::size_t width(const std::vector<const Check*>& checks, std::size_t least) {
-  for (const Check* check : checks) least = std::max(least, check->name.size());
-  return least;
+Checks<Check> changed(const std::vector<Check>& checks) {
+  Checks<Check> some;
+  for (const Check& check : checks) {
+    if (check.ratio() != 0) some.push_back(&check);
+  }
+  return worst(ordered(some));
 }
 
-std::string table(const std::vector<const ColumnCheck*>& columns) {
+std::string with_its_unit(double value, int digits, const std::string& unit) {
+  return fmt::format("{:.{}g}{}{}", value, digits, unit.empty() ? "" : " ", unit);
+}
+
+std::string table(const Checks<ColumnCheck>& columns) {
   if (columns.empty()) return "";
-  const std::size_t name = width(columns, 6);
-  std::string text = fmt::format("  {:<{}} {:>11} {:>11} {:>9} {:>11} {:>13}  {}\n", "column", name, "RMS/range", "band",
-                                 "RMS/band", "max/range", "outside from", "late by");
+  std::vector<std::vector<std::string>> rows{
+      {"column", "RMS off by", "of its range", "band", "in bands", "outside from", "late by"}};
   for (const ColumnCheck* c : columns) {
-    const std::string from = c->outside ? fmt::format("{:.6g} s", *c->outside) : "never";
-    const std::string late =
-        c->time_shift == 0 ? "-" : fmt::format("{:+.4g} s, then {}", c->time_shift, percent(c->rms_after_shift));
-    text += fmt::format("  {:<{}} {:>11} {:>11} {:>9} {:>11} {:>13}  {}\n", c->name, name, percent(c->rms), percent(c->band),
-                        bands(c->ratio()), percent(c->maximum), from, late);
+    rows.push_back({c->label, with_its_unit(c->rms * c->scale, 3, c->unit), percent(c->rms), percent(c->band),
+                    bands(c->ratio()), c->outside ? fmt::format("{:.4g} s", *c->outside) : "never",
+                    c->time_shift == 0 ? "-" : fmt::format("{:+.3g} s", c->time_shift)});
+  }
+  return aligned(rows, 2);
+}
+
+std::string table(const Checks<NumberCheck>& numbers) {
+  if (numbers.empty()) return "";
+  std::vector<std::vector<std::string>> rows{{"number", "golden", "now", "change", "band", "in bands"}};
+  for (const NumberCheck* n : numbers) {
+    rows.push_back({n->label, with_its_unit(n->golden, 6, n->unit), with_its_unit(n->now, 6, n->unit), percent(n->change),
+                    percent(n->band), bands(n->ratio())});
+  }
+  return aligned(rows, 2);
+}
+
+/// The number that stands for the others beside a table of columns: how far the robot went, or else the worst; nullptr: none
+/// strayed.
+const NumberCheck* first_number(const Checks<NumberCheck>& numbers) {
+  const auto distance = std::find_if(numbers.begin(), numbers.end(), [](const auto* n) { return n->name == "distance"; });
+  if (distance != numbers.end()) return *distance;
+  return numbers.empty() ? nullptr : numbers.front();
+}
+
+std::string brief(const GoldenDifference& difference) {
+  const Checks<ColumnCheck> columns = strayed(difference.columns);
+  const Checks<NumberCheck> numbers = strayed(difference.numbers);
+  if (columns.empty()) return table(worst(numbers));
+  std::string text = table(worst(columns));
+  if (const NumberCheck* n = first_number(numbers); n != nullptr) {
+    text += fmt::format("  {}: {:.6g} -> {}, {} bands\n", n->label, n->golden, with_its_unit(n->now, 6, n->unit),
+                        bands(n->ratio()));
   }
   return text;
 }
 
-std::string table(const std::vector<const NumberCheck*>& numbers) {
-  if (numbers.empty()) return "";
-  const std::size_t name = width(numbers, 6);
-  std::string text = fmt::format("  {:<{}} {:>13} {:>13} {:>11} {:>11} {:>11}  {}\n", "number", name, "golden", "now", "change",
-                                 "band", "change/band", "unit");
-  for (const NumberCheck* n : numbers) {
-    text += fmt::format("  {:<{}} {:>13.7g} {:>13.7g} {:>11} {:>11} {:>11}  {}\n", n->name, name, n->golden, n->now,
-                        percent(n->change), percent(n->band), bands(n->ratio()), n->unit);
-  }
-  return text;
+/// `0.1.0+abc`, of `0.1.0+abc (GNU 12.2.0; Bullet 3.24)`, where the rest is the same in both.
+std::string build_change(const std::string& then, const std::string& now) {
+  const auto rest = [](const std::string& build) { return build.substr(std::min(build.find(" ("), build.size())); };
+  const std::string same = rest(then) == rest(now) ? rest(then) : "";
+  return fmt::format("  build: {} -> {}\n", then.substr(0, then.size() - same.size()), now.substr(0, now.size() - same.size()));
 }
 
 }  // namespace
@@ -85,25 +125,30 @@ std::string since_approval(const Golden& golden) {
   return fmt::format("since approval {} ({}):\n", golden.history.back().number, golden.history.back().reason);
 }
 
-std::string origin_changes(const Golden& golden, const GoldenProvenance& now) {
-  const GoldenProvenance& then = golden.origin;
-  std::string text;
+std::string origin_changes(const GoldenProvenance& then, const GoldenProvenance& now, std::size_t most) {
+  std::string text = then.build == now.build ? "" : build_change(then.build, now.build);
+  if (then.scenario == now.scenario) return text;
+  if (!then.resolved.empty()) {
+    for (const std::string& setting : changed_settings(then.resolved, now.resolved, most)) text += "  " + setting + "\n";
+    return text;
+  }
   const auto add = [&](const char* what, const auto& before, const auto& after) {
-    if (before != after) text += fmt::format("  {}: then {}, now {}\n", what, before, after);
+    if (before != after) text += fmt::format("  {}: {} -> {}\n", what, before, after);
   };
-  add("build", then.build, now.build);
-  add("compiler", then.compiler, now.compiler);
   add("name", then.name, now.name);
   add("engine", then.engine, now.engine);
   add("integrator", then.integrator, now.integrator);
   add("step", then.step, now.step);
-  if (then.scenario == now.scenario) return text;
-  text += "  scenario: its resolved text is another";
-  if (then.resolved.empty()) return text + "\n";
-  return text + fmt::format(":\n    {}\n", fmt::join(changed_lines(then.resolved, now.resolved), "\n    "));
+  return text + "  the scenario is another; the golden is of before goldens kept it\n";
 }
 
-std::string band_changes(const Golden& before, const Golden& now) {
+std::string verdict_change(const Golden& golden, const GoldenRun& run, std::size_t width) {
+  if (golden.verdict.empty() || run.verdict.empty() || golden.verdict == run.verdict) return "";
+  const std::string words = fmt::format("verdict: {} -> {}", clipped(golden.verdict), run.verdict);
+  return wrapped(run.why.empty() ? words : words + ": " + run.why, 2, width);
+}
+
+std::string band_changes(const Golden& before, const Golden& now, const std::vector<std::string>& joints) {
   struct Change {
     std::string name;
     double then, now;
@@ -116,11 +161,13 @@ std::string band_changes(const Golden& before, const Golden& now) {
   };
   for (std::size_t i = 1; i < now.bands.size(); ++i) {
     const std::size_t j = before.run.trace.find(now.run.trace.columns[i].name);
-    if (j < before.bands.size()) add(now.run.trace.columns[i].name, before.bands[j], now.bands[i]);
+    if (j < before.bands.size())
+      add(readable_column(now.run.trace.columns[i].name, {joints, {}}), before.bands[j], now.bands[i]);
   }
   for (std::size_t i = 0; i < now.numbers.size(); ++i) {
     for (std::size_t j = 0; j < before.numbers.size(); ++j) {
-      if (before.numbers[j].name == now.numbers[i].name) add(now.numbers[i].name, before.number_bands[j], now.number_bands[i]);
+      if (before.numbers[j].name == now.numbers[i].name)
+        add(readable_number(now.numbers[i].name), before.number_bands[j], now.number_bands[i]);
     }
   }
   std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.size() > b.size(); });
@@ -131,20 +178,36 @@ std::string band_changes(const Golden& before, const Golden& now) {
   return text;
 }
 
-std::size_t strayed_columns(const GoldenDifference& difference) { return failing(difference.columns); }
+std::size_t strayed_columns(const GoldenDifference& difference) { return strayed(difference.columns).size(); }
 
 std::string outside(const GoldenDifference& d) {
-  return fmt::format("{} of {} and {} of {} outside their bands", failing(d.columns), plural(d.columns.size(), "column"),
-                     failing(d.numbers), plural(d.numbers.size(), "number")) +
+  return fmt::format("{} of {} and {} of {} outside their bands", strayed(d.columns).size(), plural(d.columns.size(), "column"),
+                     strayed(d.numbers).size(), plural(d.numbers.size(), "number")) +
          (d.findings.empty() ? "" : ", and a run of another form");
 }
 
 std::string differences(const GoldenDifference& difference, Shown shown) {
+  const std::vector<std::string>& findings = difference.findings;
+  const std::size_t told = shown == Shown::brief ? std::min(findings.size(), kMostFindings) : findings.size();
   std::string text;
-  for (const std::string& finding : difference.findings) text += "  " + finding + "\n";
-  text += table(chosen(difference.columns, shown));
-  text += table(chosen(difference.numbers, shown));
-  return text;
+  for (std::size_t i = 0; i < told; ++i) text += "  " + findings[i] + "\n";
+  if (told < findings.size()) text += fmt::format("  ... and {} more like these\n", findings.size() - told);
+  switch (shown) {
+    case Shown::brief:
+      return text + brief(difference);
+    case Shown::strayed:
+      return text + table(strayed(difference.columns)) + table(strayed(difference.numbers));
+    case Shown::changed:
+      break;
+  }
+  return text + table(changed(difference.columns)) + table(changed(difference.numbers));
+}
+
+std::size_t left_out(const GoldenDifference& difference) {
+  const std::size_t columns = strayed(difference.columns).size();
+  const std::size_t numbers = strayed(difference.numbers).size();
+  const std::size_t numbers_named = columns == 0 ? kMostShown : 1;
+  return columns - std::min(columns, kMostShown) + numbers - std::min(numbers, numbers_named);
 }
 
 }  // namespace gaitlab::golden

@@ -83,22 +83,20 @@ std::uint64_t splitmix64(std::uint64_t counter) {
 // In [-1, 1).
 double symmetric(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-52 - 1; }
 
-/// Why the verdict is not `feasible`; empty: it is, or no motor drives the robot.
-std::string infeasible(const Scenario& scenario, const Recording& record) {
-  const report::Verdict verdict =
-      report::verdict(scenario, record, report::summarise(scenario, record, 0), report::overlaps(scenario, record));
-  if (verdict.word == report::Word::feasible || !report::has_motors(scenario)) return "";
-  return std::string(name_of(verdict.word)) + ": " + verdict.why();
-}
-
-GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>& progress, std::string* why) {
+GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>& progress, bool judged) {
   Scenario ours = scenario;
   ours.trace.columns = columns(scenario);
-  Simulation simulation({&ours, 1});
+  Simulation simulation({&ours, 1}, judged ? Loads::recorded : Loads::left_out);
   simulation.run(progress);
   const Recording record = simulation.take_recording(0);
-  if (why != nullptr) *why = infeasible(scenario, record);
-  return {thinned(record.trace, scenario.trace.period), numbers(scenario, record)};
+  GoldenRun run{thinned(record.trace, scenario.trace.period), numbers(scenario, record)};
+  for (const Joint& joint : scenario.robot->joints) run.joints.push_back(joint.name);
+  if (!judged) return run;
+  const report::Verdict verdict =
+      report::verdict(scenario, record, report::summarise(scenario, record, 0), report::overlaps(scenario, record));
+  run.verdict = name_of(verdict.word);
+  run.why = verdict.why();
+  return run;
 }
 
 double steps(const Scenario& scenario) { return scenario.duration / scenario.physics.step; }
@@ -123,9 +121,9 @@ class Bar {
 
 }  // namespace
 
-std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs, const std::function<void(double)>& progress,
+std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int jobs, const std::function<void(double)>& progress,
                                  bool judged) {
-  std::vector<Outcome> outcomes(scenarios.size());
+  std::vector<Attempt> outcomes(scenarios.size());
   Bar bar(scenarios, progress);
   parallel(scenarios.size(), jobs, [&](std::size_t i) {
     const auto start = std::chrono::steady_clock::now();
@@ -138,7 +136,7 @@ std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int job
         bar.add((share - before) * steps(scenarios[i]));
         before = share;
       };
-      outcomes[i].run = golden_run(scenarios[i], advance, judged ? &outcomes[i].infeasible : nullptr);
+      outcomes[i].run = golden_run(scenarios[i], advance, judged);
     } catch (...) {
       outcomes[i].error = std::current_exception();
     }

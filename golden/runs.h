@@ -11,20 +11,18 @@
 namespace gaitlab::golden {
 
 /// What one of several runs came to.
-struct Outcome {
+struct Attempt {
   /// Torque, current and angle of every joint (without a motor: the angle) and the base pose, whatever `trace.columns` says, a
   /// row every 20 ms (the largest whole multiple of the trace period up to that, at least one of it); and the figures that a
-  /// golden holds.
+  /// golden holds. The verdict where that was asked for.
   GoldenRun run;
-  std::string infeasible =
-      {};                    ///< where that was asked for: why the robot cannot do it (report/verdict/verdict.h); empty: it can
   double seconds = 0;        ///< that it took, for reports alone
   std::exception_ptr error;  ///< InputError: the step is too long; RunError: it diverged
 };
 
 /// One each, in the order of `scenarios`; up to `jobs` at once. `progress(share)` is called often, one call at a time. Every
 /// run is an object of its own: the same bits for any `jobs`. judged: each also has its verdict.
-std::vector<Outcome> golden_runs(const std::vector<Scenario>& scenarios, int jobs,
+std::vector<Attempt> golden_runs(const std::vector<Scenario>& scenarios, int jobs,
                                  const std::function<void(double)>& progress = {}, bool judged = false);
 
 /// Those that a golden of this run holds: all, but for the costs of transport of a robot that stays (within 10 mm): they are

@@ -37,8 +37,7 @@ Study searched_study(const OptimizeArguments& a) {
                      "is not the file of a study; expected one with gaitlab_study: 1 (gaitlab explain "
                      "study)");
   Study study = studies::read_study(a.file, studies::Purpose::optimize);
-  const auto method = std::ranges::find(studies::kMethods, a.method);
-  if (!a.method.empty()) study.method = static_cast<studies::Method>(method - studies::kMethods.begin());
+  if (!a.method.empty()) study.method = named<studies::Method>(a.method).value();
   if (a.runs > 0) study.runs = a.runs;
   if (a.seed >= 0) study.seed = a.seed;
   Problems problems;
@@ -51,10 +50,8 @@ Study searched_study(const OptimizeArguments& a) {
 std::vector<std::string> known_methods() {
   using studies::Method;
   std::vector<std::string> names;
-  for (std::size_t k = 0; k < studies::kMethods.size(); ++k) {
-    const auto method = static_cast<Method>(k);
-    if (studies::is_search(method) || method == Method::random || method == Method::sobol)
-      names.emplace_back(studies::kMethods[k]);
+  for (const auto& row : enum_table<Method>()) {
+    if (row.searches || row.value == Method::random || row.value == Method::sobol) names.emplace_back(row.text);
   }
   return names;
 }

@@ -175,15 +175,15 @@ int merge_study(const StudyArguments& a) {
 /// What of the row is not what the run gave, a line each.
 std::vector<std::string> differences(const std::vector<std::string>& names, const std::vector<std::string>& row,
                                      const studies::RunColumns& columns, const std::vector<double>& quantities,
-                                     const std::string& outcome) {
+                                     const Outcome& outcome) {
   std::vector<std::string> found;
   const auto cell = [&](const std::string& name) {
     return row[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())];
   };
   const bool done = cell("outcome") == "done";
-  if (done != (outcome == "done") || (!done && cell("message") != outcome))
-    found.push_back(fmt::format("outcome: then {}, now {}", clipped(done ? "done" : cell("message")), clipped(outcome)));
-  if (!done || outcome != "done") return found;
+  if (done != outcome.done() || (!done && cell("message") != outcome.message))
+    found.push_back(fmt::format("outcome: then {}, now {}", clipped(done ? "done" : cell("message")), clipped(outcome.text())));
+  if (!done || !outcome.done()) return found;
   for (std::size_t k = 0; k < quantities.size(); ++k) {
     if (is_gone(columns.quantities[k])) continue;
     const std::string then = cell(columns.quantities[k]);
@@ -275,7 +275,7 @@ int rerun_study(const StudyArguments& a) {
       differences(names, row, journal.columns(), judged.quantities, again.stored.recording.outcome);
   if (found.empty()) {
     fmt::print("the quantities are those of the journal\n");
-    const bool lost = code == 1 && again.stored.recording.outcome == "done";  // some of its files
+    const bool lost = code == 1 && again.stored.recording.outcome.done();  // some of its files
     return code == 2 ? 2 : lost ? 1 : 0;
   }
   for (const std::string& difference : found) say(a.folder, "error", difference);

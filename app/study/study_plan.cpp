@@ -24,8 +24,8 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
     simulated += one.nominal.duration * static_cast<double>(points.points() * points.replicates());
   fmt::print("{} runs: {} points, {} each\n", points.runs(), points.points(), counted(points.runs_of_point(), "run"));
   if (searched) {
-    fmt::print("method {} chooses them, and the best {} are run again\n",
-               studies::kMethods[static_cast<std::size_t>(plan.study().method)], plan.study().verify.best);
+    fmt::print("method {} chooses them, and the best {} are run again\n", name_of(plan.study().method),
+               plan.study().verify.best);
   } else {
     fmt::print("first  {}\nlast   {}\n", shown(0), shown(points.runs() - 1));
   }

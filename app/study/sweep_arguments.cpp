@@ -77,9 +77,8 @@ Study wanted_study(const SweepArguments& a) {
     problems.raise();
     study = studies::read_study(a.file);
     if (studies::is_search(study.method))
-      throw InputError(SourceLocation{a.file},
-                       fmt::format("its method {} searches; use gaitlab optimize {}",
-                                   studies::kMethods[static_cast<std::size_t>(study.method)], shell_word(a.file)));
+      throw InputError(SourceLocation{a.file}, fmt::format("its method {} searches; use gaitlab optimize {}",
+                                                           name_of(study.method), shell_word(a.file)));
     if (a.runs > 0 && study.method == studies::Method::grid)
       problems.add(SourceLocation{"--runs"}, "has no place here: a grid has as many runs as there are combinations");
     if (a.runs > 0) study.runs = a.runs;

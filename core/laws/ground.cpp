@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/laws/plane.h"
 
@@ -165,6 +166,27 @@ class Sum {
   std::size_t count_ = 0;
 };
 
+/// m: height at which the vertical through a place leaves the box upwards; minus infinity where it misses the box.
+double top_at(const Box& box, const Vec3& place) {
+  const Vec3 at = box.R.transpose() * (Vec3(place.x(), place.y(), 0) - box.center);
+  const Vec3 up = box.R.row(2);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double bottom = -kInfinity;
+  double top = kInfinity;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double half = 0.5 * box.size[k];
+    if (up[k] == 0) {
+      if (std::abs(at[k]) > half) return -kInfinity;
+      continue;
+    }
+    const double one = (half - at[k]) / up[k];
+    const double other = (-half - at[k]) / up[k];
+    bottom = std::max(bottom, std::min(one, other));
+    top = std::min(top, std::max(one, other));
+  }
+  return bottom <= top ? top : -kInfinity;
+}
+
 Ground::Touch touch(const Push& push, const Vec3& centre, double radius) {
   return {push.penetration, push.normal, centre - radius * push.normal, push.friction};
 }
@@ -202,6 +224,16 @@ Ground::Touch Ground::on_field(const Vec3& centre, double radius) const {
     distance = (centre - Vec3(foot.x(), foot.y(), spot.z)).dot(spot.normal);
   }
   return touch({radius - distance, spot.normal, friction}, centre, radius);
+}
+
+double Ground::surface_below(const Vec3& point, double give) const {
+  if (kind == Kind::heightfield) return field.at(point.x(), point.y()).z;
+  double height = 0;
+  if (kind != Kind::boxes) return height;
+  for (const Box& box : boxes) {
+    if (const double top = top_at(box, point); top <= point.z() + give) height = std::max(height, top);
+  }
+  return height;
 }
 
 double Ground::highest() const {

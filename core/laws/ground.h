@@ -4,6 +4,7 @@
 
 #include "core/laws/heightfield.h"
 #include "core/model/frames.h"
+#include "core/names.h"
 
 namespace gaitlab {
 
@@ -45,12 +46,23 @@ struct Ground {
   /// A sphere of `radius` (0: a point) centred at `centre`, world. Allocates nothing. Of Kind::none: as on the plane.
   [[nodiscard]] Touch query(const Vec3& centre, double radius) const;
 
+  /// Height of what carries a point: the highest surface on the vertical through it that is at most `give` above it, m. A wall
+  /// that it touches and a roof above it carry nothing. Of Kind::none: as on the plane.
+  [[nodiscard]] double surface_below(const Vec3& point, double give) const;
+
   /// No solid is higher, m.
   [[nodiscard]] double highest() const;
 
  private:
   [[nodiscard]] Touch on_boxes(const Vec3& centre, double radius) const;
   [[nodiscard]] Touch on_field(const Vec3& centre, double radius) const;
+};
+
+template <>
+struct EnumNames<Ground::Kind> {
+  using enum Ground::Kind;
+  static constexpr EnumName<Ground::Kind> kTable[] = {
+      {none, "none"}, {plane, "plane"}, {boxes, "boxes"}, {heightfield, "heightfield"}};
 };
 
 }  // namespace gaitlab

@@ -153,12 +153,12 @@ class DockRows {
     const std::string able = partners(type(dock.child_module), parent.gender);
     const std::string genders =
         alike ? fmt::format("face {} of module {} and face {} of module {} are both {}; active docks on passive",
-                            dock.child_face, dock.child_module, dock.parent_face, dock.parent_module, word(child.gender))
+                            dock.child_face, dock.child_module, dock.parent_face, dock.parent_module, name_of(child.gender))
               : fmt::format(
                     "face {} of module {} is of gender {}, face {} of module {} of gender {}; active docks on passive, "
                     "none on none",
-                    dock.child_face, dock.child_module, word(child.gender), dock.parent_face, dock.parent_module,
-                    word(parent.gender));
+                    dock.child_face, dock.child_module, name_of(child.gender), dock.parent_face, dock.parent_module,
+                    name_of(parent.gender));
     problems_.add(dock.place, fmt::format("wrong gender: {}, so module {} {}", genders, dock.child_module,
                                           able.empty() ? "has no face that fits" : fmt::format("could take face {}", able)));
   }

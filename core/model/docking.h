@@ -7,9 +7,6 @@ namespace gaitlab {
 /// The face with that id, or nullptr.
 const FaceType* find_face(const ModuleType& type, int id);
 
-inline constexpr const char* kGenders[] = {"active", "passive", "none"};  ///< names of Gender's values
-inline const char* word(Gender gender) { return kGenders[static_cast<std::size_t>(gender)]; }
-
 /// Whether two faces of a type are one connector.
 bool at_one_place(const FaceType& a, const FaceType& b);
 

@@ -10,6 +10,7 @@
 
 #include "core/model/frames.h"
 #include "core/model/passive.h"
+#include "core/names.h"
 
 namespace gaitlab {
 
@@ -43,6 +44,12 @@ struct HingeType {
 
 /// Active docks on passive, and a face without gender on its like.
 enum class Gender { active, passive, none };
+
+template <>
+struct EnumNames<Gender> {
+  using enum Gender;
+  static constexpr EnumName<Gender> kTable[] = {{active, "active"}, {passive, "passive"}, {none, "none"}};
+};
 
 /// What the connector of a face bears, N and N m; 0: nobody states it. `source`: who states it.
 struct Connector {

@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "core/model/base.h"
 #include "core/model/module_type.h"
+#include "core/names.h"
 #include "core/plugin/robot_info.h"
 
 namespace gaitlab {
@@ -79,6 +80,12 @@ struct Robot {
 };
 
 enum class ContactSet { none, feet, all };
+
+template <>
+struct EnumNames<ContactSet> {
+  using enum ContactSet;
+  static constexpr EnumName<ContactSet> kTable[] = {{none, "none"}, {feet, "feet"}, {all, "all"}};
+};
 
 /// Builds the robot from `type_of_module` (index into types, one per module) and the docks.
 /// Errors (InputError, all at once, each at its row): wrong gender, connectors that differ, face used twice, unknown module or

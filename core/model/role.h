@@ -1,19 +1,18 @@
 // What a body is to the eye.
 #pragma once
-#include <cstddef>
-
 #include "core/model/module_type.h"
+#include "core/names.h"
 
 namespace gaitlab {
 
 /// The block that carries the active or the passive faces, the link between them, or a body whose faces have no gender.
 enum class Role { active, link, passive, other };
 
-/// `active`, `link`, `passive`, `other`.
-inline const char* name_of(Role role) {
-  constexpr const char* kNames[] = {"active", "link", "passive", "other"};
-  return kNames[static_cast<std::size_t>(role)];
-}
+template <>
+struct EnumNames<Role> {
+  using enum Role;
+  static constexpr EnumName<Role> kTable[] = {{active, "active"}, {link, "link"}, {passive, "passive"}, {other, "other"}};
+};
 
 /// Of a body of a module type: the gender of the body's first face; link without faces.
 inline Role role_of(const ModuleType& type, std::size_t body) {

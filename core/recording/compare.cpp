@@ -29,10 +29,6 @@ struct Pair {
   std::vector<double> a, b;
 };
 
-bool wanted(const std::string& name, const std::vector<std::string>& patterns) {
-  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) { return glob(pattern, name); });
-}
-
 std::string enumerate(const std::vector<std::string>& names) {
   const auto shown = names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kNamesShown));
   const std::string text = fmt::format("{}", fmt::join(names.begin(), shown, ", "));
@@ -55,6 +51,13 @@ class Comparison {
   }
 
  private:
+  [[nodiscard]] std::string label(const std::string& name) const { return readable_column(name, options_.names); }
+  [[nodiscard]] bool wanted(const std::string& name) const {
+    if (name == "t") return false;
+    const std::string readable = label(name);
+    return std::ranges::any_of(options_.columns,
+                               [&](const std::string& pattern) { return glob(pattern, name) || glob(pattern, readable); });
+  }
   void find(std::string sentence) { found_.findings.push_back(std::move(sentence)); }
 
   void match_columns() {
@@ -63,16 +66,16 @@ class Comparison {
     for (std::size_t i = 0; i < a_.columns.size(); ++i) {
       const std::string& name = a_.columns[i].name;
       const auto other = in_b.find(name);
-      const bool counts = name != "t" && wanted(name, options_.columns);
+      const bool counts = wanted(name);
       if (counts && other == in_b.end()) found_.only_a.push_back(name);
       if (counts && other != in_b.end()) shared_.emplace_back(i, other->second);
       if (other != in_b.end()) in_b.erase(other);
     }
     for (const Column& column : b_.columns) {
-      if (in_b.contains(column.name) && column.name != "t" && wanted(column.name, options_.columns))
-        found_.only_b.push_back(column.name);
+      if (in_b.contains(column.name) && wanted(column.name)) found_.only_b.push_back(column.name);
     }
-    const auto tell = [&](const std::vector<std::string>& names, const char* trace) {
+    const auto tell = [&](std::vector<std::string> names, const char* trace) {
+      for (std::string& name : names) name = label(name);
       if (!names.empty()) find(fmt::format("{} in {} only: {}", plural(names.size(), "column"), trace, enumerate(names)));
     };
     tell(found_.only_a, "A");
@@ -81,7 +84,7 @@ class Comparison {
       const std::string& unit = a_.columns[i].unit;
       const std::string& other = b_.columns[j].unit;
       if (unit != other && !unit.empty() && !other.empty())
-        find(fmt::format("{}: in {} in A, in {} in B", a_.columns[i].name, unit, other));
+        find(fmt::format("{}: in {} in A, in {} in B", label(a_.columns[i].name), unit, other));
     }
   }
 
@@ -155,9 +158,10 @@ class Comparison {
     const Pair pair = values(column, other);
     ColumnDifference d;
     d.name = a_.columns[column].name;
+    d.label = label(d.name);
     d.unit = a_.columns[column].unit.empty() ? b_.columns[other].unit : a_.columns[column].unit;
-    tell_nonfinite(d.name, pair.a, "A");
-    tell_nonfinite(d.name, pair.b, "B");
+    tell_nonfinite(d.label, pair.a, "A");
+    tell_nonfinite(d.label, pair.b, "B");
     const auto same = [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); };
     d.equal = std::equal(pair.a.begin(), pair.a.end(), pair.b.begin(), same);
     measure(pair, d);

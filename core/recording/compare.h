@@ -4,18 +4,21 @@
 #include <string>
 #include <vector>
 
+#include "core/recording/column_names.h"
 #include "core/recording/trace.h"
 
 namespace gaitlab {
 
 struct CompareOptions {
-  std::vector<std::string> columns = {"*"};  ///< glob patterns; a column counts if one matches
+  std::vector<std::string> columns = {"*"};  ///< glob patterns; a column counts if one matches its name or its label
   double divergence = 1e-6;                  ///< of a column's scale: a difference above it is where the traces part
+  PartNames names = {};                      ///< for labels
 };
 
 /// One column that both traces have, over the rows they share.
 struct ColumnDifference {
   std::string name;
+  std::string label;   ///< for people (column_names.h): `m7/passive torque`
   std::string unit;    ///< A's, or B's where A (a CSV file) has none
   bool equal = false;  ///< to the bit
   double rms = 0;      ///< of B - A, in the column's unit
@@ -34,7 +37,7 @@ struct TraceDifference {
   /// What makes the traces incomparable or the numbers partial, a sentence each: other columns, units, rows, times, values that
   /// are not finite. Empty: they have the same form.
   std::vector<std::string> findings;
-  std::vector<std::string> only_a, only_b;  ///< columns that match and that the other trace has not
+  std::vector<std::string> only_a, only_b;  ///< names of columns that match and that the other trace has not
   std::size_t rows = 0;                     ///< with the same time in both: those the numbers are about
   std::vector<ColumnDifference> columns;    ///< in A's order; without `t`
 };

@@ -32,11 +32,6 @@ std::size_t row_at(const Series& t, double time, double within) {
   return row;
 }
 
-/// Of the column `peak_limit`.
-MotorLimit motor_limit(double saturation) {
-  return saturation == 2 ? MotorLimit::current : saturation == 1 ? MotorLimit::voltage : MotorLimit::none;
-}
-
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 /// Of the rows behind `first`: the largest, and when; NaN where nothing is known.

@@ -5,11 +5,10 @@
 #include <vector>
 
 #include "core/recording/limit_cycle.h"
+#include "core/recording/motor_limit.h"
 #include "core/recording/recording.h"
 
 namespace gaitlab {
-
-enum class MotorLimit { none, voltage, current };
 
 /// Of one joint, within the window; NaN where the folder does not know it. A time is the end of the row of Recording::ticks in
 /// which the peak was reached.
@@ -51,8 +50,8 @@ struct Judged {
 /// The window holds whole periods up to the end of the run: from the limit cycle on, or from earlier on where more than one
 /// period would be left out. At most one period of a start is forgiven, because motors that are at their limits until a late
 /// limit cycle begins would count for nothing. Without a limit cycle it begins at 2 s or a fifth of the run, whichever is
-/// earlier. From Recording::ticks, which are of all steps: beside the period, which is found in the rows, nothing depends on
-/// trace.period. The window begins at the row of ticks before its start.
+/// earlier. From Recording::ticks, which are of all steps: nothing depends on trace.period. The window begins at the row of
+/// ticks before its start.
 Judged judge(const Recording& recording, const MotionCycle& cycle);
 
 }  // namespace gaitlab

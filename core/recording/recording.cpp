@@ -32,6 +32,11 @@ Series Recording::joint(std::size_t number, const char* quantity) const {
   return series(fmt::format("joint.{}.{}", number, quantity));
 }
 
+Series Recording::pose(const std::string& column) const {
+  const std::size_t at = poses.find(column);
+  return at < poses.columns.size() && poses.rows() > 0 ? Series(poses, at) : Series();
+}
+
 Series Recording::tick(std::size_t number, TickColumn column) const {
   const std::size_t columns = ticks.columns.size();
   if (ticked() == 0 || ticks.rows() < 2 || (columns - 1) % ticked() != 0) return {};
@@ -100,6 +105,12 @@ std::vector<Column> pose_columns(std::size_t joints) {
   for (const char* part : {"qw", "qx", "qy", "qz"})
     columns.push_back({fmt::format("base.{}", part), "", "quaternion, base frame to world"});
   for (std::size_t j = 0; j < joints; ++j) columns.push_back({fmt::format("joint.{}.angle", j), "rad", "joint angle"});
+  for (std::size_t j = 0; j < joints; ++j) {
+    columns.push_back({fmt::format("joint.{}.setpoint", j), "rad",
+                       "set point in force before the tick; the angle of a joint without a motor"});
+  }
+  for (const char* axis : {"x", "y", "z"}) columns.push_back({fmt::format("com.{}", axis), "m", "centre of mass, world axes"});
+  columns.push_back({"load", "N", "normal force of the ground on the robot"});
   return columns;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/model/kinematics.h"
 #include "core/recording/ledger.h"
+#include "core/recording/outcome.h"
 #include "core/recording/statistics.h"
 #include "core/recording/trace.h"
 
@@ -64,7 +65,8 @@ struct Recording {
   /// At the rows of `ticks`, but under the new commands: loads of docks and feet, ways that feet slid, how the robot stands.
   /// Without columns where nobody asked the simulation for it.
   Trace loads;
-  /// At the rows of `ticks`: pose of the base and angles of the joints. Without rows in a folder of an older format.
+  /// At the rows of `ticks`: pose of the base, angles and set points of the joints, centre of mass, and normal force of the
+  /// ground on the robot. Folders of older formats have no rows, or only pose and angles.
   Trace poses;
   std::vector<JointStatistics> joints;  ///< none: the robot has no joint, or the run is of a format that did not keep them
   Ledger ledger;                        ///< at the end
@@ -74,13 +76,15 @@ struct Recording {
   double worst_time = 0;                ///< s
   std::int64_t control_ticks = 0, control_ticks_above_1 = 0;
   std::int64_t steps = 0;
-  std::string outcome = "done";  ///< or why it ended early
+  Outcome outcome;
 
   [[nodiscard]] std::size_t rows() const { return trace.rows(); }
   /// A column of `trace` or `rest` by name; empty where neither has it.
   [[nodiscard]] Series series(const std::string& column) const;
   /// `joint.N.QUANTITY`: angle, setpoint, torque.
   [[nodiscard]] Series joint(std::size_t number, const char* quantity) const;
+  /// A column of `poses` by name; empty where a folder of an older format does not have it.
+  [[nodiscard]] Series pose(const std::string& column) const;
   /// Centre of mass at the time of a row.
   [[nodiscard]] Vec3 com(std::size_t row) const;
   /// Of the centre of mass, from the first row to the last.
@@ -97,9 +101,10 @@ struct Recording {
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t row) const;
 };
 
-/// The columns of Recording::ticks for so many joints; those of Recording::poses.
+/// The columns of Recording::ticks for so many joints; those of Recording::poses, of which older folders have the first alone.
 std::vector<Column> tick_columns(std::size_t joints);
 std::vector<Column> pose_columns(std::size_t joints);
+constexpr std::size_t old_pose_columns(std::size_t joints) { return 8 + joints; }
 /// Makes one row of each two behind the first: the later one, with the larger of their peaks.
 void halve_ticks(Trace& ticks);
 /// Makes one row of each two behind the first: the later one, with the larger of their loads of docks and the lesser stability.

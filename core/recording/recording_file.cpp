@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kHinges = "energy.hinges";
+constexpr const char* kEnded = "ended";
 
 /// Every number of a recording that is not one of a row or of a joint: visit(name, unit, definition, number).
 template <class OfRecording, class Visit>
@@ -44,6 +45,8 @@ void each_number(OfRecording& r, Visit visit) {
   visit("off_law", "", "joint-steps that ended off the law of their motor or stop", r.tally.off);
   visit("coarse_time", "s", "time in which the steps did not reach the accuracy", r.tally.coarse);
   visit("torque_error.estimated", "", "1: there is an estimate of the torque error", r.tally.estimated);
+  visit(kEnded, "", "how it ended: 0 done, 1 diverged, 2 plugin, 3 stopped, 4 interrupted, 5 not run, 6 early",
+        r.outcome.ended);
 }
 
 /// The same of joint `j`.
@@ -101,10 +104,14 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   }
   each_number(r, [&](const char* name, const char*, const char*, auto& number) {
     using Number = std::remove_reference_t<decltype(number)>;
-    if (name == kHinges && run.find(name) == run.columns.size()) return;  // older folders do not have it
+    const bool added = name == kHinges || name == kEnded;
+    if (added && run.find(name) == run.columns.size()) return;  // older folders do not have it
     const double read = value(run, 0, name);
     // Yes or no, a source, and counts, which a double holds to 2^53.
-    constexpr double kMost = std::is_same_v<Number, bool> ? 1 : std::is_enum_v<Number> ? 3 : 0x1p53;
+    constexpr double kMost = std::is_same_v<Number, bool>    ? 1
+                             : std::is_same_v<Number, Ended> ? static_cast<double>(enum_names<Ended>().size() - 1)
+                             : std::is_enum_v<Number>        ? 3
+                                                             : 0x1p53;
     if (!std::is_floating_point_v<Number> && !(read >= 0 && read <= kMost))
       throw unfit(file, fmt::format("{} is {}", name, read));
     number = static_cast<Number>(read);
@@ -182,8 +189,12 @@ StoredRecording read_recording(const fs::path& folder) {
   }
   read.origin = std::move(stored.origin);
   if (!stored.beside.empty()) {
+    read.recording.outcome = Outcome::of(read.origin.outcome);
+    const bool done = read.recording.outcome.done();
     take_tables(csv ? beside : file, stored.beside, read.recording);
-    read.recording.outcome = read.origin.outcome;
+    if (done != read.recording.outcome.done())
+      throw unfit(csv ? beside : file, fmt::format("outcome is {}, but {} is {}", read.origin.outcome, kEnded,
+                                                   name_of(read.recording.outcome.ended)));
     return read;
   }
   const Trace& trace = read.recording.trace;

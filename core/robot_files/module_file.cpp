@@ -292,7 +292,7 @@ class ModuleReader {
     if (places_.format < 2 && gender != nullptr && gender->text == "none") {
       need_format_2("gender: none is", gender->place);
     } else {
-      reader.choice("gender", face.gender, std::span(kGenders).first(places_.format < 2 ? 2 : 3),
+      reader.choice("gender", face.gender, enum_names<Gender>().first(places_.format < 2 ? 2 : 3),
                     "An active face docks on a passive one, none on none.");
     }
     if (newer(reader, node, {"connector", "turns"})) read_docking(reader, face);

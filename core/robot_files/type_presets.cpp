@@ -23,6 +23,21 @@ std::string type_of(const Node* map, Kind kind) {
   return type == nullptr ? describe(kind).default_type : type->text;
 }
 
+/// The keys of a map but for those that are no figures.
+std::vector<std::string> figures_of(const Node* map) {
+  std::vector<std::string> keys;
+  if (map == nullptr) return keys;
+  for (const auto& [key, place] : map->keys) {
+    if (key != "type" && key != "source") keys.push_back(key);
+  }
+  return keys;
+}
+
+std::string source_of(const Node* map) {
+  const Node* source = map == nullptr ? nullptr : map->find("source");
+  return source == nullptr ? "" : source->text;
+}
+
 bool of_format_2(const Node& document) {
   const Node* format = document.find("gaitlab_module");
   return format != nullptr && read_integer(*format).value >= 2;
@@ -53,6 +68,21 @@ class Seen final : public Fields {
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 
   std::map<std::string, Value> values;
+};
+
+/// The default figures among the fields of a plugin.
+class Figures final : public Fields {
+ public:
+  void visit(const Field& field) override {
+    const auto* each = std::get_if<field::EachJoint>(&field.value);
+    if (each == nullptr) return;
+    const bool limit = each->role == field::Role::limit && each->usual == nullptr;
+    const bool set = each->role == field::Role::setting && each->value.common != 0;
+    if (limit || set) found.push_back({field.key, each->spec.unit, each->value.common});
+  }
+  void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
+
+  std::vector<DefaultFigure> found;
 };
 
 /// Gives each joint its own of several settings; what is one for all joints must be the same in all of them.
@@ -92,6 +122,16 @@ class PerJointMerge final : public Fields {
 };
 
 }  // namespace
+
+std::vector<DefaultFigure> default_figures(const Entry& entry) {
+  Figures figures;
+  visit_settings(entry, default_settings(entry).get(), figures);
+  return figures.found;
+}
+
+std::string by_default(const std::vector<std::string>& keys, const Entry& entry) {
+  return fmt::format("chosen: {} by default of {}", fmt::join(keys, ", "), entry.name);
+}
 
 std::vector<const Node*> preset_maps(const Node& document, Kind kind) {
   std::vector<const Node*> maps;
@@ -153,6 +193,38 @@ void TypePresets::choose_each(const Robot& robot, const std::vector<Node>& docum
   }
 }
 
+bool TypePresets::holds(const Entry& entry) const {
+  const auto says = [](const Maps& maps) { return maps.of_type != nullptr || maps.of_hinge != nullptr; };
+  return agreed() && entry.name == type_ && std::ranges::any_of(kinds_, says);
+}
+
+std::vector<std::string> TypePresets::sources(const Entry& entry, const std::vector<std::string>& but) const {
+  std::vector<std::string> sources;
+  const auto add = [&](const std::string& source) {
+    if (std::ranges::find(sources, source) == sources.end()) sources.push_back(source);
+  };
+  const std::vector<DefaultFigure> defaults = default_figures(entry);
+  for (const Maps& maps : kinds_) {
+    std::vector<std::string> known = but;
+    const auto takes = [&](const Node* map) {  // whether it has figures that are not known yet
+      const std::size_t before = known.size();
+      for (const std::string& key : figures_of(map)) {
+        if (std::ranges::find(known, key) == known.end()) known.push_back(key);
+      }
+      return known.size() > before;
+    };
+    const bool of_hinge = takes(maps.of_hinge);
+    if (takes(maps.of_type)) add(source_of(maps.of_type));
+    if (of_hinge) add(source_of(source_of(maps.of_hinge).empty() ? maps.of_type : maps.of_hinge));
+    std::vector<std::string> assumed;
+    for (const DefaultFigure& one : defaults) {
+      if (one.value != 0 && std::ranges::find(known, one.key) == known.end()) assumed.push_back(one.key);
+    }
+    if (!assumed.empty()) add(by_default(assumed, entry));
+  }
+  return sources;
+}
+
 void TypePresets::refuse(const SourceLocation& place, Problems& problems) const {
   Problem& problem = problems.add(place, fmt::format("{}; say which one holds: add {}: {{type: ...}}", why_, word(kind_)));
   for (const Node* map : said_) problem.notes.emplace_back(map->place, "one is here");
@@ -172,7 +244,7 @@ void TypePresets::read(const Entry& entry, const Maps& maps, void* settings, Joi
 }
 
 void TypePresets::fill(const Entry& entry, void* settings, JointNames joints, Problems& problems) const {
-  if (kinds_.empty() || !agreed() || entry.name != type_) return;
+  if (!holds(entry)) return;
   read(entry, kinds_.front(), settings, joints, problems, problems);
   if (kinds_.size() == 1) return;
   std::vector<const Node*> told{kinds_.front().of_type};
@@ -198,6 +270,23 @@ void TypePresets::fill(const Entry& entry, void* settings, JointNames joints, Pr
       break;
     }
   }
+}
+
+std::vector<DroppedFigures> dropped_figures(Kind kind, const Robot& robot, const std::vector<Node>& documents,
+                                            const TypePresets& presets, const Entry& entry) {
+  std::vector<DroppedFigures> dropped;
+  for (std::size_t type = 0; type < documents.size() && !presets.holds(entry); ++type) {
+    const auto driven = [&](const Joint& joint) { return joint.driven() && robot.modules[joint.module].type == type; };
+    if (std::ranges::none_of(robot.joints, driven)) continue;
+    DroppedFigures of{robot.types[type].name, type_of(map_of(documents[type], kind), kind), {}};
+    for (const Node* map : preset_maps(documents[type], kind)) {
+      for (const std::string& key : figures_of(map)) {
+        if (std::ranges::find(of.keys, key) == of.keys.end()) of.keys.push_back(key);
+      }
+    }
+    if (!of.keys.empty()) dropped.push_back(std::move(of));
+  }
+  return dropped;
 }
 
 }  // namespace gaitlab

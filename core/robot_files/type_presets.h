@@ -12,6 +12,23 @@ namespace gaitlab {
 /// The maps in which a module type says something of a kind of plugin: its own, then those of its hinges.
 std::vector<const Node*> preset_maps(const Node& document, Kind kind);
 
+/// What a module type states of its motors, and what no joint gets.
+struct DroppedFigures {
+  std::string module, type;  ///< names of the module type, and of the plugin that these are figures of
+  std::vector<std::string> keys;
+};
+
+/// A value per joint that a plugin has by default.
+struct DefaultFigure {
+  std::string key, unit;
+  double value;
+};
+/// The default figures of a plugin: settings other than 0, and limits. What is one for all joints is of its law, and no figure.
+std::vector<DefaultFigure> default_figures(const Entry& entry);
+
+/// `chosen: R, Kt by default of dc_motor`: a default is nobody's figure of a real motor.
+std::string by_default(const std::vector<std::string>& keys, const Entry& entry);
+
 /// The presets of one kind of plugin, actuator or controller. Every joint takes those of its own module type and, over them key
 /// by key, those of its hinge. Where no module type is of format 2, one motor serves all, and types that name different ones
 /// disagree, as they do where they name different types of plugin.
@@ -23,6 +40,14 @@ class TypePresets {
   /// Of the plugin, where the scenario names none.
   [[nodiscard]] const std::string& type() const { return type_; }
   [[nodiscard]] bool agreed() const { return why_.empty(); }
+  /// Why the module types do not agree; empty: they do.
+  [[nodiscard]] const std::string& why() const { return why_; }
+  /// Whether the joints get presets where the scenario's plugin is this one.
+  [[nodiscard]] bool holds(const Entry& entry) const;
+  /// Who says the presets but for some keys, each text once: the `source` of the maps that joints with a motor go by, where
+  /// that of a hinge's map is its type's if it has none, and which figures are defaults of the plugin. An empty one: nobody
+  /// says some.
+  [[nodiscard]] std::vector<std::string> sources(const Entry& entry, const std::vector<std::string>& but) const;
   /// A problem at `place`: that the module types do not agree, and what each of them says.
   void refuse(const SourceLocation& place, Problems& problems) const;
   /// Into default settings of `entry`, where that is the type meant here. Findings go to `problems`.
@@ -46,5 +71,10 @@ class TypePresets {
   std::vector<std::size_t> of_joint_;  ///< which of them each joint has; empty: the first of them, if any, is for all
   std::vector<const Node*> said_;      ///< the maps that do not agree
 };
+
+/// By module type with a driven hinge, in the robot's order: presets that no joint gets, because the scenario's plugin is
+/// `entry`.
+std::vector<DroppedFigures> dropped_figures(Kind kind, const Robot& robot, const std::vector<Node>& documents,
+                                            const TypePresets& presets, const Entry& entry);
 
 }  // namespace gaitlab

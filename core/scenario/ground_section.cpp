@@ -14,7 +14,6 @@
 namespace gaitlab {
 namespace {
 
-constexpr std::array<const char*, 4> kTypes{"none", "plane", "boxes", "heightfield"};
 constexpr Spec kHeights{"m", -1e6, 1e6, "Heights, a row for each y, upwards; instead of `file`."};
 constexpr std::size_t kMostValues = 40000;  // a resolved scenario holds them in full, and is at most 1 MB
 
@@ -119,7 +118,7 @@ void finish_field(const Node& section, const std::string& folder, Heightfield& f
 }  // namespace
 
 void GroundFields::fields(Fields& f) {
-  f.choice("type", ground.kind, kTypes,
+  f.choice("type", ground.kind, enum_names<Ground::Kind>(),
            "plane: world z = 0, solid below; boxes: the same with boxes on it; heightfield: a surface through heights.");
   f.number("friction", ground.friction, {"", 0, 100, "Coulomb's coefficient of friction f between robot and ground."});
   if (!writing || ground.kind == Ground::Kind::boxes) {
@@ -141,13 +140,13 @@ void GroundFields::fields(Fields& f) {
 void finish_ground(const Node& section, const std::string& folder, Scenario& scenario, Problems& problems) {
   if (section.kind != Node::Kind::map) return;
   Ground& ground = scenario.ground;
-  const auto type = static_cast<std::size_t>(ground.kind);
+  const std::string type = name_of(ground.kind);
   const Node* given = section.find("type");
-  if (given != nullptr && given->text != kTypes[type]) return;  // unknown, and reported
+  if (given != nullptr && given->text != type) return;  // unknown, and reported
   for (std::size_t i = 0; i < section.keys.size(); ++i) {
     const auto& [key, place] = section.keys[i];
-    if ((key != "boxes" && key != "heightfield") || key == kTypes[type]) continue;
-    problems.add(place, fmt::format("{} is given, but the ground is of type {}; expected type: {}", key, kTypes[type], key));
+    if ((key != "boxes" && key != "heightfield") || key == type) continue;
+    problems.add(place, fmt::format("{} is given, but the ground is of type {}; expected type: {}", key, type, key));
   }
   if (ground.kind == Ground::Kind::boxes) finish_boxes(section, scenario, problems);
   if (ground.kind == Ground::Kind::heightfield) finish_field(section, folder, ground.field, problems);

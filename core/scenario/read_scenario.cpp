@@ -12,6 +12,7 @@
 #include "core/robot_files/type_presets.h"
 #include "core/scenario/ground_section.h"
 #include "core/scenario/plugin_files.h"
+#include "core/scenario/replaced_motors.h"
 #include "core/scenario/robot_section.h"
 #include "core/scenario/scenario_checks.h"
 #include "core/scenario/section_places.h"
@@ -55,7 +56,10 @@ class ScenarioReader {
       scenario_.plugins = read_plugins(*plugins, folder_, catalog_, problems_);
       raise();  // what a library would have registered would be reported as unknown
     }
-    attempt([&] { scenario_.notes = drop_old_keys(root_, retyped, catalog_); });
+    attempt([&] {
+      for (std::string& note : drop_old_keys(root_, retyped, catalog_)) add_note(std::move(note));
+    });
+    tell_dropped_source(sets);
     read_name(head);
     read_body();
     read_sections();
@@ -75,6 +79,7 @@ class ScenarioReader {
     apply_sets(own.root_, sets, own.problems_);
     own.rename_old_keys();
     own.raise();
+    own.tell_dropped_source(sets);
     for (const std::string& set : sets) own.touched_.push_back(set.substr(0, set.find_first_of(".=")));
     own.follow_dependencies();
     own.read_sections();
@@ -86,6 +91,17 @@ class ScenarioReader {
  private:
   void raise() const {
     if (!problems_.empty()) throw InputError(in_order(problems_.list(), path_));
+  }
+
+  void add_note(std::string text) {
+    if (!text.empty()) scenario_.notes.push_back({{path_}, std::move(text)});
+  }
+
+  void tell_dropped_source(const std::vector<std::string>& sets) {
+    const auto another = [](const std::string& set) { return set.starts_with("actuator.source="); };
+    if (std::ranges::any_of(sets, another)) std::erase(scenario_.notes, source_note_);  // that of the template
+    source_note_ = {{path_}, drop_source(root_, sets)};
+    add_note(source_note_.text);
   }
 
   /// Gives keys of earlier editions their present names.
@@ -166,7 +182,10 @@ class ScenarioReader {
     if (reads("trace")) scenario_.trace = fresh.trace;
     if (reads("figure")) scenario_.figure = fresh.figure;
     if (reads("limits")) scenario_.limits = fresh.limits;
-    if (reads("actuator")) scenario_.actuator = fresh.actuator;
+    if (reads("actuator")) {
+      scenario_.actuator = fresh.actuator;
+      scenario_.actuator_source = fresh.actuator_source;
+    }
     if (reads("controller")) {
       scenario_.controller = fresh.controller;
       scenario_.control_period = fresh.control_period;
@@ -210,6 +229,7 @@ class ScenarioReader {
     sections.actuator.none = !reads("actuator") && scenario_.actuator.entry == nullptr;
     sections.fields(reader);
     reader.finish();
+    if (reads("actuator") && sections.actuator.sound) attempt([&] { tell_replaced_motors(motors); });
     if (const Node* ground = root_.find("ground"); ground != nullptr && reads("ground"))
       finish_ground(*ground, folder_, scenario_, problems_);
     ScenarioChecks checks(root_, scenario_, catalog_, problems_);
@@ -231,6 +251,16 @@ class ScenarioReader {
     const auto concerns = [&](const char* section) { return reads(section); };
     constexpr std::array kOfPlugins{"physics", "contact", "actuator", "controller", "cpg"};
     if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
+  }
+
+  void tell_replaced_motors(const TypePresets& motors) {
+    for (const Note& note : motor_notes_) std::erase(scenario_.notes, note);  // those of the template's motors
+    motor_notes_.clear();
+    if (!driven() || !scenario_.robot) return;
+    const ReplacedMotors replaced(root_, scenario_, motors);
+    motor_notes_ = replaced.notes();
+    scenario_.notes.insert(scenario_.notes.end(), motor_notes_.begin(), motor_notes_.end());
+    scenario_.actuator_source = replaced.source();
   }
 
   void check_sensors(const Node& node) {
@@ -319,7 +349,7 @@ class ScenarioReader {
 
   void make_plugins(const SectionFields& sections) {
     if (!scenario_.robot) return;
-    if (!cpg_note_.empty()) std::erase(scenario_.notes, cpg_note_);  // that of the template's CPG
+    if (!cpg_note_.text.empty()) std::erase(scenario_.notes, cpg_note_);  // that of the template's CPG
     const RobotInfo robot = info(*scenario_.robot);
     std::unique_ptr<Actuator> actuator;
     std::unique_ptr<Controller> controller;
@@ -333,7 +363,7 @@ class ScenarioReader {
       if (!sections.has_cpg || !sections.cpg.sound) return;
       const auto cpg = make_cpg(scenario_.cpg, robot);
       if (!cpg || cpg->note().empty()) return;
-      cpg_note_ = "cpg: " + cpg->note();
+      cpg_note_ = {{path_}, "cpg: " + cpg->note()};
       scenario_.notes.push_back(cpg_note_);
     });
     attempt([&] {
@@ -350,7 +380,8 @@ class ScenarioReader {
   Node root_;
   Scenario scenario_;
   std::shared_ptr<const std::vector<std::string>> joints_;  ///< nullptr: the robot could not be read
-  std::string cpg_note_;
+  Note cpg_note_, source_note_;
+  std::vector<Note> motor_notes_;
   std::vector<std::string> touched_;  ///< sections to read; none: all
 };
 

@@ -10,6 +10,7 @@
 #include "core/laws/contact.h"
 #include "core/laws/ground.h"
 #include "core/model/robot.h"
+#include "core/names.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/settings/node.h"
 
@@ -36,6 +37,12 @@ struct Physics {
 };
 
 enum class ContactLaw { penalty, solver };  ///< forces of penetration and velocity, or constraints of the engine's own solver
+
+template <>
+struct EnumNames<ContactLaw> {
+  using enum ContactLaw;
+  static constexpr EnumName<ContactLaw> kTable[] = {{penalty, "penalty"}, {solver, "bullet"}};
+};
 
 struct ContactSettings {
   ContactLaw law = ContactLaw::penalty;
@@ -81,6 +88,13 @@ struct Limits {
   void fields(Fields& f);
 };
 
+/// A line for stderr that is no problem: what --set dropped, how the CPG was set up.
+struct Note {
+  SourceLocation place;
+  std::string text;
+  bool operator==(const Note&) const = default;
+};
+
 /// A plugin library named by the scenario.
 struct PluginFile {
   std::string path;  ///< canonical
@@ -102,6 +116,7 @@ struct Scenario {
   Ground ground;
   ContactSettings contact;
   PluginSelection actuator, controller, cpg;
+  std::string actuator_source;    ///< who says the figures that the section `actuator` gives; empty: nobody does
   double control_period = 0.015;  ///< s
   double cpg_step = 0;            ///< s, RK4 sub-step of the CPG
   double duration = 0;            ///< s
@@ -109,7 +124,7 @@ struct Scenario {
   FigureSettings figure;
   Limits limits;
   std::int64_t seed = 1;
-  std::vector<std::string> notes;  ///< one line each for stderr: what --set dropped, how the CPG was set up
+  std::vector<Note> notes;
   /// Where the user gave a key: `physics.step`, `trace.columns` ...; of a rollout of a template first its own.
   using Places = std::map<std::string, SourceLocation>;
   Places own_places;

@@ -15,9 +15,6 @@ namespace {
 
 constexpr const char* kNone = "none";
 constexpr const char* kDefaultEngine = "bullet";
-constexpr std::array<const char*, 3> kBases{"floating", "fixed", "planar"};
-constexpr std::array<const char*, 2> kLaws{"penalty", "bullet"};  // the second: Bullet's solver
-constexpr std::array<const char*, 3> kContactSets{"none", "feet", "all"};
 
 /// Texts as the interface wants them; they live as long as this.
 struct Names {
@@ -35,7 +32,7 @@ std::size_t count(const Problems* problems) { return problems == nullptr ? 0 : p
 }  // namespace
 
 void BaseFields::fields(Fields& f) {
-  f.choice("base", scenario.base, kBases, "floating; fixed; planar: world x, world z and rotation about world y.");
+  f.choice("base", scenario.base, enum_names<Base>(), "floating; fixed; planar: world x, world z and rotation about world y.");
   f.flag("on_ground", scenario.on_ground,
          "Whether the robot is lowered onto the ground until its first contact element touches; false where `position` has a "
          "height.");
@@ -115,10 +112,11 @@ void PhysicsFields::fields(Fields& f) {
 }
 
 void ContactSettings::fields(Fields& f) {
-  f.choice("law", law, kLaws,
+  f.choice("law", law, enum_names<ContactLaw>(),
            "penalty: Fn = Kn p^k + Cd p^d p' >= 0; friction -f Fn v/v_lim up to v_lim, then -f Fn v/|v|. bullet: Bullet's own "
            "solver, for comparison and clutter; it has none of the keys below but `on`.");
-  f.choice("on", on, kContactSets, "Which elements touch: those of the free blocks' feet, of every block, or none.");
+  f.choice("on", on, enum_names<ContactSet>(),
+           "Which elements touch: those of the free blocks' feet, of every block, or none.");
   if (solver()) return;
   f.number("stiffness", penalty.kn,
            {"N/m^k", 0, 1e12, "Kn of the spring. On stiffer ground the robot sinks in less, and steps must be shorter."});
@@ -157,7 +155,7 @@ void PluginFields::fields(Fields& f) {
   const std::size_t before = count(problems);
   try {
     choose(f);
-    if (host) host(f);
+    if (host && !none) host(f);
     sound = count(problems) == before;
     if (sound && choice.entry != nullptr && own_keys) visit_settings(*choice.entry, choice.settings.get(), f);
   } catch (const PluginError& error) {
@@ -199,7 +197,8 @@ void Limits::fields(Fields& f) {
        "How many control periods on end it may be there; a longer stretch is a failure. Default: chosen; one or two are the "
        "answer to a step of the set point."});
   f.number("height", height,
-           {"", 0, 1, "Share of its height at the start below which the centre of mass has fallen. Default: chosen."});
+           {"", 0, 1,
+            "Share of its height above the ground at the start below which the centre of mass has fallen. Default: chosen."});
   f.number(
       "tilt", tilt,
       {"rad", kPositive, 4, "Tilt of the base from its start above which the verdict warns. Default: 60 degrees, chosen."});
@@ -244,6 +243,12 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
       controller{Kind::controller, s.controller, describe(Kind::controller).default_type, catalog},
       cpg{Kind::cpg, s.cpg, describe(Kind::cpg).default_type, catalog} {
   actuator.problems = controller.problems = cpg.problems = problems;
+  actuator.host = [this, &s](Fields& f) {
+    if (writing && s.actuator_source.empty()) return;
+    f.text("source", s.actuator_source,
+           "Who says the figures that this section gives instead of the module types', such as a data sheet; a verdict repeats "
+           "it. Without it they count as chosen.");
+  };
   controller.host = [&s](Fields& f) {
     f.number("period", s.control_period,
              {"s", 1e-9, 1000, "Time between commands; a whole multiple of the step where one is given."});

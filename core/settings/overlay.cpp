@@ -215,6 +215,19 @@ std::vector<Retyped> apply_sets(Node& root, const std::vector<std::string>& sets
   return retyped;
 }
 
+std::string drop_source(Node& root, const std::vector<std::string>& sets) {
+  const auto figure = [](const std::string& set) {
+    return set.starts_with("actuator.") && !set.starts_with("actuator.source=");
+  };
+  const auto other = std::ranges::find_if(sets, figure);
+  const auto section = std::ranges::find(root.keys, "actuator", [](const auto& key) { return key.first; });
+  if (other == sets.end() || section == root.keys.end()) return "";
+  const std::string dropped =
+      take_out(root.items[static_cast<std::size_t>(section - root.keys.begin())], "",
+               [](const std::string& key, const Node& value) { return key == "source" && !is_set(value); });
+  return dropped.empty() ? "" : fmt::format("actuator: dropped source, which does not say {}{}", kOption, clipped(*other));
+}
+
 std::vector<std::string> drop_old_keys(Node& root, const std::vector<Retyped>& retyped, const Catalog& catalog) {
   std::vector<std::string> notes;
   for (const Retyped& change : retyped) {

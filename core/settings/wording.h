@@ -31,6 +31,9 @@ std::string joined(const std::vector<std::string>& names);
 /// The text in lines of at most `width` characters, broken at blanks, each behind `indent` blanks. Lines that begin with four
 /// blanks (equations, YAML) are not joined; what is too long of one goes on eight blanks further in.
 std::string wrapped(const std::string& text, std::size_t indent = 0, std::size_t width = 80);
+/// Rows of cells as lines, each behind `indent` blanks: the first cell flush left, the others flush right, every column as wide
+/// as its widest cell. All rows have as many cells as the first.
+std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size_t indent = 0);
 /// How a message on an unknown name ends: `; did you mean 'x'?` or `; known KIND: a, b, c`.
 std::string offer(const std::string& found, const std::vector<std::string>& known, const std::string& kind);
 std::vector<std::string> to_strings(std::span<const char* const> names);

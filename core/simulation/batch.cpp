@@ -72,14 +72,14 @@ bool run_alone(RolloutEnd& end, const BatchStream& stream, Loads loads, const st
   try {
     Simulation simulation({&end.rollout.scenario, 1}, loads);
     if (stream.watch) simulation.watch([&](std::size_t, const Recording& so_far) { return stream.watch(end.rollout, so_far); });
-    std::string thrown;
+    std::optional<Outcome> thrown;
     try {
       if (!simulation.run({}, &stop)) return false;
     } catch (const SimulationError& error) {
-      thrown = error.what();
+      thrown = error.outcome();
     }
     end.recording = simulation.take_recording(0);
-    if (!thrown.empty()) end.recording.outcome = std::move(thrown);
+    if (thrown) end.recording.outcome = std::move(*thrown);
   } catch (const InputError& error) {
     end.refused = error.problems();
   }

@@ -11,7 +11,8 @@ namespace gaitlab {
 namespace {
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what, double value, std::int64_t step, double time) {
-  throw SimulationError(step, time, where, fmt::format("diverged at step {}, t = {:.6g} s: {} is {}", step, time, what, value));
+  throw SimulationError(Ended::diverged, step, time, where,
+                        fmt::format("diverged at step {}, t = {:.6g} s: {} is {}", step, time, what, value));
 }
 
 /// The joint to whose number a state's name leads; empty: none.

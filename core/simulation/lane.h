@@ -58,7 +58,7 @@ struct Simulation::Lane {
   std::size_t index;
   LaneClock clock;
   bool closed = false;  ///< its record is complete
-  std::string failure;  ///< why it ended early
+  Outcome outcome;
   std::vector<ContactElement> contacts;
   std::vector<std::size_t> passive = {};  ///< joints without a motor
   std::unique_ptr<Cpg> cpg;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/recording/motor_limit.h"
+
 namespace gaitlab {
 
 namespace {
@@ -97,8 +99,11 @@ void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Ac
   first(&F::error_peak_time, &F::error_peak, apart);
   peak(&F::error_peak, apart);
   if (time == 0) peak(&F::start_jump, apart);
-  share(&F::saturated_voltage, [&](std::size_t i) { return report.saturation[i] == 1 ? 1.0 : 0.0; });
-  share(&F::saturated_current, [&](std::size_t i) { return report.saturation[i] == 2 ? 1.0 : 0.0; });
+  const auto limited = [&](MotorLimit limit) {
+    return [&report, at = saturation_of(limit)](std::size_t i) { return report.saturation[i] == at ? 1.0 : 0.0; };
+  };
+  share(&F::saturated_voltage, limited(MotorLimit::voltage));
+  share(&F::saturated_current, limited(MotorLimit::current));
   share(&F::range_share, [&](std::size_t i) { return excess(i) > 0 ? 1.0 : 0.0; });
   peak(&F::range_worst, excess);
   share(&F::setpoint_outside,

@@ -36,17 +36,23 @@ double Simulation::stop_torque(const Lane& lane, const RobotState& state, std::s
   return HingeStop::at(state.q[joint], state.qd[joint], of.lo, of.hi).torque;
 }
 
+/// State, centre of mass and contacts of now. `places`: of all bodies, too.
+void Simulation::read_state(Lane& lane, bool places) {
+  Sample& s = lane.sample;
+  layout_.read(plant_state_, lane.index, s.state);
+  const std::optional<Vec3> com = plant_->com(lane.index);
+  if (places || !com) s.forward_kinematics(lane.robot);
+  if (com) s.sums.com = *com;
+  plant_->contacts(lane.index, s.contacts);
+}
+
 /// `whole`: also what no column asks for.
 Sample& Simulation::take_sample(Lane& lane, bool whole) {
   const std::size_t lanes = lanes_.size();
   const std::size_t l = lane.index;
   Sample& s = lane.sample;
   s.t = time();
-  layout_.read(plant_state_, l, s.state);
-  const std::optional<Vec3> com = plant_->com(l);
-  if (whole || !com || lane.probes->want_places()) s.forward_kinematics(lane.robot);
-  if (com) s.sums.com = *com;
-  plant_->contacts(l, s.contacts);
+  read_state(lane, whole || lane.probes->want_places());
   s.place_boxes(*plant_);
   for (std::size_t j = 0; j < layout_.joints; ++j) {
     const std::size_t i = j * lanes + l;
@@ -154,16 +160,23 @@ void Simulation::record_tick(Lane& lane) {
   lane.loads_due = lane.loads != nullptr;
 }
 
-/// A row of Recording::poses; none of a state that is not one any more.
+/// A row of Recording::poses; none of a state that is not one any more. Contacts are those of the present state.
 void Simulation::record_pose(Lane& lane) {
   if (!fine(lane)) return;
-  RobotState& state = lane.sample.state;
-  layout_.read(plant_state_, lane.index, state);
+  read_state(lane, false);
+  const Sample& s = lane.sample;
   Trace& poses = lane.recording.poses;
-  const Vec3& p = state.position;
-  const Quat& q = state.orientation;
+  const Vec3& p = s.state.position;
+  const Quat& q = s.state.orientation;
   for (const double value : {time(), p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}) poses.values.push_back(value);
-  poses.values.insert(poses.values.end(), state.q.begin(), state.q.end());
+  poses.values.insert(poses.values.end(), s.state.q.begin(), s.state.q.end());
+  for (std::size_t j = 0; j < layout_.joints; ++j) {
+    const bool driven = lane.robot.joints[j].driven();
+    poses.values.push_back(driven ? setpoint_[j * lanes_.size() + lane.index] : s.state.q[j]);
+  }
+  double load = 0;
+  for (const ContactSample& contact : s.contacts) load += contact.fn;
+  for (const double value : {s.sums.com.x(), s.sums.com.y(), s.sums.com.z(), load}) poses.values.push_back(value);
 }
 
 /// What lanes that are `wanted` bear in this moment under the commands that begin now, which change torques at once; of a lane
@@ -210,7 +223,7 @@ void Simulation::close(Lane& lane) {
   const Sample& last = take_sample(lane, true);
   recording.tally = last.tally;
   recording.ledger = last.ledger;
-  if (!lane.failure.empty()) recording.outcome = lane.failure;
+  recording.outcome = lane.outcome;
   recording.joints.clear();
   for (std::size_t j = 0; j < layout_.joints; ++j) recording.joints.push_back(meter_.statistics(j, lane.index));
 }

@@ -20,8 +20,8 @@ constexpr double kLargestSpeed = 1e5;  // rad/s
 
 std::int64_t whole(double period, double step) { return std::llround(period / step); }
 
-SimulationError::SimulationError(std::int64_t at_step, double at_time, std::string at, const std::string& what)
-    : RunError(what), step(at_step), time(at_time), where(std::move(at)) {}
+SimulationError::SimulationError(Ended how, std::int64_t at_step, double at_time, std::string at, const std::string& what)
+    : RunError(what), ended(how), step(at_step), time(at_time), where(std::move(at)) {}
 
 bool Simulation::control_tick(const Lane& lane) const { return !lane.closed && lane.clock.commands(step_number()); }
 bool Simulation::trace_tick(const Lane& lane) const { return !lane.closed && lane.clock.records(step_number()); }
@@ -75,13 +75,15 @@ void Simulation::ask_watch() {
     lane->recording.simulated = time();
     lane->recording.joints.clear();
     for (std::size_t j = 0; j < layout_.joints; ++j) lane->recording.joints.push_back(meter_.statistics(j, lane->index));
-    lane->failure = watch_(lane->index, lane->recording);
-    if (!lane->failure.empty()) end(*lane);
+    std::string reason = watch_(lane->index, lane->recording);
+    if (reason.empty()) continue;
+    lane->outcome = {Ended::stopped, std::move(reason)};
+    end(*lane);
   }
 }
 
 SimulationError Simulation::stopped(const PluginError& error) const {
-  return {step_number(), time(), word(error.kind),
+  return {Ended::plugin, step_number(), time(), word(error.kind),
           fmt::format("stopped at step {}, t = {:.6g} s: {}", step_number(), time(), error.what())};
 }
 
@@ -97,7 +99,7 @@ void Simulation::guard(Lane& lane, Work work) try {
 
 void Simulation::fail(Lane& lane, const SimulationError& error) {
   if (lanes_.size() == 1) throw SimulationError(error);
-  lane.failure = error.what();
+  lane.outcome = error.outcome();
   end(lane);
 }
 
@@ -264,7 +266,7 @@ SimulationError Simulation::diverged(const Lane& lane) const {
       where = lane.robot.joints[j].name;
     }
   }
-  return {step_number(), time(), where,
+  return {Ended::diverged, step_number(), time(), where,
           fmt::format("diverged at step {}, t = {:.6g} s: {}{}", step_number(), time(),
                       where == "base" ? "the base" : "joint " + where,
                       finite && worst > 0 ? fmt::format(" turns at {:.3g} rad/s", worst)
@@ -277,6 +279,6 @@ Out Simulation::state() {
                    "contact.law: bullet gives no snapshot: its contact points and boxes are no part of the state");
 }
 
-const std::string& Simulation::failure(std::size_t lane) const { return lanes_[lane]->failure; }
+const Outcome& Simulation::outcome(std::size_t lane) const { return lanes_[lane]->outcome; }
 
 }  // namespace gaitlab

@@ -37,7 +37,7 @@ enum class Loads { left_out, recorded };
 /// the engine has no such number of lanes. The constructor checks the step: InputError where h lambda > 1 for the standing
 /// robot, naming the largest step allowed and the joint or contact that sets it. step() allocates nothing, but at
 /// control ticks where loads are recorded. A lane that leaves
-/// the numbers, or whose plugin throws, throws SimulationError if alone; beside others it ends there, and failure() tells.
+/// the numbers, or whose plugin throws, throws SimulationError if alone; beside others it ends there, with its outcome().
 class Simulation {
  public:
   explicit Simulation(std::span<const Scenario> lanes, Loads loads = Loads::left_out);
@@ -47,10 +47,10 @@ class Simulation {
 
   void step();
   [[nodiscard]] bool done() const;  ///< every lane has ended
-  /// Why a lane ended early; empty: it did not.
-  [[nodiscard]] const std::string& failure(std::size_t lane) const;
-  /// Asked of each lane that runs, once every simulated second, with what it has recorded so far: rows, statistics of joints
-  /// and time alone. Why the lane is to end there; "": it goes on. A lane is asked the same whatever the others are.
+  /// How a lane ended.
+  [[nodiscard]] const Outcome& outcome(std::size_t lane) const;
+  /// Asked of each lane that runs, once every simulated second, with what it has recorded so far: rows, ticks, statistics
+  /// of joints and time alone. Why the lane is to end there; "": it goes on. A lane is asked the same whatever the others are.
   void watch(std::function<std::string(std::size_t lane, const Recording& so_far)> watch) { watch_ = std::move(watch); }
   /// Steps to the end; `progress(share)` about 200 times; stops early (returns false) once `stop` is set.
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
@@ -97,6 +97,7 @@ class Simulation {
   [[nodiscard]] double energy(const Lane& lane) const;
   [[nodiscard]] static double stop_torque(const Lane& lane, const RobotState& state, std::size_t joint);
   static void take_passive(const Lane& lane, Sample& sample);
+  void read_state(Lane& lane, bool places);
   Sample& take_sample(Lane& lane, bool whole);
   template <class Work>
   void guard(Lane& lane, Work work);

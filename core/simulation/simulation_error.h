@@ -4,13 +4,16 @@
 #include <string>
 
 #include "core/errors.h"
+#include "core/recording/outcome.h"
 
 namespace gaitlab {
 
 /// Thrown when the state diverges (not finite, or above 1e5) or a plugin throws: step, time and joint or plugin are in what().
 class SimulationError : public RunError {
  public:
-  SimulationError(std::int64_t step, double time, std::string where, const std::string& what);
+  SimulationError(Ended ended, std::int64_t step, double time, std::string where, const std::string& what);
+  [[nodiscard]] Outcome outcome() const { return {ended, what()}; }
+  Ended ended;
   std::int64_t step;
   double time;
   std::string where;  ///< a joint's name, "base", or the kind of the plugin

@@ -28,9 +28,7 @@ double height_above(const Scenario& s, const Kinematics& k, const std::vector<Co
   return sunk;
 }
 
-}  // namespace
-
-RobotState start_state(const Scenario& s) {
+RobotState start_of(const Scenario& s, bool lowered) {
   const Robot& robot = *s.robot;
   RobotState start;
   start.orientation = Quat(rpy(s.orientation)).normalized();
@@ -42,12 +40,18 @@ RobotState start_state(const Scenario& s) {
     start.q.push_back(s.initial.angles[j]);
     start.qd.push_back(s.initial.speeds[j]);
   }
-  if (s.on_ground && s.ground.kind != Ground::Kind::none) {
+  if (lowered && s.ground.kind != Ground::Kind::none) {
     Kinematics kinematics(robot);
     kinematics.update(robot, start);
     start.position.z() -= height_above(s, kinematics, contact_elements(robot, s.contact.on));
   }
   return start;
 }
+
+}  // namespace
+
+RobotState start_state(const Scenario& s) { return start_of(s, s.on_ground); }
+
+RobotState lowered_start(const Scenario& s) { return start_of(s, true); }
 
 }  // namespace gaitlab

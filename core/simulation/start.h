@@ -9,4 +9,7 @@ namespace gaitlab {
 /// (without any: its outline's lowest point to height 0). The quaternion has w >= 0.
 RobotState start_state(const Scenario& scenario);
 
+/// The same, lowered onto the ground also where the scenario gives a height.
+RobotState lowered_start(const Scenario& scenario);
+
 }  // namespace gaitlab

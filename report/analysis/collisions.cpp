@@ -121,11 +121,22 @@ class Row {
   std::map<std::pair<std::size_t, std::size_t>, Vec3> apart_ = {};  ///< of two pieces, the last axis that showed it
 };
 
+/// m: way out of the ground from the deepest vertex; 0: none is in it.
+double depth_of(const Convex& piece, const Ground& ground) {
+  double depth = 0;
+  for (const Vec3& vertex : piece.vertices) depth = std::max(depth, ground.query(vertex, piece.radius).penetration);
+  return depth;
+}
+
 /// What was found so far.
 class Search {
  public:
-  Search(const Robot& robot, const std::vector<Piece>& pieces, const Limits& limits)
-      : pieces_(pieces), can_(robot), limits_(limits) {}
+  Search(const Scenario& scenario, const std::vector<Piece>& pieces)
+      : pieces_(pieces),
+        can_(*scenario.robot),
+        limits_(scenario.limits),
+        ground_(scenario.ground),
+        highest_(scenario.ground.highest()) {}
 
   void collide(Row& row, double time) {
     double deepest = 0;
@@ -147,13 +158,12 @@ class Search {
   }
   void sink(Row& row, double time) {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      if (row.lowest(i) > -limits_.sink) continue;
-      double lowest = 0;
-      for (const Vec3& vertex : row.piece(i).vertices) lowest = std::min(lowest, vertex.z() - pieces_[i].local.radius);
-      if (-lowest <= (sunk_ ? sunk_->depth : limits_.sink)) continue;
+      if (row.lowest(i) > highest_ - limits_.sink) continue;
+      const double depth = depth_of(row.piece(i), ground_);
+      if (depth <= (sunk_ ? sunk_->depth : limits_.sink)) continue;
       if (!sunk_) sunk_ = Sunk{.time = time};
       sunk_->body = pieces_[i].body;
-      sunk_->depth = -lowest;
+      sunk_->depth = depth;
     }
   }
   [[nodiscard]] std::optional<Collision> collision() const {
@@ -168,6 +178,8 @@ class Search {
   const std::vector<Piece>& pieces_;
   Meetings can_;
   const Limits& limits_;
+  const Ground& ground_;
+  double highest_;  ///< m
   std::set<Pair> met_ = {};
   Collision collision_ = {};
   std::optional<Sunk> sunk_ = {};
@@ -182,16 +194,26 @@ Overlaps overlaps(const Scenario& scenario, const Recording& r) {
   const std::vector<Piece> pieces = pieces_of(robot);
   std::set<std::size_t> shaped;
   for (const Piece& piece : pieces) shaped.insert(piece.body);
-  Search search(robot, pieces, scenario.limits);
+  Search search(scenario, pieces);
   Kinematics k(robot);
   Row there(pieces);
   for (std::size_t row = 0; row < states.size(); ++row) {
     k.update(robot, states(row));
     there.set(k);
     search.collide(there, states.time(row));
-    if (scenario.ground.kind == Ground::Kind::plane) search.sink(there, states.time(row));
+    if (scenario.ground.kind != Ground::Kind::none) search.sink(there, states.time(row));
   }
   return {shaped.size(), search.collision(), search.sunk()};
+}
+
+double depth_in_ground(const Scenario& scenario, const RobotState& state) {
+  if (scenario.ground.kind == Ground::Kind::none) return 0;
+  Kinematics k(*scenario.robot);
+  k.update(*scenario.robot, state);
+  double depth = 0;
+  for (const Piece& piece : pieces_of(*scenario.robot))
+    depth = std::max(depth, depth_of(moved(piece.local, {k.R[piece.link], k.p[piece.link]}), scenario.ground));
+  return depth;
 }
 
 }  // namespace gaitlab::report

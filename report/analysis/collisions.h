@@ -18,7 +18,7 @@ struct Collision {
   std::size_t pairs = 0;                              ///< how many pairs met
 };
 
-/// A body in the ground.
+/// A body in the ground, by the ways out (Ground::query) of its shapes' vertices; of a sphere of the whole.
 struct Sunk {
   std::size_t body = 0;  ///< Robot::bodies: the deepest one
   double time = 0;       ///< s, of the first tick at which any was
@@ -28,11 +28,14 @@ struct Sunk {
 struct Overlaps {
   std::size_t shaped = 0;  ///< number of bodies with a shape; 0: nothing is known, also of a run without poses
   std::optional<Collision> collision = {};
-  std::optional<Sunk> sunk = {};  ///< on a plane
+  std::optional<Sunk> sunk = {};
 };
 
 /// Of the shapes of all bodies at control ticks (States::at_ticks); less than Limits::touch and Limits::sink is nothing. Under
 /// contact.law bullet nothing is known: the engine's solver keeps bodies apart.
 Overlaps overlaps(const Scenario& scenario, const Recording& record);
+
+/// m: how deep the robot is in the ground in this state; 0 where nothing is, and without a ground.
+double depth_in_ground(const Scenario& scenario, const RobotState& state);
 
 }  // namespace gaitlab::report

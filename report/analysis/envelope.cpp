@@ -6,6 +6,7 @@
 
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
+#include "core/recording/motor_limit.h"
 
 namespace gaitlab::report {
 
@@ -30,7 +31,7 @@ std::vector<double> limited_currents(const AvailableTorque& available, const std
   std::vector<double> ignored(speeds.size());
   available.actuator().electrical(available.commands(), speeds, {ignored, current, saturation, ignored, ignored, ignored});
   for (std::size_t j = 0; j < speeds.size(); ++j) {
-    const bool limits = saturation[j] == 2 && current[j] != 0;
+    const bool limits = motor_limit(saturation[j]) == MotorLimit::current && current[j] != 0;
     current[j] = limits ? std::abs(current[j]) : std::numeric_limits<double>::quiet_NaN();
   }
   return current;

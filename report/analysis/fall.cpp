@@ -1,50 +1,73 @@
 #include "report/analysis/fall.h"
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
+#include "core/simulation/start.h"
 #include "report/analysis/states.h"
 
 namespace gaitlab::report {
 
-std::vector<double> heights(const Scenario& scenario, const Recording& r) {
-  const Robot& robot = *scenario.robot;
-  const States states = States::at_ticks(r, robot);
-  Kinematics k(robot);
-  std::vector<double> all;
-  for (std::size_t row = 0; row < states.size(); ++row) {
-    k.update(robot, states(row));
-    all.push_back(sums(robot, k, scenario.physics.gravity).com.z());
+namespace {
+
+/// The height of one pose after the other.
+class Altimeter {
+ public:
+  Altimeter(const Scenario& scenario, Ground ground)
+      : scenario_(scenario),
+        ground_(std::move(ground)),
+        elements_(contact_elements(*scenario.robot, scenario.contact.on)),
+        k_(*scenario.robot) {}
+
+  double operator()(const RobotState& state) {
+    k_.update(*scenario_.robot, state);
+    const Vec3 com = sums(*scenario_.robot, k_, scenario_.physics.gravity).com;
+    const double give = scenario_.limits.sink;  // what is deeper does not stand there: the check `in_ground`
+    if (elements_.empty()) return com.z() - ground_.surface_below(com, give);
+    double below = 0;
+    for (const ContactElement& e : elements_) below += ground_.surface_below(k_.point(e.link, e.centre), give);
+    return com.z() - below / static_cast<double>(elements_.size());
   }
+
+ private:
+  const Scenario& scenario_;
+  Ground ground_;
+  std::vector<ContactElement> elements_;
+  Kinematics k_;
+};
+
+/// Boxes that move are where the scenario puts them at the start alone, and later nobody recorded where.
+Ground what_stays(const Scenario& scenario) {
+  Ground ground = scenario.ground;
+  if (scenario.contact.moves_boxes()) std::erase_if(ground.boxes, [](const Box& box) { return box.mass > 0; });
+  return ground;
+}
+
+}  // namespace
+
+std::vector<double> heights(const Scenario& scenario, const Recording& r) {
+  const States states = States::at_ticks(r, *scenario.robot);
+  Altimeter height(scenario, what_stays(scenario));
+  std::vector<double> all;
+  for (std::size_t row = 0; row < states.size(); ++row) all.push_back(height(states(row)));
   return all;
 }
 
+double standing_height(const Scenario& scenario) { return Altimeter(scenario, scenario.ground)(lowered_start(scenario)); }
+
 std::optional<Fall> fall(const Scenario& scenario, const Recording& r) {
-  const Ground::Kind ground = scenario.ground.kind;
-  if (scenario.base != Base::floating) return {};
-  if (ground != Ground::Kind::plane && ground != Ground::Kind::boxes) return {};
+  if (scenario.base != Base::floating || scenario.ground.kind == Ground::Kind::none) return {};
+  const double standing = standing_height(scenario);
   const std::vector<double> height = heights(scenario, r);
-  if (height.empty()) return {};
+  if (height.empty() || !(standing > 0)) return {};
   const States states = States::at_ticks(r, *scenario.robot);
-  const Vec3 up = states(0).orientation.inverse() * Vec3::UnitZ();
-  Fall found{.start = height[0], .lowest = height[0], .fallen_time = r.simulated};
-  bool fallen = false;
-  double least = 1;  // cosine of the tilt
+  Fall found{.standing = standing, .lowest = height[0]};
   for (std::size_t row = 0; row < height.size(); ++row) {
     if (height[row] < found.lowest) {
       found.lowest = height[row];
       found.lowest_time = states.time(row);
     }
-    if (!fallen && found.share() < scenario.limits.height) {
-      fallen = true;
-      found.fallen_time = states.time(row);
-    }
-    if (const double upright = (states(row).orientation * up).z(); upright < least) {
-      least = upright;
-      found.tilt_time = states.time(row);
-    }
+    if (!found.time && found.share() < scenario.limits.height) found.time = states.time(row);
   }
-  found.tilt = std::acos(std::clamp(least, -1.0, 1.0));
   return found;
 }
 

@@ -1,4 +1,4 @@
-// How low a robot came and how far it tilted.
+// Height of the robot above the ground below it, how low it came and whether it fell.
 #pragma once
 #include <optional>
 #include <vector>
@@ -8,20 +8,24 @@
 
 namespace gaitlab::report {
 
+/// Heights are of the centre of mass above the ground: above the mean height of what carries the contact elements of contact.on
+/// (Ground::surface_below), or the centre of mass where there are none.
 struct Fall {
-  double start = 0, lowest = 0;  ///< m, height of the centre of mass; lowest of all ticks
-  double lowest_time = 0;        ///< s
-  double fallen_time = 0;        ///< s, at the first tick below Limits::height; the end where there is none
-  double tilt = 0;               ///< rad, largest turn of the base's upright away from the vertical
-  double tilt_time = 0;          ///< s
-  [[nodiscard]] double share() const { return start > 0 ? lowest / start : 1; }
+  double standing = 0;              ///< m, of the start pose, lowered onto the ground
+  double lowest = 0;                ///< m, of all ticks
+  double lowest_time = 0;           ///< s
+  std::optional<double> time = {};  ///< s, of the first tick below Limits::height; none: it did not fall
+  [[nodiscard]] double share() const { return lowest / standing; }
 };
 
-/// m, of the centre of mass at control ticks (States::at_ticks); empty: the folder has no poses.
+/// m, at control ticks (States::at_ticks); empty: the folder has no poses.
 std::vector<double> heights(const Scenario& scenario, const Recording& record);
 
-/// At control ticks (States::at_ticks). Of a floating base on a plane, with or without boxes; none: of other runs a height says
-/// nothing.
+/// m, of the start pose, lowered onto the ground.
+double standing_height(const Scenario& scenario);
+
+/// Of a floating base above a ground; none of other runs, without poses, and where the pose stands with its centre of mass not
+/// above the ground.
 std::optional<Fall> fall(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

@@ -1,7 +1,10 @@
 #include "report/analysis/motors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
+#include <string_view>
 
 #include "core/laws/dc_motor.h"
 #include "core/plugin/plugin_instance.h"
@@ -12,10 +15,6 @@
 #include "report/analysis/settings_numbers.h"
 
 namespace gaitlab::report {
-
-namespace {
-const std::string kOfTheScenario = " of the scenario; the rest: ";
-}  // namespace
 
 bool dc_motors(const Scenario& scenario) { return !rest_torques(scenario).empty(); }
 
@@ -35,42 +34,71 @@ std::vector<double> rest_torques(const Scenario& scenario) {
 
 namespace {
 
-/// What the types that have a motor say of it, each source once; those that are chosen first.
-std::string stated_sources(const Scenario& scenario) {
-  std::vector<std::string> sources;
-  for (const Node& document : *scenario.module_documents) {
-    for (const Node* map : preset_maps(document, Kind::actuator)) {
-      const Node* source = map->find("source");
-      if (source != nullptr && std::ranges::find(sources, source->text) == sources.end()) sources.push_back(source->text);
-    }
+/// Several sources as one text, those that are chosen first; an empty one is that of figures without a source.
+std::string together(std::vector<std::string> sources) {
+  for (std::string& one : sources) {
+    if (one.empty()) one = kNoSource;
   }
-  std::stable_partition(sources.begin(), sources.end(), [](const std::string& one) { return chosen(one); });
-  std::string text;
-  for (const std::string& one : sources) text += (text.empty() ? "" : "; ") + one;
-  return text;
+  std::stable_partition(sources.begin(), sources.end(), chosen);
+  return fmt::format("{}", fmt::join(sources, "; "));
+}
+
+/// Keys of the figures of the scenario's actuator that are not those of its module types.
+std::vector<std::string> changed_figures(const Scenario& scenario, const TypePresets& types) {
+  const Entry& entry = *scenario.actuator.entry;
+  const PluginSelection preset{&entry, default_settings(entry)};
+  Problems none;
+  const std::vector<std::string> names = joint_names(*scenario.robot);
+  types.fill(entry, preset.settings.get(), &names, none);
+  const SettingsNumbers presets(preset);
+  std::vector<std::string> keys;
+  const SettingsNumbers settings(scenario.actuator);
+  for (const SettingsNumbers::Found& setting : settings.all()) {
+    const SettingsNumbers::Found* of_type = presets.find(setting.key);
+    if (of_type != nullptr && !(setting.value == of_type->value)) keys.push_back(setting.key);
+  }
+  return keys;
+}
+
+/// A source in a few words: its first clause, or that it is chosen.
+std::string in_few_words(const std::string& source) {
+  constexpr std::size_t kLongest = 60;
+  if (source.empty() || source.starts_with(kNoSource)) {
+    const std::string reason = source.empty() ? kNoSource : source.substr(0, source.find("; "));
+    return fmt::format("chosen figures ({})", reason.substr(reason.find(": ") + 2));
+  }
+  if (chosen(source)) return "chosen figures";
+  const std::string clause = one_line(source.substr(0, source.find("; ")));
+  if (clause.size() <= kLongest) return clause;
+  const std::size_t blank = clause.rfind(' ', kLongest);
+  return blank == std::string::npos ? clause : clause.substr(0, clause.find_last_not_of(" ,:", blank) + 1) + " ...";
+}
+
+/// Those that are chosen alone, where any is.
+std::string in_few_words(const std::vector<std::string>& sources) {
+  std::vector<std::string> words;
+  const bool any_chosen = std::ranges::any_of(sources, chosen);
+  for (const std::string& source : sources) {
+    std::string few = in_few_words(source);
+    if (chosen(source) == any_chosen && std::ranges::find(words, few) == words.end()) words.push_back(std::move(few));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 }  // namespace
 
 std::string motor_source(const Scenario& scenario) {
   if (scenario.actuator.entry == nullptr) return "";
-  const std::string stated = stated_sources(scenario);
-  if (stated.empty()) return "";
-  const Entry& entry = *scenario.actuator.entry;
   const TypePresets types(Kind::actuator, scenario.robot.get(), *scenario.module_documents);
-  if (entry.name != types.type() || !types.agreed()) return "the scenario";
-  const PluginSelection preset{&entry, default_settings(entry)};
-  Problems none;
-  const std::vector<std::string> names = joint_names(*scenario.robot);
-  types.fill(entry, preset.settings.get(), &names, none);
-  const SettingsNumbers presets(preset);
-  std::string given;
-  const SettingsNumbers settings(scenario.actuator);
-  for (const SettingsNumbers::Found& setting : settings.all()) {
-    const SettingsNumbers::Found* of_type = presets.find(setting.key);
-    if (of_type != nullptr && !(setting.value == of_type->value)) given += (given.empty() ? "" : ", ") + setting.key;
-  }
-  return given.empty() ? stated : given + kOfTheScenario + stated;
+  if (!types.holds(*scenario.actuator.entry)) return together({scenario.actuator_source});
+  const std::vector<std::string> changed = changed_figures(scenario, types);
+  const std::string stated = together(types.sources(*scenario.actuator.entry, changed));
+  if (changed.empty()) return stated;
+  const std::string keys = fmt::format("{} of the scenario", fmt::join(changed, ", "));
+  const std::string& own = scenario.actuator_source;
+  const std::string given = own.empty() ? fmt::format("{} for {}", kNoSource, keys) : fmt::format("{}: {}", keys, own);
+  if (stated.empty()) return given;  // the scenario gives them all
+  return !chosen(given) && chosen(stated) ? stated + "; " + given : fmt::format("{}; the rest: {}", given, stated);
 }
 
 std::string no_created_energy(const Scenario& scenario) {
@@ -82,8 +110,15 @@ std::string no_created_energy(const Scenario& scenario) {
 }
 
 bool chosen(const std::string& source) {
-  const std::size_t rest = source.find(kOfTheScenario);
-  return source.find("chosen", rest == std::string::npos ? 0 : rest + kOfTheScenario.size()) != std::string::npos;
+  constexpr std::string_view kWord = "chosen";
+  const auto alike = [](char in_text, char in_word) { return in_text == in_word || in_text == in_word - 'a' + 'A'; };
+  return source.empty() || !std::ranges::search(source, kWord, alike).empty();
+}
+
+std::string figures_sentence(const std::vector<std::string>& motors, const std::vector<std::string>& docks) {
+  const std::string of_docks = docks.empty() ? "" : "docks: " + in_few_words(docks);
+  if (motors.empty()) return of_docks;
+  return "motors: " + in_few_words(motors) + (docks.empty() ? "" : "; " + of_docks);
 }
 
 }  // namespace gaitlab::report

@@ -17,15 +17,22 @@ std::size_t driven_joints(const Robot& robot);
 /// where the actuator is not made of DC motors.
 std::vector<double> rest_torques(const Scenario& scenario);
 
-/// Who says what the motors have: the `source` that the module type gives for its actuator, behind the settings that the
-/// scenario gives instead (`i_max of the scenario; the rest: chosen ...`); empty: nobody does.
+/// Who says what the motors have: the `source` of the figures that the scenario gives (`u_max of the scenario: data sheet 3`),
+/// and the one that the module type gives for its actuator; those that are chosen first. Figures without a source are chosen,
+/// and the text says so. Empty: no actuator.
 std::string motor_source(const Scenario& scenario);
 
 /// What would keep the gears from creating energy (eq. 2): `actuator.efficiency_model: directional does not`; empty where the
 /// actuator has no such key.
 std::string no_created_energy(const Scenario& scenario);
 
-/// Whether a source says of any of its figures that it is chosen, not a maker's: it has that word.
+/// Whether figures are chosen, not a maker's: their source has that word, in any case, or there is none.
 bool chosen(const std::string& source);
+
+inline const std::string kNoSource = "chosen: no source stated";
+
+/// What a verdict rests on, in one sentence: `motors: maxon catalogue 118752; docks: chosen figures`. motors, docks: the
+/// sources of the figures that checks were judged by; none: none was.
+std::string figures_sentence(const std::vector<std::string>& motors, const std::vector<std::string>& docks);
 
 }  // namespace gaitlab::report

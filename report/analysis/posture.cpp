@@ -1,27 +1,17 @@
 #include "report/analysis/posture.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "report/analysis/motion.h"
 
 namespace gaitlab::report {
 
 namespace {
 
 constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
-
-/// Of the normal forces of the ground; empty: nothing is known of them.
-std::vector<Series> ground_loads(const Scenario& scenario, const Recording& r) {
-  std::vector<Series> loads;
-  if (scenario.base != Base::floating) return loads;
-  for (std::size_t m = 0; m < scenario.robot->modules.size(); ++m) {
-    if (const Series one = r.series(fmt::format("load.{}", m)); !one.empty()) loads.push_back(one);
-  }
-  return loads;
-}
 
 /// Linear between rows; at the ends theirs.
 double at_time(const Series& time, const Series& value, double t) {
@@ -36,27 +26,24 @@ double at_time(const Series& time, const Series& value, double t) {
 
 Posture posture(const Scenario& scenario, const Recording& r, const Judged& judged) {
   Posture found;
-  const Series time = r.series("t");
-  const Series z = r.series("com.z");
-  const Series qx = r.series("base.qx");
-  const Series qy = r.series("base.qy");
-  if (time.empty() || z.empty() || qx.empty() || qy.empty()) return found;
+  const Motion m = motion(r);
+  if (m.t.empty() || m.z.empty() || m.qx.empty() || m.qy.empty()) return found;
   const std::vector<Series> loads = ground_loads(scenario, r);
   const double weight = scenario.robot->mass * scenario.physics.gravity.norm();
   std::size_t rows = 0;
   std::size_t airborne = 0;
   double borne = 0;    // N, sum over the ticks
   double upright = 1;  // least cosine of the tilt
-  for (std::size_t row = 0; row < time.size(); ++row) {
-    if (!(time[row] > judged.from) || time[row] > judged.to) continue;
+  for (std::size_t row = 0; row < m.t.size(); ++row) {
+    if (!(m.t[row] > judged.from) || m.t[row] > judged.to) continue;
     double load = 0;
     for (const Series& one : loads) load += one[row];
     airborne += load < kAirborne * weight ? 1 : 0;
     borne += load;
-    found.height_min = rows == 0 ? z[row] : std::min(found.height_min, z[row]);
-    found.height_max = rows == 0 ? z[row] : std::max(found.height_max, z[row]);
+    found.height_min = rows == 0 ? m.z[row] : std::min(found.height_min, m.z[row]);
+    found.height_max = rows == 0 ? m.z[row] : std::max(found.height_max, m.z[row]);
     // Of the turned z axis, the part along world z.
-    upright = std::min(upright, 1 - 2 * (qx[row] * qx[row] + qy[row] * qy[row]));
+    upright = std::min(upright, 1 - 2 * (m.qx[row] * m.qx[row] + m.qy[row] * m.qy[row]));
     ++rows;
   }
   if (rows == 0) return found;
@@ -68,13 +55,11 @@ Posture posture(const Scenario& scenario, const Recording& r, const Judged& judg
 }
 
 double cycle_speed(const Recording& r, const Judged& judged) {
-  const Series time = r.series("t");
-  const Series x = r.series("com.x");
-  const Series y = r.series("com.y");
-  if (judged.periods == 0 || time.empty() || x.empty() || y.empty() || !(judged.to > judged.from)) return kNoFigure;
-  const auto way = [&](const Series& s) { return at_time(time, s, judged.to) - at_time(time, s, judged.from); };
-  const double dx = way(x);
-  const double dy = way(y);
+  const Motion m = motion(r);
+  if (judged.periods == 0 || m.t.empty() || m.x.empty() || m.y.empty() || !(judged.to > judged.from)) return kNoFigure;
+  const auto way = [&](const Series& s) { return at_time(m.t, s, judged.to) - at_time(m.t, s, judged.from); };
+  const double dx = way(m.x);
+  const double dy = way(m.y);
   return std::sqrt(dx * dx + dy * dy) / (judged.to - judged.from);
 }
 

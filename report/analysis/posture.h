@@ -1,4 +1,5 @@
-// How a robot holds itself in the judged window: at the trace ticks behind its start, up to its end.
+// How a robot holds itself in the judged window: at the control ticks behind its start, up to its end; in folders of an older
+// format at the rows of the trace.
 #pragma once
 #include <limits>
 
@@ -25,7 +26,7 @@ struct Posture {
 Posture posture(const Scenario& scenario, const Recording& record, const Judged& judged);
 
 /// m/s, horizontal way of the centre of mass in the judged window over its length, which is whole periods; NaN without a limit
-/// cycle. Between trace ticks the way is linear.
+/// cycle. Between ticks the way is linear.
 double cycle_speed(const Recording& record, const Judged& judged);
 
 }  // namespace gaitlab::report

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/plugin/plugin_instance.h"
+#include "core/recording/motor_limit.h"
 #include "report/analysis/envelope.h"
 
 namespace gaitlab::report {
@@ -49,7 +50,7 @@ struct Moment {
   explicit Moment(std::size_t joints)
       : torque(joints), speed(joints), error(joints), voltage(joints), current(joints), saturation(joints), used(joints) {}
   std::vector<double> torque, speed, error, voltage, current;  ///< N m, rad/s, rad, V, A
-  std::vector<double> saturation, used;                        ///< 0 1 2; share of the torque that there is
+  std::vector<double> saturation, used;                        ///< see saturation_of; share of the torque that there is
 };
 
 /// The trace, moment by moment.
@@ -151,17 +152,17 @@ void fill_row(const Moment& from, const Moment& to, std::size_t j, double h, In 
   const auto square = [&](std::vector<double> Moment::*of) {
     return integral([&](const Moment& m) { return (m.*of)[j] * (m.*of)[j]; });
   };
-  const auto limited = [&](double saturation) {
+  const auto limited = [&](MotorLimit limit) {
     return integral([&](const Moment& m) {
-      return std::isnan(m.saturation[j]) ? kNotKnown : m.saturation[j] == saturation ? 1.0 : 0.0;
+      return std::isnan(m.saturation[j]) ? kNotKnown : motor_limit(m.saturation[j]) == limit ? 1.0 : 0.0;
     });
   };
   const bool at_start = std::abs(from.torque[j]) >= std::abs(to.torque[j]);
   row[kTorquePeak] = peak(&Moment::torque);
   row[kPeakLimit] = (at_start ? from : to).saturation[j];
   row[kTorqueSquare] = before[kTorqueSquare] + square(&Moment::torque);
-  row[kVoltageLimited] = before[kVoltageLimited] + limited(1);
-  row[kCurrentLimited] = before[kCurrentLimited] + limited(2);
+  row[kVoltageLimited] = before[kVoltageLimited] + limited(MotorLimit::voltage);
+  row[kCurrentLimited] = before[kCurrentLimited] + limited(MotorLimit::current);
   row[kSpeedPeak] = peak(&Moment::speed);
   row[kErrorPeak] = peak(&Moment::error);
   row[kEnvelopePeak] = peak(&Moment::used);

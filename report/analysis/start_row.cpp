@@ -28,7 +28,7 @@ Recording start_row(const Scenario& scenario) {
   add("base.qy", "", start.orientation.y());
   add("base.qz", "", start.orientation.z());
   add_point("com", sums(robot, k, scenario.physics.gravity).com);
-  made.outcome = "not run";
+  made.outcome.ended = Ended::not_run;
   return made;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -12,7 +11,7 @@
 #include "core/settings/wording.h"
 #include "core/simulation/start.h"
 #include "core/simulation/step_advice.h"
-#include "report/analysis/fall.h"
+#include "report/analysis/motion.h"
 
 namespace gaitlab::report {
 
@@ -26,17 +25,17 @@ double twist(const Quat& before, const Quat& now) {
 }
 
 void travel(const Recording& r, Summary& s) {
-  const Series x = r.series("com.x");
-  const Series y = r.series("com.y");
+  const Motion m = motion(r);
+  const Series& x = m.x;
+  const Series& y = m.y;
   if (x.empty() || y.empty()) return;
   s.displacement_x = x.back() - x.front();
   s.displacement_y = y.back() - y.front();
   s.distance = std::hypot(s.displacement_x, s.displacement_y);
   s.speed = s.simulated > 0 ? s.distance / s.simulated : 0;
   for (std::size_t k = 1; k < x.size(); ++k) s.path_length += std::hypot(x[k] - x[k - 1], y[k] - y[k - 1]);
-  const std::array turn{r.series("base.qw"), r.series("base.qx"), r.series("base.qy"), r.series("base.qz")};
-  const auto at = [&](std::size_t k) { return Quat(turn[0][k], turn[1][k], turn[2][k], turn[3][k]); };
-  for (std::size_t k = 1; k < turn[0].size(); ++k) s.heading_change += twist(at(k - 1), at(k));
+  const auto turn = [&](std::size_t k) { return Quat(m.qw[k], m.qx[k], m.qy[k], m.qz[k]); };
+  for (std::size_t k = 1; k < m.qw.size(); ++k) s.heading_change += twist(turn(k - 1), turn(k));
 }
 
 void transport(const Scenario& scenario, const Recording& r, Summary& s) {
@@ -50,25 +49,6 @@ void transport(const Scenario& scenario, const Recording& r, Summary& s) {
   if (!(work > 0)) return;
   s.cost_electrical = electrical / work;
   s.cost_mechanical = mechanical / work;
-}
-
-MotionCycle cycle(const Scenario& scenario, const Recording& r, const Summary& s) {
-  const std::size_t n = scenario.robot->joints.size();
-  if (n == 0) return {};
-  // The last row may lie off the grid of trace periods.
-  const auto ticks = static_cast<std::size_t>(std::floor(s.simulated / scenario.trace.period + 1e-9)) + 1;
-  std::vector<Series> columns;
-  for (const char* quantity : {"angle", "setpoint"}) {
-    for (std::size_t j = 0; j < n; ++j) {
-      if (const Series one = r.joint(j, quantity); !one.empty()) columns.push_back(one);
-    }
-  }
-  std::vector<double> all;
-  all.reserve(r.rows() * columns.size());
-  for (std::size_t k = 0; k < std::min(ticks, r.rows()); ++k) {
-    for (const Series& column : columns) all.push_back(column[k]);
-  }
-  return find_limit_cycle(all, columns.size(), scenario.trace.period);
 }
 
 }  // namespace
@@ -88,7 +68,7 @@ Summary summarise(const Scenario& scenario, const Recording& r, double wall_time
   s.simulated = r.simulated;
   travel(r, s);
   transport(scenario, r, s);
-  s.limit_cycle = cycle(scenario, r, s);
+  s.limit_cycle = limit_cycle(scenario, r);
   s.stability_max = scenario.physics.step * r.worst.rate;
   s.stability_share =
       r.control_ticks > 0 ? static_cast<double>(r.control_ticks_above_1) / static_cast<double>(r.control_ticks) : 0;

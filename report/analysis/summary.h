@@ -12,8 +12,9 @@ namespace gaitlab::report {
 
 /// Definitions of every figure: docs/conventions.md. SI.
 struct Summary {
-  double wall_time = 0;                             ///< s; the only figure that two equal runs do not share
-  std::string build, outcome = "done";              ///< or why it ended early
+  double wall_time = 0;  ///< s; the only figure that two equal runs do not share
+  std::string build;
+  Outcome outcome;
   double simulated = 0;                             ///< s, less than the duration where the run stopped early
   double displacement_x = 0, displacement_y = 0;    ///< of the centre of mass, m
   double distance = 0, speed = 0, path_length = 0;  ///< m, m/s, m

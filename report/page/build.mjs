@@ -2,11 +2,16 @@
 import { build } from "esbuild";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 
+// The shaders of three are strings with tabs at the beginning of their lines, which esbuild leaves.
+const untabbed = {
+  name: "untabbed",
+  setup: ({ onLoad }) => onLoad({ filter: /three\/build\/three\.\w+\.js$/ }, async ({ path }) => ({ contents: (await readFile(path, "utf8")).replaceAll(/\\n(?:\\t)+/g, "\\n"), loader: "js" })),
+};
 const here = (path) => new URL(path, import.meta.url);
 const bundle = async (entry) => {
   const { outputFiles } = await build({
     absWorkingDir: here(".").pathname, entryPoints: [entry], bundle: true, minify: true, write: false, format: "iife", charset: "utf8",
-    legalComments: "none", target: ["chrome115", "firefox115", "safari16.4"],
+    legalComments: "none", plugins: [untabbed], target: ["chrome115", "firefox115", "safari16.4"],
   });
   return outputFiles[0].text.trim();
 };

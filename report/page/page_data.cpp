@@ -13,6 +13,7 @@
 #include "report/analysis/loads.h"
 #include "report/analysis/plugin_names.h"
 #include "report/analysis/settings_numbers.h"
+#include "report/figures/run/run_footfalls.h"
 #include "report/page/page_ground.h"
 #include "report/page/robot_tree.h"
 #include "report/page/signals.h"
@@ -76,9 +77,31 @@ Json motors_json(const Motors& motors) {
   return all;
 }
 
-Json feet_json(const std::vector<Foot>& feet, const RobotTree& tree) {
+/// The name of a foot in figures: that of its leg, and its own where that leg has several.
+std::vector<std::string> foot_titles(const Scenario& scenario, const std::vector<Foot>& feet) {
+  const std::vector<Leg> legs = legs_that_walk(scenario);
+  const std::vector<std::string> names = leg_names(legs);
+  std::vector<std::string> of_feet;
+  for (const Foot& foot : feet) {
+    of_feet.push_back(foot.name);
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      const auto in_leg = [&](const Foot& one) {
+        return std::ranges::find(legs[i].modules, static_cast<std::int64_t>(one.module)) != legs[i].modules.end();
+      };
+      if (in_leg(foot))
+        of_feet.back() = std::ranges::count_if(feet, in_leg) > 1 ? fmt::format("{}, {}", names[i], foot.name) : names[i];
+    }
+  }
+  return of_feet;
+}
+
+Json feet_json(const Scenario& scenario, const std::vector<Foot>& feet, const RobotTree& tree) {
+  const std::vector<std::string> titles = foot_titles(scenario, feet);
   Json all = Json::array();
-  for (const Foot& foot : feet) all.push_back({{"name", foot.name}, {"module", foot.module}, {"body", tree.place(foot.body)}});
+  for (std::size_t i = 0; i < feet.size(); ++i) {
+    all.push_back(
+        {{"name", feet[i].name}, {"title", titles[i]}, {"module", feet[i].module}, {"body", tree.place(feet[i].body)}});
+  }
   return all;
 }
 
@@ -107,9 +130,26 @@ Json summary_json(const RunData& run) {
   return all;
 }
 
-Json verdict_json(const Verdict& verdict) {
+/// The joint that is at a limit of its motor for most of the judged time; null: none is.
+Json longest_json(const Robot& robot, const Judged& judged) {
+  for (const std::size_t j : judged.order) {
+    const JudgedJoint& joint = judged.joints[j];
+    if (!robot.joints[j].driven() || !(joint.limited() > 0)) continue;
+    return {{"joint", robot.joints[j].name}, {"voltage", joint.voltage_limited}, {"current", joint.current_limited}};
+  }
+  return {};
+}
+
+Json verdict_json(const Verdict& verdict, const Robot& robot, const Judged& judged) {
   Json all = Json::parse(to_json(verdict));
   all.emplace("checks", Json::array());
+  for (Json& check : all["checks"]) {
+    for (const CheckKind& kind : check_kinds()) {
+      if (check["id"] == kind.id) check["advice"] = kind.remedy;
+    }
+  }
+  all["why"] = verdict.why();
+  all["longest"] = longest_json(robot, judged);
   return all;
 }
 
@@ -149,6 +189,7 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
     packing = packed(signals, r.rows(), stride);
   }
   if (!verdict.of_rows.empty()) missing.push_back(verdict.of_rows);
+  if (!verdict.window_of_rows.empty()) missing.push_back(verdict.window_of_rows);
   if (r.rows() > 1) std::ranges::move(left_out(scenario, signals), std::back_inserter(missing));
   if (stride > 1) {
     missing.push_back(fmt::format(
@@ -166,7 +207,7 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   meta["period"] = scenario.trace.period * static_cast<double>(stride);
   meta["rows"] = thinned(r.rows(), stride);
   meta["duration"] = summary.simulated;
-  meta["outcome"] = summary.outcome;
+  meta["outcome"] = summary.outcome.text();
   meta["mass"] = robot.mass;
   meta["weight"] = robot.mass * scenario.physics.gravity.norm();
   meta["modules"] = Json::array();
@@ -180,9 +221,9 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   meta["contacts"] = Json::array();
   for (const ContactElement& element : contact_elements(robot, scenario.contact.on)) meta["contacts"].push_back(element.name);
   meta["ground"] = page_ground(scenario, r);
-  meta["feet"] = feet_json(feet, tree);
+  meta["feet"] = feet_json(scenario, feet, tree);
   meta["motors"] = motors_json(motors);
-  meta["verdict"] = verdict_json(verdict);
+  meta["verdict"] = verdict_json(verdict, robot, summary.judged);
   meta["summary"] = summary_json({scenario, r, summary});
   const MotionCycle& cycle = summary.limit_cycle;
   meta["cycle"] = cycle.found ? Json{{"from", cycle.from}, {"period", cycle.period}} : Json();

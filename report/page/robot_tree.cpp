@@ -127,7 +127,7 @@ Json RobotTree::faces() const {
     for (std::size_t b = 0; b < type.bodies.size(); ++b) all[key_of(type, b)] = Json::array();
     for (const FaceType& face : type.faces) {
       all[key_of(type, face.body)].push_back({{"id", face.id},
-                                              {"gender", word(face.gender)},
+                                              {"gender", name_of(face.gender)},
                                               {"origin", json_of(face.origin)},
                                               {"normal", json_of(face.normal)},
                                               {"reference", json_of(face.reference)}});

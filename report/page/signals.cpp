@@ -15,7 +15,7 @@ namespace gaitlab::report {
 namespace {
 
 /// Columns that are rounded alike.
-struct Quantity {
+struct SignalKind {
   const char *pattern, *unit;  ///< nullptr: of the command
   double quantum;              ///< the largest
   bool fine = false;           ///< less for small magnitudes
@@ -23,27 +23,27 @@ struct Quantity {
 };
 
 // Units, too: a CSV file holds none.
-constexpr Quantity kQuantities[] = {{"t", "s", 1e-6},
-                                    {"base.?", "m", 2e-5},
-                                    {"base.q?", "", 1e-5},
-                                    {"com.?", "m", 2e-5},
-                                    {"joint.*.setpoint", "rad", 1e-4},
-                                    {"joint.*.angle", "rad", 1e-4},
-                                    {"joint.*.speed", "rad/s", 1e-3, true},
-                                    {"joint.*.torque", "N m", 1e-3, true},
-                                    {"joint.*.stop_torque", "N m", 1e-3, true, true},
-                                    {"joint.*.voltage_command", nullptr, 2e-3, true},
-                                    {"joint.*.voltage", "V", 2e-3, true},
-                                    {"joint.*.current", "A", 1e-3, true},
-                                    {"joint.*.saturation", "", 1},
-                                    {"dock.*.tension", "N", 0.01, true},
-                                    {"dock.*.shear", "N", 0.01, true},
-                                    {"dock.*.bending", "N m", 1e-3, true},
-                                    {"dock.*.torsion", "N m", 1e-3, true},
-                                    {"stability", "m", 5e-4},
-                                    {"energy.*", "J", 1e-3, true},
-                                    {"box.*.?", "m", 2e-5},
-                                    {"box.*.q?", "", 1e-5}};
+constexpr SignalKind kQuantities[] = {{"t", "s", 1e-6},
+                                      {"base.?", "m", 2e-5},
+                                      {"base.q?", "", 1e-5},
+                                      {"com.?", "m", 2e-5},
+                                      {"joint.*.setpoint", "rad", 1e-4},
+                                      {"joint.*.angle", "rad", 1e-4},
+                                      {"joint.*.speed", "rad/s", 1e-3, true},
+                                      {"joint.*.torque", "N m", 1e-3, true},
+                                      {"joint.*.stop_torque", "N m", 1e-3, true, true},
+                                      {"joint.*.voltage_command", nullptr, 2e-3, true},
+                                      {"joint.*.voltage", "V", 2e-3, true},
+                                      {"joint.*.current", "A", 1e-3, true},
+                                      {"joint.*.saturation", "", 1},
+                                      {"dock.*.tension", "N", 0.01, true},
+                                      {"dock.*.shear", "N", 0.01, true},
+                                      {"dock.*.bending", "N m", 1e-3, true},
+                                      {"dock.*.torsion", "N m", 1e-3, true},
+                                      {"stability", "m", 5e-4},
+                                      {"energy.*", "J", 1e-3, true},
+                                      {"box.*.?", "m", 2e-5},
+                                      {"box.*.q?", "", 1e-5}};
 constexpr double kForce = 0.02;  // N, of feet
 constexpr double kPlace = 5e-4;  // m, of feet
 
@@ -56,7 +56,7 @@ double magnitude(const Signal& signal, std::size_t rows) {
   return largest;
 }
 
-void set_quanta(std::span<Signal> group, std::size_t rows, const Quantity& quantity) {
+void set_quanta(std::span<Signal> group, std::size_t rows, const SignalKind& quantity) {
   double largest = 0;
   for (const Signal& signal : group) largest = quantity.fine ? std::max(largest, magnitude(signal, rows)) : 0;
   for (Signal& signal : group) signal.quantum = quantum_of(largest, quantity.quantum);
@@ -71,7 +71,7 @@ std::string page_name(const std::string& column) {
   return error == std::errc() && module > 0 ? fmt::format("{}{}{}", kDock, module - 1, end) : column;
 }
 
-void add_columns(std::span<const Trace* const> tables, const Quantity& quantity, const std::string& command_unit,
+void add_columns(std::span<const Trace* const> tables, const SignalKind& quantity, const std::string& command_unit,
                  std::vector<Signal>& all) {
   const std::size_t first = all.size();
   const std::size_t rows = tables.front()->rows();
@@ -117,7 +117,8 @@ void add_feet(const std::vector<Foot>& feet, std::size_t rows, std::vector<Signa
 std::vector<Signal> signals(const Recording& r, const Trace& loads, const std::vector<Foot>& feet,
                             const std::string& command_unit) {
   std::vector<Signal> all;
-  for (const Quantity& quantity : kQuantities) add_columns(std::array{&r.trace, &r.rest, &loads}, quantity, command_unit, all);
+  for (const SignalKind& quantity : kQuantities)
+    add_columns(std::array{&r.trace, &r.rest, &loads}, quantity, command_unit, all);
   add_known("stability", r.rows(), all);
   add_feet(feet, r.rows(), all);
   return all;

@@ -11,7 +11,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr std::size_t kColumns = 240;  // px of a picture
+constexpr std::size_t kPictureColumns = 240;  // px of a picture
 
 constexpr const char* kStyle = R"(
 :root { --ink: #1b2127; --muted: #5f6a74; --rule: #e1e6ea; --bg: #f3f5f7; --panel: #fff; --pass: #00694c; --fail: #b3261e; --open: #4a5661; color-scheme: light dark; }
@@ -44,7 +44,7 @@ std::string typeset(const std::string& text) {
 
 std::string verdict_cell(const Verdict& verdict) {
   const bool bad = verdict.word == Word::infeasible || verdict.word == Word::failed;
-  std::string why = verdict.why();
+  std::string why = verdict.word == Word::feasible && !verdict.rests_on.empty() ? "over " + verdict.rests_on : verdict.why();
   if (verdict.count(CheckStatus::warn) > 0)
     why += fmt::format("{}{} warning{}", why.empty() ? "" : "; ", verdict.count(CheckStatus::warn),
                        verdict.count(CheckStatus::warn) == 1 ? "" : "s");
@@ -65,14 +65,14 @@ std::string swap_page(const std::string& name, const std::vector<SwapEntry>& ent
                         xml_escaped(number->swap.under));
   std::string rows;
   for (const SwapEntry& entry : entries) {
-    const std::string picture = heat_image(entry.named.run.record, kColumns);
+    const std::string picture = heat_image(entry.named.run.record, kPictureColumns);
     rows += fmt::format("<tr><td><a href=\"{}\">{}</a></td><td class=\"l\">{}</td><td class=\"l\">{}</td>",
                         xml_escaped(entry.page), xml_escaped(entry.named.name), verdict_cell(entry.verdict),
                         picture.empty() ? ""
                                         : fmt::format("<img src=\"{}\" alt=\"load of every joint over time under {}\">",
                                                       picture, xml_escaped(entry.named.name)));
     for (const SummaryNumber* number : columns) {
-      const bool known = entry.named.run.summary.outcome == "done";
+      const bool known = entry.named.run.summary.outcome.done();
       rows += fmt::format("<td>{}</td>", known ? typeset(number->swap.cell(entry.named.run)) : "");
     }
     rows += "</tr>\n";

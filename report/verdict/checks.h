@@ -52,7 +52,7 @@ std::string threshold(const char* key, double value, double preset);
 namespace checks {
 void outcome(const CheckedRun& run, Check& made);
 void height(const CheckedRun& run, Check& made);
-void tilt(const CheckedRun& run, Check& made);
+void upright(const CheckedRun& run, Check& made);
 void voltage(const CheckedRun& run, Check& made);
 void current(const CheckedRun& run, Check& made);
 void envelope(const CheckedRun& run, Check& made);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "report/analysis/motors.h"
 #include "report/analysis/row_statistics.h"
 #include "report/analysis/settings_numbers.h"
+#include "report/analysis/upright.h"
 #include "report/verdict/checks.h"
 #include "report/verdict/number_texts.h"
 
@@ -22,7 +24,8 @@ std::string threshold(const char* key, double value, double preset) {
 
 namespace {
 
-constexpr const char* kNoFall = "judged of a floating base above a plane, with or without boxes";
+constexpr double kHorizontal = std::numbers::pi / 2;  // rad
+constexpr const char* kNoPoses = "the run has no poses";
 
 void judge(Check& made, const char* key, double Limits::*member, const CheckedRun& run) {
   made.limit = run.limits().*member;
@@ -49,31 +52,56 @@ namespace checks {
 void outcome(const CheckedRun& run, Check& made) {
   made.value = run.record.simulated;
   made.limit = run.scenario.duration;
-  made.status = run.record.outcome == "done" ? CheckStatus::pass : CheckStatus::fail;
-  made.text = run.record.outcome == "done" ? "the run came to its end" : run.record.outcome;
+  made.status = run.record.outcome.done() ? CheckStatus::pass : CheckStatus::fail;
+  made.text = run.record.outcome.done() ? "the run came to its end" : run.record.outcome.text();
 }
 
 void height(const CheckedRun& run, Check& made) {
-  made.text = kNoFall;
-  if (!run.fall) return;
+  made.text = "judged of a floating base above a ground";
+  if (run.scenario.base != Base::floating || run.scenario.ground.kind == Ground::Kind::none) return;
+  if (!run.fall) {
+    made.text = heights(run.scenario, run.record).empty() ? kNoPoses : "the start pose has its centre of mass in the ground";
+    return;
+  }
   judge(made, "height", &Limits::height, run);
   made.value = run.fall->share();
-  made.from = made.to = run.fall->lowest_time;
-  made.status = made.value >= made.limit ? CheckStatus::pass : CheckStatus::fail;
-  made.text = made.status == CheckStatus::pass
-                  ? fmt::format("the centre of mass keeps at least {} of its height at the start", texts::percent(made.value))
-                  : fmt::format("the centre of mass comes down to {} of its height at the start", texts::percent(made.value));
-  if (made.status == CheckStatus::fail) made.remedy = "take a gait with more support";
+  made.from = run.fall->time.value_or(run.fall->lowest_time);
+  made.to = run.fall->lowest_time;
+  made.status = run.fall->time ? CheckStatus::fail : CheckStatus::pass;
+  const std::string share = texts::percent(made.value) + " of its height above the ground at the start";
+  made.text = fmt::format("the centre of mass {} {}", run.fall->time ? "comes down to" : "keeps at least", share);
+  if (run.fall->lowest < 0) made.text = fmt::format("the centre of mass comes {:.3g} m below the ground", -run.fall->lowest);
+  if (made.status == CheckStatus::pass) return;
+  made.first = made.from;
+  made.remedy = "take a gait with more support";
 }
 
-void tilt(const CheckedRun& run, Check& made) {
-  made.text = kNoFall;
-  if (!run.fall) return;
-  judge(made, "tilt", &Limits::tilt, run);
-  made.value = run.fall->tilt;
-  made.from = made.to = run.fall->tilt_time;
-  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;
+void upright(const CheckedRun& run, Check& made) {
+  made.text = run.scenario.base == Base::floating ? kNoPoses : "judged of a floating base";
+  const Judged& judged = run.summary.judged;
+  std::optional<Upright> found = report::upright(run.scenario, run.record, judged, 0);
+  if (!found) return;
+  if (found->over && judged.periods == 0) {
+    const double period = slowest_period(run.scenario, run.record);
+    found = report::upright(run.scenario, run.record, judged, period);
+    made.text = fmt::format("the base turns over at {:.2f} s, and the run is too short to show whether it rolls", *found->over);
+    const bool early = run.record.simulated < kPeriodsNeeded * period;
+    if (!found->rolls && early && run.record.simulated - *found->over < period) return;
+  }
+  made.text = "the base rolls: it makes a whole turn in every period";
+  if (found->over && found->rolls) return;
+  made.value = found->tilt;
+  made.limit = kHorizontal;
+  made.source = "the horizontal";
+  made.from = found->over.value_or(found->tilt_time);
+  made.to = found->tilt_time;
+  made.status = found->over ? CheckStatus::fail : made.value > run.limits().tilt ? CheckStatus::warn : CheckStatus::pass;
   made.text = fmt::format("the base tilts by up to {:.3g} rad from its start", made.value);
+  if (made.status == CheckStatus::warn) made.text += fmt::format(", more than {:.3g} rad (limits.tilt)", run.limits().tilt);
+  if (!found->over) return;
+  made.first = *found->over;
+  made.text = fmt::format("the base turns over: it tilts by up to {:.3g} rad from its start", made.value);
+  made.remedy = "take a gait with more support";
 }
 
 void tracking(const CheckedRun& run, Check& made) {
@@ -190,8 +218,9 @@ void battery(const CheckedRun&, Check& made) { made.text = "the module types sta
 
 void in_ground(const CheckedRun& run, Check& made) {
   const std::string missing = no_bodies(run);
-  made.text = run.scenario.ground.kind == Ground::Kind::plane ? missing : "judged of a plane without boxes";
-  if (run.overlaps.shaped == 0 || run.scenario.ground.kind != Ground::Kind::plane) return;
+  const bool grounded = run.scenario.ground.kind != Ground::Kind::none;
+  made.text = grounded ? missing : "judged above a ground";
+  if (run.overlaps.shaped == 0 || !grounded) return;
   const std::optional<Sunk>& found = run.overlaps.sunk;
   judge(made, "sink", &Limits::sink, run);
   made.value = found ? found->depth : 0;

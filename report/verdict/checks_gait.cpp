@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "core/settings/wording.h"
+#include "report/analysis/motion.h"
+#include "report/analysis/states.h"
 #include "report/verdict/checks.h"
 #include "report/verdict/number_texts.h"
 #include "report/verdict/trust.h"
@@ -20,7 +22,7 @@ constexpr double kNotLimited = std::numeric_limits<double>::quiet_NaN();  // the
 constexpr double kMostCycleError = 0.02;                                  // as core/recording/limit_cycle.h
 constexpr double kSpeedsUp = 1.2;  // of the first half's speed, where gravity drives the robot
 
-/// Rows of the trace that lie in the judged window.
+/// Control ticks in the judged window.
 struct Rows {
   std::size_t first = 0, last = 0;
 };
@@ -33,9 +35,10 @@ Rows window(const CheckedRun& run, const Series& time) {
 
 /// m: diagonal of the box around all links and contact elements at the start; 0: not known.
 double extent(const Scenario& s, const Recording& r) {
-  if (!r.has_states(*s.robot) || r.rows() == 0) return 0;
+  const States states = States::at_ticks(r, *s.robot);
+  if (states.size() == 0) return 0;
   Kinematics k(*s.robot);
-  k.update(*s.robot, r.state(*s.robot, 0));
+  k.update(*s.robot, states(0));
   Vec3 least = Vec3::Constant(1e300);
   Vec3 most = -least;
   const auto take = [&](const Vec3& at) {
@@ -48,12 +51,15 @@ double extent(const Scenario& s, const Recording& r) {
   return (most - least).norm();
 }
 
-/// J: work of gravity from the first row to the last.
-double gravity_work(const Scenario& s, const Recording& r) { return s.robot->mass * s.physics.gravity.dot(r.travel()); }
+/// J: work of gravity in the whole run.
+double gravity_work(const Scenario& s, const Motion& m) {
+  const Vec3 travel(m.x.back() - m.x.front(), m.y.back() - m.y.front(), m.z.back() - m.z.front());
+  return s.robot->mass * s.physics.gravity.dot(travel);
+}
 
 /// Ratio of the path speeds of the second and the first half of the window; of an odd number of periods the middle one counts
 /// for both.
-double speed_up(const CheckedRun& run, const Series& time, const Series& x, const Series& y, const Rows& rows) {
+double speed_up(const CheckedRun& run, const Motion& m, const Rows& rows) {
   const Judged& judged = run.summary.judged;
   const double whole = judged.to - judged.from;
   const double half = judged.periods > 1
@@ -62,7 +68,7 @@ double speed_up(const CheckedRun& run, const Series& time, const Series& x, cons
   const auto way = [&](double from, double to) {
     double sum = 0;
     for (std::size_t k = rows.first + 1; k <= rows.last; ++k) {
-      if (time[k] > from && time[k] <= to) sum += std::hypot(x[k] - x[k - 1], y[k] - y[k - 1]);
+      if (m.t[k] > from && m.t[k] <= to) sum += std::hypot(m.x[k] - m.x[k - 1], m.y[k] - m.y[k - 1]);
     }
     return sum;
   };
@@ -88,24 +94,22 @@ namespace checks {
 void progress(const CheckedRun& run, Check& made) {
   const Scenario& s = run.scenario;
   const Recording& r = run.record;
-  const Series time = r.series("t");
-  const Series x = r.series("com.x");
-  const Series y = r.series("com.y");
+  const Motion m = motion(r);
   made.text = "judged of a floating base on a ground";
   if (s.base != Base::floating || s.ground.kind == Ground::Kind::none) return;
-  made.text = "the robot has no size, or the run has no rows";
+  made.text = "the robot has no size, or the run has no control ticks";
   const double size = extent(s, r);
-  if (!(size > 0) || time.size() < 3 || x.empty() || y.empty()) return;
-  const Rows rows = window(run, time);
+  if (!(size > 0) || m.t.size() < 3 || m.x.empty() || m.y.empty() || m.z.empty()) return;
+  const Rows rows = window(run, m.t);
   const std::size_t periods = run.summary.judged.periods;
   const double per = periods > 0 ? static_cast<double>(periods) : 1;
   const double factor = periods > 0 ? 1 : 10;
-  made.value = std::hypot(x[rows.last] - x[rows.first], y[rows.last] - y[rows.first]) / per;
+  made.value = std::hypot(m.x[rows.last] - m.x[rows.first], m.y[rows.last] - m.y[rows.first]) / per;
   const double asked = s.limits.progress;
   made.limit = (asked > 0 ? asked : factor * kLeastTravel) * size;
   made.source = threshold("progress", asked, 0);
-  made.from = time[rows.first];
-  made.to = time[rows.last];
+  made.from = m.t[rows.first];
+  made.to = m.t[rows.last];
   const double turn = std::abs(run.summary.heading_change) * (made.to - made.from) / std::max(r.simulated, 1e-9) / per;
   const char* const each = periods > 0 ? "per period" : "in the judged time";
   const bool goes = made.value >= made.limit || (asked == 0 && turn >= factor * kLeastTurn);
@@ -113,10 +117,10 @@ void progress(const CheckedRun& run, Check& made) {
   made.text = fmt::format("the robot goes {:.3g} m {}{}", made.value, each,
                           goes ? "" : fmt::format(", less than {:.3g} m", made.limit));
   if (asked == 0) made.margin = kNotLimited;
-  const double fallen = gravity_work(s, r);
+  const double fallen = gravity_work(s, m);
   double driven = 0;
   for (const JointStatistics& joint : r.joints) driven += joint.shaft;
-  const double faster = speed_up(run, time, x, y, rows);
+  const double faster = speed_up(run, m, rows);
   if (!(fallen > std::max(driven, least_energy(s))) || !(faster > kSpeedsUp)) return;
   made.criteria = {{made.value, made.limit, made.unit, true}, {faster, kSpeedsUp}};
   made.value = faster;
@@ -146,21 +150,19 @@ void airborne(const CheckedRun& run, Check& made) {
 void field(const CheckedRun& run, Check& made) {
   const Scenario& s = run.scenario;
   made.text = "judged on a heightfield";
-  const Series x = run.record.series("com.x");
-  const Series y = run.record.series("com.y");
-  if (s.ground.kind != Ground::Kind::heightfield || x.empty() || y.empty()) return;
+  const Motion m = motion(run.record);
+  if (s.ground.kind != Ground::Kind::heightfield || m.x.empty() || m.y.empty()) return;
   made.status = CheckStatus::pass;
   made.text = "the robot stays on its heightfield";
-  if (beside_field(s.ground, x.front(), y.front())) return;  // told before the run
-  const Series time = run.record.series("t");
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    if (!beside_field(s.ground, x[k], y[k])) continue;
+  if (beside_field(s.ground, m.x.front(), m.y.front())) return;  // told before the run
+  for (std::size_t k = 0; k < m.x.size(); ++k) {
+    if (!beside_field(s.ground, m.x[k], m.y[k])) continue;
     made.status = CheckStatus::warn;
-    made.value = made.from = made.to = made.first = time[k];
+    made.value = made.from = made.to = made.first = m.t[k];
     made.text = fmt::format(
         "the robot leaves its heightfield at t = {:.2f} s, x {:.3g} m, y {:.3g} m: beyond it the heights of "
         "the border continue",
-        time[k], x[k], y[k]);
+        m.t[k], m.x[k], m.y[k]);
     made.remedy = "take a larger field or spacing";
     return;
   }
@@ -186,6 +188,7 @@ void evidence(const CheckedRun& run, Check& made) {
               : !found.too_short.empty() ? found.too_short
               : !found.not_borne.empty() ? found.not_borne
                                          : "judged over " + found.rests_on;
+  made.remedy = found.remedy;
   if (found.complete()) made.status = CheckStatus::pass;
 }
 

@@ -77,14 +77,22 @@ std::string of_motors(const CheckedRun& run) {
   return run.motor_source.empty() ? "" : fmt::format("; motors: {}", run.motor_source);
 }
 
-/// Share of the window in which the torque of a joint is at its limit, or within `error` of it: an upper bound, of whole rows.
-double near_limit(const CheckedRun& run, std::size_t joint, double error) {
-  const Series t(run.record.ticks, 0);
-  const Series peak = run.record.tick(joint, kEnvelopePeak);
+/// Share of the window in which a joint is at no limit, but its torque within `error` of this one: an upper bound, of whole
+/// rows.
+double near_limit(const CheckedRun& run, std::size_t joint, double error, MotorLimit limit) {
+  const Recording& r = run.record;
+  const Series t(r.ticks, 0);
+  const Series peak = r.tick(joint, kEnvelopePeak);
+  const Series voltage = r.tick(joint, kVoltageLimited);
+  const Series current = r.tick(joint, kCurrentLimited);
+  const Series amperes = r.tick(joint, kCurrentPeak);
+  const std::optional<double> most = run.motors.joint(joint).current;
   double sum = 0;
   const std::size_t first = run.summary.judged.first_row;
   for (std::size_t k = first + 1; k < peak.size(); ++k) {
-    if (peak[k] >= 1 - error) sum += t[k] - t[k - 1];
+    if (!(peak[k] >= 1 - error) || voltage[k] > voltage[k - 1] || current[k] > current[k - 1]) continue;
+    const bool by_current = !run.has_dc_motors || (most && amperes[k] >= (1 - error) * *most);
+    if (by_current == (limit == MotorLimit::current)) sum += t[k] - t[k - 1];
   }
   const double whole = t.back() - t[first];
   return whole > 0 ? sum / whole : 0;
@@ -92,21 +100,21 @@ double near_limit(const CheckedRun& run, std::size_t joint, double error) {
 
 double error_of(const CheckedRun& run, std::size_t joint);
 
-/// s: the start of the first row, behind the row `after`, in which any driven joint is `beyond`; not a number: none.
+/// Sets Check::first to the start of the first row, behind the row `after`, in which any driven joint is `beyond`, and
+/// Check::first_part to the joint; leaves both where none is.
 template <class Beyond>
-double first_row(const CheckedRun& run, std::size_t after, TickColumn column, const Beyond& beyond) {
+void find_first(const CheckedRun& run, std::size_t after, TickColumn column, const Beyond& beyond, Check& made) {
   const Series t(run.record.ticks, 0);
-  double found = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
     const Series values = run.record.tick(j, column);
     if (values.empty() || !run.scenario.robot->joints[j].driven()) continue;
-    for (std::size_t k = after + 1; k < t.size() && !(t[k - 1] >= found); ++k) {
+    for (std::size_t k = after + 1; k < t.size() && !(t[k - 1] >= made.first); ++k) {
       if (!beyond(j, values[k], values[k - 1])) continue;
-      found = t[k - 1];
+      made.first = t[k - 1];
+      made.first_part = run.joint(j);
       break;
     }
   }
-  return found;
 }
 
 /// A joint at a limit of its motor.
@@ -142,7 +150,7 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
     if (one.share > 0) ++made.parts;
     if (!worst || std::pair(-one.margin(), one.share) > std::pair(-worst->margin(), worst->share)) worst = one;
     if (const double error = error_of(run, j); error > 0) {
-      const double near = std::max(near_limit(run, j, error), one.share);
+      const double near = one.share + near_limit(run, j, error, limit);
       if (near > bar) std::tie(bar, barred) = std::pair(near, j);
     }
   }
@@ -167,15 +175,16 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
     made.worst = run.joint(worst->joint);
     made.from = worst->longest.from;
     made.to = worst->longest.to;
-    made.first = first_row(run, judged.first_row, column, [](std::size_t, double now, double before) { return now > before; });
+    find_first(
+        run, judged.first_row, column, [](std::size_t, double now, double before) { return now > before; }, made);
     made.text = fmt::format("{} of {} reach{} the limit of {} {}; worst {}: ", made.parts,
                             counted(driven_joints(*run.scenario.robot), "joint"), made.parts == 1 ? "es" : "",
                             made.parts == 1 ? "its" : "their", name, made.worst);
-    made.text +=
-        by_share
-            ? fmt::format("{} of the judged time, up to {:.3g} s on end", texts::percent(worst->share), worst->longest.length())
-            : fmt::format("{:.3g} s on end, more than {:g} control periods ({:.3g} s), in all {} of the judged time",
-                          worst->longest.length(), run.limits().saturated_periods, made.limit, texts::percent(worst->share));
+    made.text += by_share ? fmt::format("{} of the judged time, up to {:.3g} s on end", texts::percent(worst->share),
+                                        worst->longest.length())
+                          : fmt::format("{:.3g} s on end, {}{:g} control periods ({:.3g} s), in all {} of the judged time",
+                                        worst->longest.length(), made.margin < 0 ? "more than " : "of at most ",
+                                        run.limits().saturated_periods, made.limit, texts::percent(worst->share));
   }
   const double most = run.limits().saturated_share;
   const bool fails_beyond = worst->criteria.back().margin() < 0 || worst->share * (1 - error_of(run, worst->joint)) > most;
@@ -184,7 +193,7 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
   made.status = CheckStatus::too_close;
   made.text += fmt::format("; joint {} is within the error of its torque, {}, of that limit for up to {} of the judged time",
                            run.joint(barred), texts::rough_percent(made.error), texts::percent(bar));
-  made.remedy = torque_remedy(run.scenario, std::max(made.error, run.limits().torque_error));
+  made.remedy = "take " + torque_remedy(run.scenario, std::max(made.error, run.limits().torque_error));
 }
 
 /// Of every joint a value and its limit; not a number: not known, not finite or 0: not stated.
@@ -257,21 +266,32 @@ void envelope(const CheckedRun& run, Check& made) {
 }
 
 void speed(const CheckedRun& run, Check& made) {
-  const auto limit = [&](std::size_t j) {
-    const Envelope& motor = run.motors.joint(j);
-    return std::min(motor.speed_max.value_or(kNever), motor.no_load.value_or(kNever));
-  };
-  rated(run, made, kSpeedPeak, "the actuator has torque at any speed, and states no largest one", run.limits().warn_share, 1,
-        [&](std::size_t j) {
-          const JudgedJoint& joint = run.summary.judged.whole[j];
-          return Rated{joint.speed_peak, limit(j), joint.speed_peak_time};
-        });
+  const char* const none = "the actuator has torque at any speed, and states no largest one";
+  const auto no_load = [&](std::size_t j) { return run.motors.joint(j).no_load.value_or(kNever); };
+  const auto rating = [&](std::size_t j) { return run.motors.joint(j).speed_max.value_or(kNever); };
+  // What a motor cannot reach is of the gait, and a landing may exceed it; what its maker allows holds from the first step on.
+  const double share = run.limits().warn_share;
+  Check broken = made;
+  rated(run, broken, kSpeedPeak, none, share, 1, [&](std::size_t j) {
+    const JudgedJoint& joint = run.summary.judged.whole[j];
+    return Rated{joint.speed_peak, rating(j), joint.speed_peak_time};
+  });
+  rated(run, made, kSpeedPeak, none, share, 1, [&](std::size_t j) {
+    const JudgedJoint& joint = run.summary.judged.joints[j];
+    return Rated{joint.speed_peak, no_load(j), joint.speed_peak_time};
+  });
+  const bool unreached = made.status != CheckStatus::not_judged;
+  const bool by_rating =
+      broken.status != CheckStatus::not_judged && (!unreached || broken.value / broken.limit >= made.value / made.limit);
+  if (by_rating) made = broken;
   if (made.status == CheckStatus::not_judged) return;
-  made.first = first_row(run, 0, kSpeedPeak, [&](std::size_t j, double now, double) { return now > limit(j); });
+  made.span = by_rating ? CheckSpan::whole_run : CheckSpan::window;
+  find_first(
+      run, by_rating ? 0 : run.summary.judged.first_row, kSpeedPeak,
+      [&](std::size_t j, double now, double) { return now > (by_rating ? rating(j) : no_load(j)); }, made);
   made.text = fmt::format("joint {} turns at up to {:.3g} rad/s of {:.3g} rad/s", made.worst, made.value, made.limit);
   if (made.status != CheckStatus::fail) return;
-  const bool driven = std::ranges::any_of(run.motors.kinds, [&](const Envelope& motor) { return motor.no_load == made.limit; });
-  made.text += driven ? ", faster than its motor can drive it: the load does" : ", more than it is rated for";
+  made.text += by_rating ? ", more than it is rated for" : ", faster than its motor can drive it: the load does";
 }
 
 void heat(const CheckedRun& run, Check& made) {
@@ -294,9 +314,9 @@ void gear_peak(const CheckedRun& run, Check& made) {
               return Rated{joint.torque_peak, run.motors.joint(j).gear_peak.value_or(0), joint.torque_peak_time};
             });
   if (made.status == CheckStatus::not_judged) return;
-  made.first = first_row(run, 0, kTorquePeak, [&](std::size_t j, double now, double) {
-    return now > run.motors.joint(j).gear_peak.value_or(kNever);
-  });
+  find_first(
+      run, 0, kTorquePeak,
+      [&](std::size_t j, double now, double) { return now > run.motors.joint(j).gear_peak.value_or(kNever); }, made);
   made.text = fmt::format("the gear of joint {} takes up to {:.3g} N m of {:.3g} N m", made.worst, made.value, made.limit);
   widen(run.scenario, error_of(run, worst), made);
 }

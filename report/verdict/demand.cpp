@@ -17,7 +17,7 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kThrown =
-    0.5;  // of the height at the start: a gait that rises by more than its own run did and this is a jump
+    0.5;  // of the height of the start pose on the ground: a gait that rises by more than its own run did and this is a jump
 
 class Raise final : public Fields {
  public:
@@ -48,7 +48,7 @@ class Raise final : public Fields {
   }
 };
 
-/// m: how far the centre of mass rises above where it is at the start.
+/// m: how far the centre of mass rises above its height at the start.
 double rise(const std::vector<double>& z) { return *std::ranges::max_element(z) - z.front(); }
 
 /// What the joint that lacks most would take beyond what it has, of those at that limit for some time: `0.241 A at m5/passive
@@ -73,7 +73,7 @@ bool thrown_up(const Scenario& scenario, const Recording& free, const Recording&
   if (scenario.base != Base::floating || scenario.ground.kind == Ground::Kind::none) return false;
   const std::vector<double> z = heights(scenario, own);
   const std::vector<double> thrown = heights(scenario, free);
-  return !z.empty() && !thrown.empty() && rise(thrown) > rise(z) + kThrown * std::abs(z.front());
+  return !z.empty() && !thrown.empty() && rise(thrown) > rise(z) + kThrown * std::abs(standing_height(scenario));
 }
 
 bool raise_limits(Scenario& scenario) {

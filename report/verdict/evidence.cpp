@@ -8,8 +8,8 @@
 #include "core/laws/dc_motor.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
-#include "core/recording/limit_cycle.h"
 #include "core/settings/wording.h"
+#include "report/analysis/motion.h"
 #include "report/analysis/motors.h"
 #include "report/analysis/settings_numbers.h"
 #include "report/verdict/number_texts.h"
@@ -34,14 +34,6 @@ double least_frequency(const Scenario& s) {
     }
   }
   return least;
-}
-
-std::vector<Series> set_points(const Scenario& s, const Recording& r) {
-  std::vector<Series> found;
-  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
-    if (const Series one = r.joint(j, "setpoint"); !one.empty() && s.robot->joints[j].driven()) found.push_back(one);
-  }
-  return found;
 }
 
 bool moves(const std::vector<Series>& set_points) {
@@ -118,7 +110,8 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made) {
     made.not_trusted = fmt::format("in {} of the time the shortest steps do not reach the accuracy {}",
                                    texts::rough_percent(coarse), texts::rough_percent(s.physics.accuracy));
   } else if (driven && s.cpg.entry != nullptr && !asked.empty() && !moves(asked)) {
-    made.not_trusted = fmt::format("no set point changes: cpg {} moves no joint, so that there is no gait", s.cpg.entry->name);
+    made.not_trusted = fmt::format("no set point changes: cpg {} moves no joint", s.cpg.entry->name);
+    made.remedy = "look for its amplitudes, frames or equations";
   }
 }
 
@@ -128,15 +121,7 @@ double slowest_period(const Scenario& s, const Recording& r) {
   const double frequency = least_frequency(s);
   // Two periods show a repetition, but not where the amplitude grows at the start.
   if (frequency > 0 && r.simulated * frequency < kPeriodsNeeded * (1 - kRelative)) return 1 / frequency;
-  const std::vector<Series> columns = set_points(s, r);
-  if (columns.empty()) return 0;
-  const auto rows = std::min(r.rows(), static_cast<std::size_t>(std::floor(r.simulated / s.trace.period + 1e-9)) + 1);
-  std::vector<double> all;
-  all.reserve(rows * columns.size());
-  for (std::size_t k = 0; k < rows; ++k) {
-    for (const Series& column : columns) all.push_back(column[k]);
-  }
-  const MotionCycle cycle = find_limit_cycle(all, columns.size(), s.trace.period);
+  const MotionCycle cycle = set_point_cycle(s, r);
   return cycle.found ? cycle.period : 0;
 }
 

@@ -21,6 +21,7 @@ struct Evidence {
   std::string too_short;    ///< a gait needs a whole period of its limit cycle, or three periods of its set points, or 2 s
   std::string not_borne;    ///< the ground carries less than half of the weight
   std::string not_trusted;  ///< the numbers are wrong by more than the shares above, a motor makes energy, or nothing moves
+  std::string remedy;       ///< of set points that never change
   bool repeats = false;     ///< the set points do
   std::string rests_on;     ///< `3 periods of 4 s`, `these 18 s: the set points do not repeat`
   [[nodiscard]] bool complete() const { return too_short.empty() && not_borne.empty() && not_trusted.empty(); }

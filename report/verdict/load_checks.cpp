@@ -139,7 +139,9 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
   made.part = Part::dock;
   made.worst = fmt::format("m{}", worst.module);
   for (const DockPeak& peak : peaks) {
-    if (!(made.first <= peak.first) && !std::isnan(peak.first)) made.first = peak.first;
+    if (made.first <= peak.first || std::isnan(peak.first)) continue;
+    made.first = peak.first;
+    made.first_part = fmt::format("m{}", peak.module);
   }
   const DockWords are = words(quantity);
   made.text = worst.value > 0 ? fmt::format("{}'s dock is {} by up to {:.3g} {}", made.worst, are.does, worst.value, are.unit)
@@ -150,6 +152,7 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
   }
   made.limit = worst.limit;
   made.source = weaker(*scenario.robot, worst.module, quantity).source;
+  if (made.source.empty()) made.source = kNoSource;
   made.parts = static_cast<std::size_t>(std::ranges::count_if(peaks, [](const DockPeak& p) { return p.share() > 1; }));
   made.status = worst.share() <= scenario.limits.warn_share ? CheckStatus::pass
                 : worst.share() <= 1                        ? CheckStatus::warn

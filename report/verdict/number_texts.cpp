@@ -41,8 +41,7 @@ std::size_t worst(const Recording& record, double JointStatistics::*member) {
 
 Lines simulated(const RunData& run) {
   const Summary& s = run.summary;
-  return {fmt::format("{}: {:.6g} s simulated in {:.2f} s ({:.2g} times real time)", run.scenario.name, s.simulated,
-                      s.wall_time, s.wall_time > 0 ? s.simulated / s.wall_time : 0)};
+  return {fmt::format("{}: {:.6g} s simulated in {:.2f} s", run.scenario.name, s.simulated, s.wall_time)};
 }
 
 Lines engine(const RunData& run) {
@@ -131,8 +130,6 @@ Lines window(const RunData& run) {
 }
 
 namespace {
-
-const char* name_of(MotorLimit limit) { return limit == MotorLimit::current ? "current" : "voltage"; }
 
 /// The limit at which the joint that is named is not, or another is longer.
 Lines other_limits(const RunData& run, std::size_t named) {

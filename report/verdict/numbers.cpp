@@ -74,7 +74,7 @@ Json forward_speed(R run) {
 
 Json fallen(R run) {
   const std::optional<Fall> found = fall(run.scenario, run.record);
-  return found ? Json(found->share() < run.scenario.limits.height) : Json();
+  return found ? Json(found->time.has_value()) : Json();
 }
 
 Json held(R run, double Posture::*figure) { return or_null(run.summary.posture.*figure); }
@@ -92,7 +92,6 @@ std::vector<SummaryNumber> list() {
        .definition = "Name of the scenario.",
        .words = true,
        .value = [](R r) { return r.scenario.name; },
-       .line = {10, nullptr, texts::simulated},
        .compare = {.place = 10, .if_different = true}},
       {.key = "engine",
        .definition = "Engine that simulated it.",
@@ -151,7 +150,7 @@ std::vector<SummaryNumber> list() {
       {.key = "outcome",
        .definition = "`done`, or why the run ended early.",
        .words = true,
-       .value = [](R r) { return r.summary.outcome; },
+       .value = [](R r) { return r.summary.outcome.text(); },
        .compare = {.place = 70, .if_different = true}},
       {.key = "simulated",
        .unit = "s",
@@ -252,7 +251,7 @@ std::vector<SummaryNumber> list() {
        .swap = {10, "speed", "m/s", 10, texts::speed_cell}},
       {.key = "path_length",
        .unit = "m",
-       .definition = "Length of the horizontal path of the centre of mass, from trace tick to trace tick.",
+       .definition = "Length of the horizontal path of the centre of mass, from control tick to control tick.",
        .value = [](R r) { return r.summary.path_length; },
        .compare = {160},
        .golden = {40}},
@@ -274,7 +273,7 @@ std::vector<SummaryNumber> list() {
       {.key = "heading_change",
        .unit = "rad",
        .definition =
-           "Sum over the trace ticks of the base's turn about world z (the twist of the rotation from tick to tick; a "
+           "Sum over the control ticks of the base's turn about world z (the twist of the rotation from tick to tick; a "
            "full turn counts 2 pi).",
        .value = [](R r) { return r.summary.heading_change; },
        .compare = {170}},
@@ -428,7 +427,7 @@ std::vector<SummaryNumber> list() {
        .unit = "J",
        .definition = "Heat in the windings.",
        .value = [](R r) { return r.record.ledger.copper; },
-       .line = {102, "", texts::ledger, true}},
+       .line = {102, "", texts::ledger}},
       {.key = "energy.gear",
        .unit = "J",
        .definition = "Loss in the gears, less `created`.",
@@ -470,17 +469,17 @@ std::vector<SummaryNumber> list() {
        .value = [](R r) { return or_null(texts::created(r.record) / energy_scale(r.scenario, r.record)); }},
       {.key = "fell",
        .definition =
-           "Whether the centre of mass came below `limits.height` of its height at the start; null where a height says "
-           "nothing: of a base that is not floating, or above other ground than a plane and boxes.",
+           "Whether the centre of mass came below `limits.height` of its height above the ground at the start (the check "
+           "`fall` of the verdict); null of a base that is not floating, and without a ground.",
        .value = [](R r) { return fallen(r); }},
       {.key = "airborne_share",
        .definition =
-           "Share of the trace ticks in the judged window at which the ground bears less than 5 % of the weight; null "
+           "Share of the control ticks in the judged window at which the ground bears less than 5 % of the weight; null "
            "without gravity, of a base that does not float, or of a robot without contact elements.",
        .value = [](R r) { return held(r, &Posture::airborne_share); }},
       {.key = "height.min",
        .unit = "m",
-       .definition = "Least height of the centre of mass at the trace ticks in the judged window.",
+       .definition = "Least height of the centre of mass at the control ticks in the judged window.",
        .value = [](R r) { return held(r, &Posture::height_min); }},
       {.key = "height.max",
        .unit = "m",
@@ -488,8 +487,9 @@ std::vector<SummaryNumber> list() {
        .value = [](R r) { return held(r, &Posture::height_max); }},
       {.key = "tilt.max",
        .unit = "rad",
-       .definition = "Largest angle between the base's z axis and the vertical at these ticks (the check `tilt` of the verdict "
-                     "is of the turn since the start).",
+       .definition =
+           "Largest angle between the base's z axis and the vertical at these ticks (the check `upright` of the verdict "
+           "is of the turn since the start).",
        .value = [](R r) { return held(r, &Posture::tilt_max); }},
       {.key = "limit_cycle.found",
        .definition = "Whether the motion has become periodic: see below.",
@@ -512,7 +512,7 @@ std::vector<SummaryNumber> list() {
       {.key = "stability.max",
        .definition = "Largest h lambda seen at the control ticks ([equations](equations.md)).",
        .value = [](R r) { return r.summary.stability_max; },
-       .line = {130, "stability", texts::stability, true},
+       .line = {130, "stability", texts::stability},
        .compare = {240}},
       {.key = "stability.share_above_1",
        .definition = "Share of the control ticks at which h lambda exceeds 1.",

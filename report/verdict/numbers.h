@@ -36,7 +36,6 @@ struct SummaryNumber {
     int place = 0;
     const char* title = nullptr;                                     ///< nullptr: flush left
     std::vector<std::string> (*text)(const RunData& run) = nullptr;  ///< one per line; none: nothing to say
-    bool verbose = false;                                            ///< only under --verbose
   } line = {};
   struct Compare {
     int place = 0;                ///< a number of every joint is compared for the most loaded joint

@@ -7,6 +7,7 @@
 
 #include "core/settings/wording.h"
 #include "core/simulation/start.h"
+#include "report/analysis/collisions.h"
 #include "report/verdict/number_texts.h"
 
 namespace gaitlab::report {
@@ -42,10 +43,9 @@ std::string to_json(const Summary& s, const Scenario& scenario, const Recording&
   return numbers_json({scenario, r, s}).dump(2) + "\n";
 }
 
-std::string to_text(const Summary& s, const Scenario& scenario, const Recording& r, bool verbose) {
+std::string to_text(const Summary& s, const Scenario& scenario, const Recording& r) {
   std::string text;
   for (const SummaryNumber* number : placed(&SummaryNumber::line)) {
-    if (number->line.verbose && !verbose) continue;
     const char* title = number->line.title;
     for (const std::string& line : number->line.text({scenario, r, s})) {
       text += title == nullptr ? line + "\n" : fmt::format("  {:<13} {}\n", title, line);
@@ -82,22 +82,12 @@ std::string joint_table(const Summary& s, const Scenario& scenario) {
          (marked ? "  u, i: the peak is at the limit of voltage, of current\n" : "");
 }
 
-namespace {
-
-/// A field's height says nothing about how high the robot stands above it.
-bool has_height(const Ground& ground) { return ground.kind == Ground::Kind::plane || ground.kind == Ground::Kind::boxes; }
-
-}  // namespace
-
 std::string start_warning(const Scenario& scenario) {
-  if (!has_height(scenario.ground)) return "";
-  const RobotState start = start_state(scenario);
-  Kinematics k(*scenario.robot);
-  k.update(*scenario.robot, start);
   constexpr double kSunk = 1e-3;  // m
-  const double lowest = lowest_point(*scenario.robot, k, {});
-  if (lowest >= -kSunk) return "";
-  const std::string deep = fmt::format("the robot starts {:.3g} m deep in the ground: ", -lowest);
+  const RobotState start = start_state(scenario);
+  const double depth = depth_in_ground(scenario, start);
+  if (depth <= kSunk) return "";
+  const std::string deep = fmt::format("the robot starts {:.3g} m deep in the ground: ", depth);
   if (!scenario.on_ground) {
     return deep + fmt::format(
                       "on_ground is off (a position of three numbers turns it off) and the base frame starts at z = {} m; "

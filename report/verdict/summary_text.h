@@ -9,8 +9,8 @@ namespace gaitlab::report {
 /// The text of summary.json.
 std::string to_json(const Summary& summary, const Scenario& scenario, const Recording& record);
 
-/// What `gaitlab run` prints; verbose: the ledger and the step's limit, too.
-std::string to_text(const Summary& summary, const Scenario& scenario, const Recording& record, bool verbose = false);
+/// The numbers that `gaitlab run --verbose` prints.
+std::string to_text(const Summary& summary, const Scenario& scenario, const Recording& record);
 
 /// A row per joint, the most loaded first: what each did in the judged window.
 std::string joint_table(const Summary& summary, const Scenario& scenario);

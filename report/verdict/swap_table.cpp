@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kOutcome = "outcome";
 
-bool broke_off(const NamedRun& one) { return one.run.summary.outcome != "done"; }
+bool broke_off(const NamedRun& one) { return !one.run.summary.outcome.done(); }
 
 std::string without_blanks_at_end(std::string row) {
   row.erase(row.find_last_not_of(' ') + 1);
@@ -63,7 +63,7 @@ std::string swap_table(const std::vector<NamedRun>& runs) {
   std::string text = cells(name(""), [](const SummaryNumber& number) { return number.swap.head; }) +
                      cells(name("cpg"), [](const SummaryNumber& number) { return number.swap.under; });
   for (const NamedRun& one : runs) {
-    text += broke_off(one) ? without_blanks_at_end(name(one.name) + " " + one.run.summary.outcome)
+    text += broke_off(one) ? without_blanks_at_end(name(one.name) + " " + one.run.summary.outcome.text())
                            : cells(name(one.name), [&](const SummaryNumber& number) { return number.swap.cell(one.run); });
   }
   return text;
@@ -128,7 +128,7 @@ std::string swap_json(const std::vector<NamedRun>& runs) {
 }
 
 std::string why_not(const MatrixRun& one) {
-  if (broke_off(one.named)) return in_one_line(one.named.run.summary.outcome);
+  if (broke_off(one.named)) return in_one_line(one.named.run.summary.outcome.text());
   return in_one_line(one.verdict.why());
 }
 

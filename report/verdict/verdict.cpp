@@ -5,6 +5,7 @@
 #include <limits>
 #include <string_view>
 
+#include "report/analysis/motion.h"
 #include "report/analysis/plugin_names.h"
 #include "report/analysis/row_statistics.h"
 #include "report/analysis/states.h"
@@ -39,7 +40,7 @@ std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) 
   if (!found.not_borne.empty()) return found.not_borne;
   if (const Check* const close = first_of(checks, CheckStatus::too_close)) return close->text;
   const auto judged = [](const Check& c) { return c.status != CheckStatus::not_judged; };
-  if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == "motor" && judged(c); }))
+  if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == CheckGroup::motor && judged(c); }))
     return run.driven() ? "no limit of the motors is known" : "nothing drives the joints";
   if (run.scenario.base != Base::floating || run.scenario.ground.kind == Ground::Kind::none || run.scenario.contact.solver())
     return "";
@@ -102,9 +103,12 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const CheckedRun run{scenario, record, summary, overlaps};
   Verdict made;
+  std::vector<std::string> motors;  // sources of what checks were judged by
+  std::vector<std::string> docks;
   made.from = summary.judged.from;
   made.to = summary.judged.to;
   made.of_rows = rows_sentence(record);
+  made.window_of_rows = motion_sentence(record);
   for (const CheckKind& kind : check_kinds()) {
     Check check{.id = kind.id,
                 .group = kind.group,
@@ -127,10 +131,13 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
     if (check.status == CheckStatus::not_judged || check.id == "outcome") check.margin = kNone;
     check.text = without_folders(std::move(check.text), scenario.plugins);
     const bool judged = check.status != CheckStatus::not_judged;
-    made.chosen_motors = made.chosen_motors || (judged && check.group == "motor" && chosen(run.motor_source));
-    made.chosen_docks = made.chosen_docks || (judged && check.id.starts_with("dock_") && chosen(check.source));
+    if (judged && check.group == CheckGroup::motor) motors = {run.motor_source};
+    if (judged && check.id.starts_with("dock_")) docks.push_back(check.source);
     made.checks.push_back(std::move(check));
   }
+  made.chosen_motors = std::ranges::any_of(motors, chosen);
+  made.chosen_docks = std::ranges::any_of(docks, chosen);
+  made.figures = figures_sentence(motors, docks);
   decide(run, made);
   if (const std::vector<JudgedJoint>& whole = summary.judged.whole; Judged::limited(whole) > 0) {
     made.first_joint = run.joint(Judged::first(whole));

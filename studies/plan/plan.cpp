@@ -97,8 +97,6 @@ void check_same(const std::vector<Quantity>& first, const std::vector<Quantity>&
   if (problems.empty()) check(other, first, "there is a quantity {}, which the first scenario does not have");
 }
 
-constexpr std::array kCombines{"mean", "worst", "median", "quantile"};
-
 }  // namespace
 
 Plan::Plan(Study study, const QuantityOffer& offer, Catalog& catalog)
@@ -333,17 +331,13 @@ Row Plan::row(std::uint64_t run) const {
 
 void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording, const Measure& measure) const {
   row.simulated = recording.simulated;
-  if (recording.outcome != "done") {
-    // As SimulationError says it: of numbers that were left, or of a plugin that threw; or by a rule of the study.
-    row.outcome = recording.outcome.starts_with("diverged") ? "diverged"
-                  : StopRules::ended(recording.outcome)     ? "stopped"
-                                                            : "plugin";
-    row.message = recording.outcome;
+  row.outcome = name_of(recording.outcome.ended);
+  if (!recording.outcome.done()) {
+    row.message = recording.outcome.message;
     row.verdict = "failed";
     return;
   }
   Judged judged = measure(scenario, recording);
-  row.outcome = "done";
   row.quantities = std::move(judged.quantities);
   row.verdict = std::move(judged.verdict);
   row.message = std::move(judged.why);
@@ -351,8 +345,7 @@ void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording
 }
 
 std::string Plan::definition() const {
-  std::string text = fmt::format("seed: {}\nmethod: {}\n", study_.seed,
-                                 study_.asked ? "asked" : kMethods[static_cast<std::size_t>(study_.method)]);
+  std::string text = fmt::format("seed: {}\nmethod: {}\n", study_.seed, study_.asked ? "asked" : name_of(study_.method));
   if (!study_.asked && is_search(study_.method)) text += search_text(study_);
   for (const Parameter& p : study_.parameters) {
     text += fmt::format("parameter {}: {}\n", p.key,
@@ -360,8 +353,7 @@ std::string Plan::definition() const {
     text += followers_text(p);
   }
   if (study_.replicates.count > 0) {
-    text += fmt::format("replicates: {}, {}", study_.replicates.count,
-                        kCombines[static_cast<std::size_t>(study_.replicates.combine)]);
+    text += fmt::format("replicates: {}, {}", study_.replicates.count, name_of(study_.replicates.combine));
     if (study_.replicates.combine == Combine::quantile) text += " " + number_text(study_.replicates.quantile);
     text += "\n";
   }
@@ -388,7 +380,7 @@ JournalHead Plan::head() const {
   }
   for (std::size_t k = 0; k < study_.objectives.size(); ++k)
     head.objectives.push_back({judge_->objectives()[k], study_.objectives[k].maximize});
-  head.combine = kCombines[static_cast<std::size_t>(study_.replicates.combine)];
+  head.combine = name_of(study_.replicates.combine);
   head.quantile = study_.replicates.quantile;
   head.runs = most_runs();
   head.replicates = points_.runs_of_point();

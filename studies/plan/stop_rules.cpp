@@ -9,12 +9,6 @@
 
 namespace gaitlab::studies {
 
-namespace {
-
-constexpr std::string_view kStoppedBy = "stopped by ";
-
-}  // namespace
-
 StopRules::StopRules(const Study& study, const QuantityOffer& offer, const std::vector<std::string>& joints, Problems& problems)
     : offer_(offer) {
   const auto is_of = [](const std::vector<Quantity>& quantities, const std::string& name) {
@@ -50,12 +44,10 @@ std::string StopRules::reason(const Scenario& scenario, const Recording& so_far)
       for (const auto& [name, joint] : quantities_) values.push_back(offer_.value_so_far(name, joint, scenario, so_far));
     }
     const double holds = rule.when.value(values);
-    if (std::isfinite(holds) && holds != 0) return fmt::format("{}{} at t = {:.6g} s", kStoppedBy, rule.text, so_far.simulated);
+    if (std::isfinite(holds) && holds != 0) return fmt::format("stopped by {} at t = {:.6g} s", rule.text, so_far.simulated);
   }
   return "";
 }
-
-bool StopRules::ended(const std::string& outcome) { return outcome.starts_with(kStoppedBy); }
 
 std::vector<std::string> StopRules::texts() const {
   std::vector<std::string> all;

@@ -16,8 +16,6 @@ class StopRules {
   [[nodiscard]] bool empty() const { return rules_.empty(); }
   /// `stopped by RULE at t = 4 s`, of the first rule that holds of what is recorded so far (Simulation::watch); "": none does.
   [[nodiscard]] std::string reason(const Scenario& scenario, const Recording& so_far) const;
-  /// Whether a recording's outcome is such a reason.
-  [[nodiscard]] static bool ended(const std::string& outcome);
   /// As the study says them.
   [[nodiscard]] std::vector<std::string> texts() const;
 

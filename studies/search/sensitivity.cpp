@@ -199,9 +199,9 @@ Sensitivity sobol_indices(std::size_t parameters, std::span<const double> values
 
 std::vector<Sensitivity> sensitivities(Journal& journal, const Results& results) {
   const JournalHead& head = journal.head();
-  const std::string method = method_of(head);
-  const bool of_morris = method == kMethods[static_cast<std::size_t>(Method::morris)];
-  if (!of_morris && method != kMethods[static_cast<std::size_t>(Method::sobol_indices)]) return {};
+  const std::optional<Method> method = named<Method>(method_of(head));
+  const bool of_morris = method == Method::morris;
+  if (!of_morris && method != Method::sobol_indices) return {};
   std::vector<std::string> keys;
   for (const JournalParameter& p : head.parameters) {
     if (!p.drawn) keys.push_back(p.key);

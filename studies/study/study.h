@@ -1,16 +1,18 @@
 // A study as the user wrote it: which points of a scenario are run, how often, and by what they are judged.
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/names.h"
 #include "core/plugin/fields.h"
 #include "studies/study/formula.h"
 
-namespace gaitlab::studies {
+namespace gaitlab {
+
+namespace studies {
 
 /// A key of the scenario that follows a number of the study's own.
 struct Follower {
@@ -78,10 +80,40 @@ struct StopText {
 };
 
 enum class Method { grid, random, sobol, morris, sobol_indices, cma, xnes, sade, pso, nsga2 };
-inline constexpr std::array<const char*, 10> kMethods{"grid", "random", "sobol", "morris", "sobol_indices",
-                                                      "cma",  "xnes",   "sade",  "pso",    "nsga2"};
+
+}  // namespace studies
+
+template <>
+struct EnumNames<studies::Combine> {
+  using enum studies::Combine;
+  static constexpr EnumName<studies::Combine> kTable[] = {
+      {mean, "mean"}, {worst, "worst"}, {median, "median"}, {quantile, "quantile"}};
+};
+
+template <>
+struct EnumNames<studies::Method> {
+  struct Row {
+    studies::Method value;
+    const char* text;
+    bool searches;
+  };
+  using enum studies::Method;
+  static constexpr Row kTable[] = {{grid, "grid", false},
+                                   {random, "random", false},
+                                   {sobol, "sobol", false},
+                                   {morris, "morris", false},
+                                   {sobol_indices, "sobol_indices", false},
+                                   {cma, "cma", true},
+                                   {xnes, "xnes", true},
+                                   {sade, "sade", true},
+                                   {pso, "pso", true},
+                                   {nsga2, "nsga2", true}};
+};
+
+namespace studies {
+
 /// Whether it chooses points by what came out before (`gaitlab optimize`).
-constexpr bool is_search(Method method) { return method >= Method::cma; }
+constexpr bool is_search(Method method) { return enum_row(method).searches; }
 
 /// Of methods that are searches.
 struct SearchKeys {
@@ -134,4 +166,5 @@ struct Study {
   bool asked = false;  ///< points come from another program (`gaitlab evaluate`) instead of the method
 };
 
-}  // namespace gaitlab::studies
+}  // namespace studies
+}  // namespace gaitlab

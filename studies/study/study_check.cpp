@@ -11,7 +11,7 @@ namespace gaitlab::studies {
 namespace {
 
 void check_search(const Study& study, const SourceLocation& place, Problems& problems) {
-  const std::string method = std::string("method ") + kMethods[static_cast<std::size_t>(study.method)];
+  const std::string method = std::string("method ") + name_of(study.method);
   const std::int64_t population = study.search.population;
   if (std::ranges::none_of(study.parameters, [](const Parameter& p) { return p.values.empty(); }))
     problems.add(place, method + " has nothing to search: no parameter has low and high");
@@ -75,11 +75,10 @@ void check_study(const Study& study, const SourceLocation& place, Problems& prob
     if (study.method == Method::grid && !p.in_grid())
       problems.add(p.place, p.key + " has no count; expected one for a grid, or method: {type: random} or sobol");
     if (study.of_sensitivity() && !p.values.empty())
-      problems.add(p.place, fmt::format("{} has values one by one; method {} needs low and high", p.key,
-                                        kMethods[static_cast<std::size_t>(study.method)]));
+      problems.add(p.place,
+                   fmt::format("{} has values one by one; method {} needs low and high", p.key, name_of(study.method)));
     if (study.method != Method::grid && p.count > 0 && !study.asked)
-      problems.add(p.place, fmt::format("{} has a count, which a grid takes; method.type is {}", p.key,
-                                        kMethods[static_cast<std::size_t>(study.method)]));
+      problems.add(p.place, fmt::format("{} has a count, which a grid takes; method.type is {}", p.key, name_of(study.method)));
     const auto same = [&](const Variation& v) { return v.key == p.key && !v.times; };
     if (std::ranges::any_of(study.replicates.vary, same))
       problems.add(p.place, p.key + " is a parameter and drawn for every replicate; expected vary: {" + p.key +
@@ -89,12 +88,10 @@ void check_study(const Study& study, const SourceLocation& place, Problems& prob
   if (study.method == Method::grid && study.runs > 0)
     problems.add(place, "a grid takes no budget of runs: it has as many as there are combinations");
   if (study.of_sensitivity() && study.runs > 0)
-    problems.add(place, fmt::format("method {} takes no budget of runs; expected method: {{{}: N}}",
-                                    kMethods[static_cast<std::size_t>(study.method)],
+    problems.add(place, fmt::format("method {} takes no budget of runs; expected method: {{{}: N}}", name_of(study.method),
                                     study.method == Method::morris ? "trajectories" : "samples"));
   if (study.method != Method::grid && !study.of_sensitivity() && study.runs == 0)
-    problems.add(place, "missing budget: {runs: N}, which method " +
-                            std::string(kMethods[static_cast<std::size_t>(study.method)]) + " needs");
+    problems.add(place, "missing budget: {runs: N}, which method " + std::string(name_of(study.method)) + " needs");
   if (study.runs > 0 && study.runs < static_cast<std::int64_t>(study.runs_of_point()))
     problems.add(place, fmt::format("a budget of {} runs is less than the {} {} of one point", study.runs,
                                     study.runs_of_point(), study.scenarios.empty() ? "replicates" : "runs"));

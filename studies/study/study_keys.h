@@ -28,7 +28,7 @@ struct MethodKeys {
   Study& study;
   void fields(Fields& f) {
     f.choice(
-        "type", study.method, kMethods,
+        "type", study.method, enum_names<Method>(),
         "grid: every combination of values; random, sobol: points drawn, at random or evenly by a Sobol sequence; morris, "
         "sobol_indices: which parameters matter, by elementary effects or shares of the variance. The others search (gaitlab "
         "optimize): cma, xnes, sade, pso for one objective, nsga2 for two or three.");

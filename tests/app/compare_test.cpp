@@ -35,26 +35,26 @@ class CompareCommand : public ::testing::Test {
 };
 
 const std::string kSummaryA =
-    R"({"name": "a", "engine": "bullet", "step": 2.5e-05, "distance": 0.5, "speed": 0.25, "displacement": [0.5, 0],
+    R"({"name": "a", "engine": "bullet", "joints": ["m0/active"], "step": 2.5e-05, "distance": 0.5, "speed": 0.25, "displacement": [0.5, 0],
         "per_joint": {"m0/active": {"torque": {"peak": 0.1, "rms": 0.05}}, "m1/passive": {"torque": {"peak": 1.5, "rms": 0.5}}},
         "limit_cycle": {"found": false, "period": 0}, "stability": {"max": 0.4}, "trace_hash": "00000000000000aa"})";
 const std::string kSummaryB =
-    R"({"name": "a", "engine": "bullet", "step": 1.25e-05, "distance": 0.51, "speed": 0.25, "displacement": [0.5, 0.1],
+    R"({"name": "a", "engine": "bullet", "joints": ["m0/active"], "step": 1.25e-05, "distance": 0.51, "speed": 0.25, "displacement": [0.5, 0.1],
         "per_joint": {"m0/active": {"torque": {"peak": 9.5, "rms": 0.05}}, "m1/passive": {"torque": {"peak": 1.2, "rms": 0.5}}},
         "limit_cycle": {"found": true, "period": 4}, "stability": {"max": 0.2}, "trace_hash": "00000000000000bb"})";
 
-TEST_F(CompareCommand, TableAndSummary) {
+TEST_F(CompareCommand, SettingsNumbersAndWorstColumns) {
   make_run("a", "t,joint.0.angle,joint.0.speed,base.x\n0,0,0,1\n0.5,1,0,2\n1,2,0,3\n", kSummaryA);
   make_run("b", "t,joint.0.angle,joint.0.speed,base.x\n0,0,0,1\n0.5,1.5,0,2\n1,2,0,3.25\n", kSummaryB);
+  folder.write("a/scenario.resolved.yaml", "physics:\n  step: 2.5e-05\ncontroller: {Kp: 100}\n");
+  folder.write("b/scenario.resolved.yaml", "physics:\n  step: 1.25e-05\ncontroller: {Kp: 100, Kd: 1}\n");
   expect_report("a b",
                 "A: a/trace.csv (3 rows)\n"
                 "B: b/trace.csv (3 rows)\n"
                 "\n"
-                "column         unit          RMS        max  RMS/range  max/range    from t =  late by\n"
-                "joint.0.angle              0.289        0.5     14.4 %       25 %       0.5 s  -\n"
-                "base.x                     0.144       0.25     7.22 %     12.5 %         1 s  -\n"
-                "1 of 3 columns are equal to the bit in 3 rows\n"
-                "first to part: joint.0.angle at t = 0.5 s\nfarthest apart: joint.0.angle, RMS 14.4 % of its range\n"
+                "settings: A -> B\n"
+                "  physics.step: 2.5e-05 -> 1.25e-05\n"
+                "  controller.Kd: not set -> 1\n"
                 "\n"
                 "summary                                      A                  B  B - A\n"
                 "step, s                                2.5e-05           1.25e-05  -50 %\n"
@@ -67,7 +67,52 @@ TEST_F(CompareCommand, TableAndSummary) {
                 "m1/passive torque peak, N m                1.5                1.2  -20 %\n"
                 "m1/passive torque RMS, N m                 0.5                0.5  equal\n"
                 "stability max                              0.4                0.2  -50 %\n"
-                "trace hash                    00000000000000aa   00000000000000bb  differs\n");
+                "trace hash                    00000000000000aa   00000000000000bb  differs\n"
+                "\n"
+                "column             RMS   max  RMS/range  max/range  from t =  late by\n"
+                "m0/active angle  0.289   0.5     14.4 %       25 %     0.5 s        -\n"
+                "base.x           0.144  0.25     7.22 %     12.5 %       1 s        -\n"
+                "1 of 3 columns are equal to the bit in 3 rows\n"
+                "first to part: m0/active angle at t = 0.5 s\n");
+}
+
+/// A joint has the name that both runs give it, and `--columns` takes it.
+TEST_F(CompareCommand, NamesOfJoints) {
+  const std::string trace = "t,joint.0.angle,joint.1.angle\n0,0,0\n0.5,1,1\n";
+  make_run("a", trace, R"({"joints": ["m0/active", "m0/passive"]})");
+  make_run("b", "t,joint.0.angle,joint.1.angle\n0,0,0\n0.5,2,3\n", R"({"joints": ["m0/active", "m1/active"]})");
+  Result result = compare("a b");
+  EXPECT_NE(result.out.find("\nthe robots' joints differ (2 and 2): columns are compared by number all the same\n"),
+            std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("\nm0/active angle "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\njoint.1.angle "), std::string::npos) << result.out;
+  result = compare("a b --columns 'm0/*'");
+  EXPECT_NE(result.out.find("\n0 of 1 columns are "), std::string::npos) << result.out;
+  expect_refused("a b --columns 'm0/active angel'",
+                 "--columns: error: 'm0/active angel' matches no column of either trace; did you mean 'm0/active angle'?");
+}
+
+TEST_F(CompareCommand, TheTenWorstAndAllOnRequest) {
+  std::string head = "t";
+  std::string row = "\n0";
+  std::string other = "\n0";
+  std::string last = "\n0.5";
+  for (int i = 0; i < 12; ++i) {
+    head += ",joint." + std::to_string(i) + ".angle";
+    row += ",0";
+    other += ",0." + std::string(i < 9 ? "0" : "") + std::to_string(i + 1);
+    last += ",1";
+  }
+  make_run("a", head + row + last + "\n", "{}");
+  make_run("b", head + other + last + "\n", "{}");
+  Result result = compare("a b");
+  EXPECT_NE(result.out.find("late by\njoint.11.angle "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\nand 2 more: --all\n0 of 12 columns are "), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("\njoint.1.angle "), std::string::npos) << result.out;
+  result = compare("a b --all");
+  EXPECT_NE(result.out.find("\njoint.0.angle "), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("--all"), std::string::npos) << result.out;
 }
 
 TEST_F(CompareCommand, ColumnsAndTraceFiles) {
@@ -79,19 +124,23 @@ TEST_F(CompareCommand, ColumnsAndTraceFiles) {
                 "1 column in B only: base.y\n"
                 "A has 2 rows, B has 3\n"
                 "\n"
-                "column  unit          RMS        max  RMS/range  max/range    from t =  late by\n"
-                "base.x              0.707          1     70.7 %      100 %       0.5 s  -\n"
-                "0 of 1 columns are equal to the bit in 2 rows\n"
-                "first to part: base.x at t = 0.5 s\nfarthest apart: base.x, RMS 70.7 % of its range\n"
+                "settings: not compared, a CSV file has none\n"
                 "\n"
-                "summary numbers: not compared, a trace file has none\n");
+                "summary numbers: not compared, a trace file has none\n"
+                "\n"
+                "column    RMS  max  RMS/range  max/range  from t =  late by\n"
+                "base.x  0.707    1     70.7 %      100 %     0.5 s        -\n"
+                "0 of 1 columns are equal to the bit in 2 rows\n"
+                "first to part: base.x at t = 0.5 s\n");
   expect_report("b.csv b.csv",
                 "A: b.csv (3 rows)\n"
                 "B: b.csv (3 rows)\n"
                 "\n"
-                "3 of 3 columns are equal to the bit in 3 rows\n"
+                "settings: not compared, a CSV file has none\n"
                 "\n"
-                "summary numbers: not compared, a trace file has none\n");
+                "summary numbers: not compared, a trace file has none\n"
+                "\n"
+                "3 of 3 columns are equal to the bit in 3 rows\n");
   expect_refused("a b.csv --columns base.z --columns 'joint.*' --columns nonsense",
                  "--columns: error: 'base.z' matches no column of either trace; did you mean 'base.x'?\n"
                  "--columns: error: 'nonsense' matches no column of either trace");
@@ -107,7 +156,7 @@ TEST_F(CompareCommand, UnreadableInput) {
   make_run("unfinished", "t,x\n0,1\n");
   expect_refused("a unfinished", "unfinished/summary.json: error: cannot be read: No such file or directory");
   make_run("cut", "t,x\n0,1\n", kSummaryA.substr(0, 140));
-  expect_refused("a cut", "cut/summary.json:2:32: error: is not JSON from here on: it is truncated or damaged");
+  expect_refused("a cut", "cut/summary.json:2:7: error: is not JSON from here on: it is truncated or damaged");
   make_run("list", "t,x\n0,1\n", "[1, 2]\n");
   expect_refused("a list", "list/summary.json:1:1: error: holds no JSON object: it is not a summary");
   make_run("huge", "t,x\n0,1\n", R"({"distance": 1e999})");
@@ -154,7 +203,8 @@ TEST_F(Formats, HoldTheSameTrace) {
   EXPECT_FALSE(stored.trace.columns[torque].definition.empty());
   EXPECT_EQ(hash(read_csv(folder / "csv/trace.csv")), hash(stored.trace));
   const Result result = gaitlab_here("compare h5 csv");
-  EXPECT_NE(result.out.find(" columns are equal to the bit in 21 rows\n\nsummary"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\nsettings: the same\n\nsummary"), std::string::npos) << result.out;
+  EXPECT_TRUE(result.out.ends_with(" columns are equal to the bit in 21 rows\n")) << result.out;
   EXPECT_EQ(result.out.find("column "), std::string::npos) << result.out;
 }
 

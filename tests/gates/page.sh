@@ -42,10 +42,15 @@ ok "report/page/dist/page.html is what its sources give, $size bytes"
 
 cd -- "$work"
 walk=("$root/scenarios/hexapod.yaml" --set duration=4 --set physics.engine=articulated --quiet)
-expect 0 "$program" run "${walk[@]}" --set 'trace.columns=[joint.*, base.*, com.*, contact.*, body.*]' --out feasible
+expect 0 "$program" run "${walk[@]}" --set duration=8 --set 'trace.columns=[joint.*, base.*, com.*, contact.*, body.*]' --out feasible
 expect 0 "$program" export feasible --to csv trace.csv
 fast=("${walk[@]}" --set cpg.frequency=1.2 --set cpg.amplitude=0.6 --demand)
 expect 0 "$program" run "${fast[@]}" --out infeasible
+# Motors that lack current; a robot that falls; motors that give any torque, and are told in N m.
+crawl=("$root/scenarios/caterpillar.yaml" --set physics.engine=articulated --quiet)
+expect 0 "$program" run "${crawl[@]}" --set actuator.i_max=0.35 --set duration=14 --out current
+expect 0 "$program" run "${crawl[@]}" --set duration=5 --set robot.position='[0, 0, 0.4]' --set robot.orientation='[0, -1.4, 0]' --set contact.on=all --out fall
+expect 0 "$program" run "${crawl[@]}" --set duration=2 --set actuator.type=torque --set 'controller={type: pid, unit: N m, Kp: 5, Kd: 0.05}' --out torque
 expect 0 "$program" run "$root/scenarios/pendulum.yaml" --set duration=2 --quiet --out open
 expect 0 "$program" check "$root/scenarios/hexapod.yaml" --quiet --page built.html
 # A module whose text would end a script, and begin a comment.
@@ -92,6 +97,7 @@ expect 0 "$program" report brisk slow
 expect 0 "$program" report infeasible csv --page robots.html
 expect 0 "$program" report feasible jointless --page ball.html
 expect 0 "$program" report brisk slow --page pair.html
+expect 0 "$program" report feasible infeasible --page pair_second.html
 cmp brisk/compare.html pair.html || fail "the same two runs give another page"
 ! grep -q "$work" pair.html strayed/*.html || fail "a page names a folder"
 # Same run, same bytes.
@@ -100,7 +106,7 @@ cmp infeasible/report.html again/report.html || fail "the same run gives another
 
 pages=(feasible=feasible/report.html infeasible=infeasible/report.html open=open/report.html built=built.html markup=markup/report.html
   failed=failed/report.html csv=csv/report.html old=old.html jointless=jointless/report.html built_ball=built_ball.html castor=castor/report.html motorless=motorless/report.html
-  pair=pair.html robots=robots.html ball=ball.html strayed=strayed/caterpillar-8.failure.html)
+  current=current/report.html fall=fall/report.html torque=torque/report.html pair=pair.html pair_second=pair_second.html robots=robots.html ball=ball.html strayed=strayed/caterpillar-8.failure.html)
 if ! node "$page/test/page_test.mjs" "${pages[@]}" trace=trace.csv >"$work/log" 2>&1; then
   grep -A 30 '^not ok' "$work/log" | head -n 300 >&2 || show_log # passed tests would fill what show_log shows
   fail "the page in $("$CHROMIUM" --version 2>/dev/null || printf %s "$CHROMIUM")"

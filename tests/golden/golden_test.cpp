@@ -67,16 +67,115 @@ TEST(Golden, KeepsTheResolvedScenario) {
   EXPECT_EQ(read_golden(folder.path() / "walk.golden").origin.resolved, "");
 }
 
-TEST(Golden, TellsWhichLinesOfTheScenarioChanged) {
+TEST(Golden, KeepsTheVerdict) {
+  const Folder folder;
+  Golden golden = sample_golden(walk());
+  golden.verdict = "not judged";
+  write_golden(golden, folder.path() / "walk.golden");
+  EXPECT_EQ(read_golden(folder.path() / "walk.golden").verdict, "not judged");
+  write_golden(sample_golden(walk()), folder.path() / "walk.golden");  // as goldens were before
+  EXPECT_EQ(read_file(folder.path() / "walk.golden/golden.json", kMostJson).find("verdict"), std::string::npos);
+  EXPECT_EQ(read_golden(folder.path() / "walk.golden").verdict, "");
+}
+
+// ---- what changed, as text
+
+TEST(GoldenReport, NamesTheSettingsThatChanged) {
   Golden golden = sample_golden(walk());
   GoldenProvenance now = golden.origin;
-  EXPECT_EQ(golden::origin_changes(golden, now), "");
+  EXPECT_EQ(golden::origin_changes(golden.origin, now), "");
+  now.engine = "articulated";
   now.resolved = "name: \"walk\"\nKp: 97\n\n";
   now.scenario = hash(now.resolved);
-  EXPECT_EQ(golden::origin_changes(golden, now), "  scenario: its resolved text is another\n");
+  EXPECT_EQ(golden::origin_changes(golden.origin, now),
+            "  engine: bullet -> articulated\n  the scenario is another; the golden is of before goldens kept it\n");
   golden.origin.resolved = kText;
-  EXPECT_EQ(golden::origin_changes(golden, now),
-            "  scenario: its resolved text is another:\n    line 2: \"Kp: 97\", was \"Kp: 100\"\n");
+  EXPECT_EQ(golden::origin_changes(golden.origin, now), "  Kp: 100 -> 97\n");
+  now.resolved = "name: fast\nKp: 97\n";
+  EXPECT_EQ(golden::origin_changes(golden.origin, now, 1), "  name: \"walk\" -> fast\n  ... and 1 more setting\n");
+}
+
+TEST(GoldenReport, NamesTheBuildsByWhatDiffers) {
+  const Golden golden = sample_golden(walk());
+  GoldenProvenance now = golden.origin;
+  now.build = "0.1.0+abd (GNU 12.2.0)";
+  EXPECT_EQ(golden::origin_changes(golden.origin, now), "  build: 0.1.0+abc -> 0.1.0+abd\n");
+  now.build = "0.1.0+abc (Clang 14.0.6)";
+  EXPECT_EQ(golden::origin_changes(golden.origin, now), "  build: 0.1.0+abc (GNU 12.2.0) -> 0.1.0+abc (Clang 14.0.6)\n");
+}
+
+TEST(GoldenReport, NamesTheVerdictWhereItChanged) {
+  Golden golden = sample_golden(walk());
+  GoldenRun run = run_of(golden);
+  run.verdict = "infeasible";
+  run.why = "joint m7/passive is at a limit of its motor for 22 % of the time, and the longest stretch of it is 0.83 s";
+  EXPECT_EQ(golden::verdict_change(golden, run), "");  // of before it was kept
+  golden.verdict = "feasible";
+  EXPECT_EQ(golden::verdict_change(golden, run),
+            "  verdict: feasible -> infeasible: joint m7/passive is at a limit of its motor for 22 % of the time,\n"
+            "  and the longest stretch of it is 0.83 s\n");
+  golden.verdict = "infeasible";
+  EXPECT_EQ(golden::verdict_change(golden, run), "");
+  golden.verdict = "\x1b[2J";
+  EXPECT_EQ(golden::verdict_change(golden, run).find('\x1b'), std::string::npos);
+}
+
+/// Twelve columns and two numbers; those of `strays` stray, each by one band more than the one before it.
+GoldenDifference difference_of(std::size_t columns, std::size_t numbers) {
+  GoldenDifference d;
+  for (std::size_t i = 0; i < columns; ++i) {
+    const std::string number = std::to_string(i);
+    ColumnCheck check{"joint." + number + ".torque", "m" + number + "/active torque", "N m"};
+    check.band = 1e-4;
+    check.rms = static_cast<double>(i + 2) * check.band;
+    check.scale = 2;
+    if (i > 0) check.outside = 0.02 * static_cast<double>(i);
+    if (i == columns - 1) check.time_shift = 0.013;
+    d.columns.push_back(check);
+  }
+  d.columns.push_back({"base.x", "base.x", "m", 0, 0, 1e-4, 1});
+  const NumberCheck all[] = {{"m1/active.torque.rms", "m1/active torque RMS", "N m", 0.5, 0.55, 0.1, 0.01},
+                             {"distance", "distance", "m", 0.5, 0.51, 0.02, 0.01}};
+  for (std::size_t i = 0; i < numbers; ++i) d.numbers.push_back(all[i]);
+  return d;
+}
+
+TEST(GoldenReport, ShowsTheTenWorstColumnsAndTheWay) {
+  GoldenDifference d = difference_of(12, 2);
+  EXPECT_EQ(golden::differences(d, Shown::brief),
+            "  column             RMS off by  of its range    band  in bands  outside from   late by\n"
+            "  m11/active torque  0.0026 N m        0.13 %  0.01 %        13        0.22 s  +0.013 s\n"
+            "  m10/active torque  0.0024 N m        0.12 %  0.01 %        12         0.2 s         -\n"
+            "  m9/active torque   0.0022 N m        0.11 %  0.01 %        11        0.18 s         -\n"
+            "  m8/active torque    0.002 N m         0.1 %  0.01 %        10        0.16 s         -\n"
+            "  m7/active torque   0.0018 N m        0.09 %  0.01 %         9        0.14 s         -\n"
+            "  m6/active torque   0.0016 N m        0.08 %  0.01 %         8        0.12 s         -\n"
+            "  m5/active torque   0.0014 N m        0.07 %  0.01 %         7         0.1 s         -\n"
+            "  m4/active torque   0.0012 N m        0.06 %  0.01 %         6        0.08 s         -\n"
+            "  m3/active torque    0.001 N m        0.05 %  0.01 %         5        0.06 s         -\n"
+            "  m2/active torque   0.0008 N m        0.04 %  0.01 %         4        0.04 s         -\n"
+            "  distance: 0.5 -> 0.51 m, 2 bands\n");
+  EXPECT_EQ(golden::left_out(d), 3U);  // two columns, a number
+  const std::string all = golden::differences(d, Shown::strayed);
+  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 1 + 12 + 1 + 2) << all;
+  EXPECT_TRUE(all.find("  m0/active torque   0.0004 N m        0.02 %  0.01 %         2         never         -\n") !=
+              std::string::npos)
+      << all;
+  d.numbers.pop_back();
+  EXPECT_TRUE(golden::differences(d, Shown::brief).ends_with("\n  m1/active torque RMS: 0.5 -> 0.55 N m, 10 bands\n"));
+}
+
+TEST(GoldenReport, ShowsNumbersWhereNoColumnStrayed) {
+  GoldenDifference d = difference_of(0, 2);
+  EXPECT_EQ(golden::differences(d, Shown::brief),
+            "  number                 golden       now  change  band  in bands\n"
+            "  m1/active torque RMS  0.5 N m  0.55 N m    10 %   1 %        10\n"
+            "  distance                0.5 m    0.51 m     2 %   1 %         2\n");
+  EXPECT_EQ(golden::left_out(d), 0U);
+  for (int i = 0; i < 7; ++i) d.findings.push_back("joint m" + std::to_string(i) + " is odd");
+  EXPECT_TRUE(golden::differences(d, Shown::brief).starts_with("  joint m0 is odd\n")) << golden::differences(d, Shown::brief);
+  EXPECT_NE(golden::differences(d, Shown::brief).find("  joint m4 is odd\n  ... and 2 more like these\n  number"),
+            std::string::npos);
 }
 
 class GoldenFolder : public ::testing::Test {
@@ -162,6 +261,8 @@ TEST_F(GoldenFolder, ChecksumsThatAreRightOnOtherContent) {
   };
   text.replace(text.rfind("\"unit\":\"m\""), 10, "\"unit\":[1]");  // of a number
   put_checked(text.substr(0, end));
+  EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: an entry is missing or of another type");
+  put_checked(content + ",\n  \"verdict\": [1]");
   EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: an entry is missing or of another type");
   put_checked(content + ",\n  \"resolved\": [1]");
   EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: an entry is missing or of another type");

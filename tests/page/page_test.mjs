@@ -1,10 +1,11 @@
 // The report page in a browser. usage: node page_test.mjs NAME=FILE...
 // feasible, infeasible, failed, open (not judged), built: pages by what they say; markup: one of a scenario with markup in its text; csv, old
-// (a folder of format 1), jointless, built_ball: what there is little of; castor, motorless: joint 0 has no motor, none has; pair, robots, ball: two runs; strayed: of a golden.
+// (a folder of format 1), jointless, built_ball: what there is little of; castor, motorless: joint 0 has no motor, none has; fall, current: runs that fail in other ways; torque: of torque sources; pair, robots, ball, pair_second: two runs; strayed: of a golden.
 // trace: CSV of the feasible run with body.* columns.
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
 import { readFileSync } from "node:fs";
+import { resolve } from "node:path";
 import { after, test } from "node:test";
 import { close, columnsOf, frames, metaOf, open } from "./browser.mjs";
 
@@ -26,7 +27,12 @@ const on = (name, file, options, body) => file && test(name, async (parts) => {
     await done();
   }
 });
+const factsOf = async (page) => Object.fromEntries(await page.$$eval("#facts > div", (all) => all.map((d) => [d.querySelector("dt").textContent, d.querySelector("dd").textContent])));
 const state = (page) => page.evaluate(() => ({ ...window.gaitlab.page.state }));
+const words = { pass: "pass", warn: "warning", fail: "fail", "too close": "too close", "not judged": "not judged" };
+const wordOf = (c) => c && (c.id === "stability" && c.status === "pass" ? "a note" : words[c.status]);
+const failing = (meta) => meta.verdict.checks.find((c) => c.status === "fail" && c.group !== "trust");
+const nameOf = (meta, c) => (c.part === "dock" ? `${c.worst}'s dock` : c.part === "foot" ? meta.feet.find((f) => f.name === c.worst)?.title ?? c.worst : c.worst);
 const near = (a, b, off, what) => assert.ok(Math.abs(a - b) <= off, `${what}: ${a}, expected ${b}`);
 
 for (const [name, file] of Object.entries(pages)) {
@@ -52,8 +58,7 @@ for (const [name, file] of Object.entries(pages)) {
       assert.equal(await page.title(), `${meta.name}: gaitlab report`);
       if (meta.outcome === "not run") return;
       const rows = await page.$$eval("#checks [data-check]", (all) => all.map((r) => [r.dataset.check, r.querySelector(".mark").textContent, r.querySelector(".what").textContent]));
-      const words = { pass: "pass", warn: "warning", fail: "fail", "not judged": "not judged" };
-      assert.deepEqual(rows, meta.verdict.checks.map((c) => [c.id, words[c.status], c.title]));
+      assert.deepEqual(rows, meta.verdict.checks.map((c) => [c.id, wordOf(c), c.title]));
     });
 
     await part.test(`${name}: accessible, light and dark`, async () => {
@@ -138,17 +143,43 @@ for (const name of ["feasible", "infeasible"]) {
     assert.equal(await page.inputValue("#joint"), String(hit.k));
   });
 
-  on(`${name}: a check goes to its joint and time`, file, {}, async (page, meta) => {
-    const places = meta.verdict.checks.filter((c) => c.joint !== null && c.from !== null);
+  on(`${name}: a check goes to its part and time`, file, {}, async (page, meta) => {
+    const places = meta.verdict.checks.filter((c) => c.worst !== null && c.from !== null && c.status !== "not judged");
     assert.ok(places.length > 0);
     for (const check of places) {
       const title = page.locator(`[data-check="${check.id}"] button`);
       await title.click();
       const { joint, t } = await state(page);
-      assert.equal(meta.joints[joint].name, check.joint);
-      near(t, check.from, 1e-9, check.id);
+      if (check.part === "joint") assert.equal(meta.joints[joint].name, check.worst);
+      if (check.part === "dock") assert.equal(`m${meta.joints[joint].module}`, check.worst);
+      assert.ok(t > check.from - 0.5 * meta.period && t < check.to + 0.5 * meta.period, `${check.id}: ${t}, ${check.from} to ${check.to}`);
       assert.equal(await title.getAttribute("aria-expanded"), "true");
+      assert.ok((await page.locator(`[data-check="${check.id}"] + tr`).textContent()).includes(nameOf(meta, check)), check.id);
     }
+  });
+
+  // A peak lies between two control ticks, and its number belongs to the row where it is largest: no other row in the stretch has more.
+  on(`${name}: a peak is shown at the row where it is largest`, file, {}, async (page, meta) => {
+    const peaks = [["speed", "speed"], ["gear_peak", "torque"]].flatMap(([id, quantity]) => meta.verdict.checks.filter((c) => c.id === id && c.worst !== null && c.from !== null && c.status !== "not judged").map((c) => [c, quantity]));
+    assert.ok(peaks.length > 0);
+    for (const [check, quantity] of peaks) {
+      await page.locator(`[data-check="${check.id}"] button`).click();
+      const [at, most] = await page.evaluate(([c, what]) => {
+        const { recording, state: { t, joint } } = window.gaitlab.page, values = recording.channel(`joint.${joint}.${what}`), within = [...recording.times.keys()].filter((i) => recording.times[i] > c.from - 1e-6 && recording.times[i] < c.to + 1e-6);
+        return [Math.abs(values[recording.row(t)]), Math.max(...within.map((i) => Math.abs(values[i])))];
+      }, [check, quantity]);
+      assert.equal(at, most, check.id);
+    }
+  });
+
+  on(`${name}: checks that were not judged are one line`, file, {}, async (page, meta) => {
+    const open = meta.verdict.checks.filter((c) => c.status === "not judged"), line = page.locator("#checks .fold button");
+    assert.ok(open.length > 1);
+    assert.equal(await line.textContent(), `${open.length} checks not judged`);
+    for (const { id } of open) assert.ok(await page.isHidden(`[data-check="${id}"]`), id);
+    await line.click();
+    assert.equal(await line.getAttribute("aria-expanded"), "true");
+    for (const { id } of open) assert.ok(await page.isVisible(`[data-check="${id}"]`), id);
   });
 
   on(`${name}: plays`, file, {}, async (page) => {
@@ -175,21 +206,105 @@ on("feasible: a link leads to joint, time and theme", pages.feasible, { link: "j
   assert.equal(await page.getAttribute("html", "data-theme"), "dark");
 });
 
-on("feasible: does not start by itself where motion is reduced", pages.feasible, { link: "", reducedMotion: "reduce" }, async (page) => {
-  assert.equal((await state(page)).playing, false);
+on("feasible: opens paused at what is tightest", pages.feasible, { link: "" }, async (page, meta) => {
+  const { playing, joint, t } = await state(page), { tightest, checks, rests_on } = meta.verdict, check = checks.find((c) => c.id === tightest);
+  assert.equal(playing, false);
+  if (check.part === "joint") assert.equal(meta.joints[joint].name, check.worst);
+  if (check.from !== null) assert.ok(t > check.from - meta.period && t < check.to + meta.period, `${t}; ${JSON.stringify(check)}`);
+  assert.equal(await page.textContent("#said"), "Feasible with these motors");
+  assert.ok((await page.textContent("#why")).startsWith(`Over ${rests_on}: `));
+  const facts = await factsOf(page);
+  assert.ok(facts.Tightest.includes(check.worst === null ? check.title : nameOf(meta, check)), `${facts.Tightest}; ${JSON.stringify(check)}`);
 });
 
-on("infeasible: which joint first, when, how much", pages.infeasible, {}, async (page, meta) => {
-  const facts = Object.fromEntries(await page.$$eval("#facts > div", (all) => all.map((d) => [d.querySelector("dt").textContent, d.querySelector("dd").textContent])));
-  const { first } = meta.verdict, said = facts["First of the run at a limit"];
-  assert.ok(said.startsWith(first.joint) && said.includes(`at ${first.time.toFixed(2)}`), `${said}; ${JSON.stringify(first)}`);
-  const failed = meta.verdict.checks.find((c) => c.status === "fail" && c.group !== "trust");
-  assert.ok(facts["Longest at its limit"].startsWith(failed.joint));
-  assert.ok(facts["Its longest stretch"].startsWith(failed.from.toFixed(2)));
+on("infeasible: what was first over the limit, what is worst, when, how much is missing", pages.infeasible, {}, async (page, meta) => {
+  const facts = await factsOf(page), check = failing(meta), { longest, why, demand } = meta.verdict;
+  assert.ok((await page.textContent("#why")).toLowerCase().startsWith(why.toLowerCase().replace(/[.]$/, "")), "the terminal's sentence");
+  assert.ok(facts["First over the limit"].startsWith(check.first_part) && Math.abs(/at ([\d.]+)/.exec(facts["First over the limit"])[1] - check.first) < 6e-3, `${facts["First over the limit"]}; ${check.first}`);
+  assert.ok(facts.Worst.startsWith(check.worst));
+  const share = (joint) => joint.voltage + joint.current;
+  assert.ok(share(longest) > 0 && facts["Longest at a limit"].startsWith(longest.joint));
+  near(Number(/^[\d.]+/.exec(facts.When)[0]), check.from, 6e-3, "when");
   const { missing } = meta.verdict.checks.find((c) => c.status === "fail" && c.missing);
   assert.ok(missing.startsWith(/^[\d.]+ \S+/.exec(facts.Missing)[0]), `${facts.Missing}; ${missing}`);
   const asked = await page.$$eval("#demand tbody tr", (all) => all.map((r) => r.firstChild.textContent));
-  assert.ok(asked.length > 0 && asked.every((name) => meta.verdict.demand.joints.some((d) => d.joint === name)));
+  assert.ok(asked.length > 0 && asked.every((name) => demand.joints.some((d) => d.joint === name)));
+  const advice = await page.textContent(`[data-check="${check.id}"] + tr .try`);
+  assert.ok(advice.startsWith("Try: ") && advice.includes((check.remedy || check.advice).replace(/[.]$/, "")));
+});
+
+// The joint of the row with the largest share of the time at a limit, by the rows that are drawn.
+on("infeasible: the joint that is longest at a limit is that of the rows, too", pages.infeasible, {}, async (page, meta) => {
+  const shares = await page.evaluate(() => {
+    const { recording } = window.gaitlab.page;
+    return recording.meta.joints.map((_, j) => recording.channel(`joint.${j}.saturation`).filter((v, i) => v > 0 && i >= recording.judged).length);
+  });
+  const joint = meta.joints.findIndex((j) => j.name === meta.verdict.longest.joint);
+  assert.ok(shares[joint] >= 0.97 * Math.max(...shares), `${shares}; ${joint}`); // a row is 5 ms of its stretch: both ends of some thirty
+});
+
+// A number in red is beyond the limit beside it.
+for (const name of ["infeasible", "fall", "current"]) {
+  on(`${name}: what fails is beyond the limit that it stands beside`, pages[name], {}, async (page, meta) => {
+    const failed = meta.verdict.checks.filter((c) => c.status === "fail");
+    assert.ok(failed.length > 0);
+    for (const c of failed) if (c.value !== null && c.limit !== null) assert.ok(c.least ? c.value < c.limit : c.value > c.limit, `${c.id}: ${c.value}, limit ${c.limit}`);
+  });
+
+  on(`${name}: opens paused where it fails`, pages[name], { link: "" }, async (page, meta) => {
+    const { playing, joint, t } = await state(page), check = failing(meta);
+    assert.equal(playing, false);
+    assert.ok(t > check.from - meta.period && t < check.to + meta.period, `${t}, ${check.from} to ${check.to}`);
+    if (check.part !== "joint") return;
+    assert.equal(meta.joints[joint].name, check.worst);
+    if (!["voltage", "current"].includes(check.id)) return;
+    const saturated = await page.evaluate(() => {
+      const { recording, state: now } = window.gaitlab.page;
+      return recording.channel(`joint.${now.joint}.saturation`)[recording.row(now.t)];
+    });
+    assert.ok(saturated > 0, "the motor is at its limit at the row shown");
+  });
+}
+
+on("fall: it is when it fell", pages.fall, { link: "" }, async (page, meta) => {
+  const check = failing(meta), { t } = await state(page), [before, at] = await page.evaluate((fell) => {
+    const { recording } = window.gaitlab.page, z = recording.channel("com.z"), share = (time) => recording.at(z, time) / z[0];
+    return [share(fell - 0.05), share(fell + 0.02)];
+  }, check.from);
+  assert.equal(check.id, "fall");
+  near(t, check.from, 1e-9, "time");
+  assert.ok(before > check.limit && at < check.limit, `${before}, ${at} of the height at the start`);
+});
+
+on("pair_second: opens where the second run fails", pages.pair_second, { link: "" }, async (page, meta) => {
+  const check = failing(meta.overlay.run), { joint, t } = await state(page);
+  assert.equal(failing(meta), undefined);
+  assert.equal(meta.joints[joint].name, check.worst);
+  assert.ok(t > check.from - meta.overlay.run.period && t < check.to + meta.overlay.run.period, `${t}, ${check.from} to ${check.to}`);
+});
+
+on("torque: the command of a torque source is drawn in N m", pages.torque, {}, async (page, meta) => {
+  assert.equal(meta.motors[0].unit, "N m");
+  assert.match(await page.textContent("#drive-key"), /torque asked for/);
+  const drawn = await page.evaluate(() => {
+    const { panels, state: now, recording } = window.gaitlab.page, { plot } = panels.flatMap((p) => p.plots ?? []).find((p) => p.plot.series[1].label === "torque asked for");
+    return [Math.max(...plot.data[1].map(Math.abs)), Math.max(...recording.channel(`joint.${now.joint}.voltage_command`).map(Math.abs))];
+  });
+  assert.ok(drawn[0] > 0.01 && drawn[0] === drawn[1], String(drawn));
+});
+
+on("commands to paste have the folder of the page", pages.current, {}, async (page) => {
+  const folder = pages.current.replace(/\/report.html$/, "");
+  assert.ok((await page.textContent("#foot-text")).endsWith(`gaitlab rerun ${resolve(folder)}`));
+  assert.equal(await page.textContent("#aside code"), `gaitlab report --demand ${resolve(folder)}`);
+});
+
+on("numbers below a floor are 0, and large ones have a prefix", Object.values(pages)[0], {}, async (page) => {
+  const texts = await page.evaluate(() => {
+    const { quantity, percent, decimalsOf, capital } = window.gaitlab.texts;
+    return [quantity(3e-11, "N m"), percent(2.6e-10), quantity(1.17e6, "J"), quantity(-2.5e-9, "m"), quantity(0.0123, "m"), decimalsOf(1e-10, "N m"), decimalsOf(0.004, "N m"), capital("m3/active stalls"), capital("m5's dock is bent"), capital("the robot falls")];
+  });
+  assert.deepEqual(texts.map((t) => String(t).replaceAll("\u00a0", " ")), ["0 N m", "0 %", "1.17 MJ", "0 mm", "12.3 mm", "2", "4", "m3/active stalls", "m5's dock is bent", "The robot falls"]);
 });
 
 // Hinges are where the engine had them: the body that a hinge's frame belongs to, of the trace's body.* columns, through the camera's
@@ -246,7 +361,7 @@ on("failed: why it ended, and what there is until then", pages.failed, {}, async
 
 on("old: what a folder of format 1 lacks is said, and nothing is made up", pages.old, {}, async (page, meta) => {
   assert.ok(meta.missing.length > 0);
-  assert.deepEqual(await page.$$eval("#missing li", (all) => all.map((l) => l.textContent.replace(/[.]$/, ""))), meta.missing);
+  assert.deepEqual(await page.$$eval("#missing li", (all) => all.map((l) => l.textContent.toLowerCase().replace(/[.]$/, ""))), meta.missing.map((m) => m.toLowerCase()));
   assert.ok(await page.isVisible("#motion"));
   assert.ok(meta.missing.some((m) => /^judged from the trace's rows/.test(m)));
   assert.match(await page.textContent('[data-check="voltage"] .value'), /^0\s%$/);
@@ -290,9 +405,9 @@ for (const name of ["pair", "robots", "ball"]) {
     const runs = [meta, meta.overlay.run];
     for (const [n, id] of ["#said", "#said-second"].entries()) assert.match(await page.textContent(id), saidOf(runs[n]));
     const rows = await page.$$eval("#checks [data-check]", (all) => all.map((r) => [r.dataset.check, ...[...r.querySelectorAll(".value")].map((v) => v.querySelector(".sr")?.textContent ?? null)]));
-    const words = { pass: "pass", warn: "warning", fail: "fail", "not judged": "not judged" }, ids = new Set(runs.flatMap((r) => r.verdict.checks.map((c) => c.id)));
+    const ids = new Set(runs.flatMap((r) => r.verdict.checks.map((c) => c.id)));
     assert.deepEqual(new Set(rows.map(([id]) => id)), ids);
-    for (const [id, ...shown] of rows) assert.deepEqual(shown, runs.map((r) => words[r.verdict.checks.find((c) => c.id === id)?.status] ?? null), id);
+    for (const [id, ...shown] of rows) assert.deepEqual(shown, runs.map((r) => wordOf(r.verdict.checks.find((c) => c.id === id)) ?? null), id);
     const told = await page.textContent("#pair"), own = meta.joints.map((j) => j.name), common = meta.overlay.run.joints.filter((j) => own.includes(j.name)).length;
     if (common < own.length) assert.match(told, common ? new RegExp(`have ${common} joints in common`) : /have no joint in common/);
   });

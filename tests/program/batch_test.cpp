@@ -40,7 +40,7 @@ TEST(Batch, EndsEveryRolloutAsAlone) {
       run_batch(all, {threads, lanes}, [&](std::size_t i, Recording&& end) {
         const std::lock_guard hold(lock);
         EXPECT_TRUE(ends[i].empty()) << "told twice: " << i;
-        ends[i] = bits(end, end.outcome);
+        ends[i] = bits(end, end.outcome.text());
       });
       for (std::size_t i = 0; i < all.size(); ++i) {
         EXPECT_EQ(ends[i], expected[i]) << "rollout " << i << ", " << lanes << " lanes, " << threads << " threads";
@@ -59,7 +59,7 @@ TEST(Batch, MixesRobotsOfOneStructureAndKeepsOthersApart) {
   EXPECT_TRUE(can_share(all[1], all[2]));
   EXPECT_FALSE(can_share(all[0], all[1]));
   std::vector<std::string> ends(all.size());
-  run_batch(all, {}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome); });
+  run_batch(all, {}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome.text()); });
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(ends[i], alone(all[i])) << i;
 }
 
@@ -70,7 +70,8 @@ TEST(Batch, TellsOfTheOthersBesideOneThatIsRefused) {
       kScenarios + "hexapod.yaml",
       {"physics.engine=articulated", "physics.integrator=rk4", "physics.step=2.5e-5", "duration=0.01"}, own, catalog());
   std::vector<std::string> ends(all.size());
-  EXPECT_THROW(run_batch(all, {}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome); }), InputError);
+  EXPECT_THROW(run_batch(all, {}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome.text()); }),
+               InputError);
   EXPECT_TRUE(ends[1].empty()) << ends[1];
   for (const std::size_t i : {0U, 2U, 3U}) EXPECT_EQ(ends[i], alone(all[i]));
 }
@@ -79,7 +80,7 @@ TEST(Batch, RunsEveryEngine) {
   const std::vector<Scenario> all =
       rollouts(kScenarios + "pendulum.yaml", {"duration=0.05"}, std::vector<std::vector<std::string>>(3), catalog());
   std::vector<std::string> ends(all.size());
-  run_batch(all, {.threads = 2}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome); });
+  run_batch(all, {.threads = 2}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome.text()); });
   for (const std::string& end : ends) EXPECT_EQ(end, alone(all[0]));
 }
 

@@ -4,6 +4,7 @@
 
 #include "report/verdict/trust.h"
 #include "tests/program/fixture.h"
+#include "tests/report/verdict/messages.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
@@ -133,7 +134,7 @@ TEST_P(Limits, AreMetAsByBulletAtAFineStep) {
     validate_below({"limits.torque", "motors at their limits, torque at rows: worst joint, RMS over its peak", source, ""},
                    error, 0.01, "what accuracy, 1 %, asks for");
   } else {
-    EXPECT_FALSE(report::trust_warnings(s, ours).empty());
+    EXPECT_FALSE(messages(s, ours, About::accuracy).empty());
   }
   double share = 0;
   for (std::size_t j = 0; j < ours.joints.size(); ++j) {
@@ -168,7 +169,7 @@ TEST(StiffGround, MakesNoEnergyAndTheRobotWalksAsFar) {
     const double allowed = s.physics.adaptive_step ? 0.03 : 0.06;
     EXPECT_NEAR(travel(r), far, allowed * far) << step;
     EXPECT_EQ(r.tally.off, 0) << step;
-    EXPECT_FALSE(report::trust_warnings(s, r).empty()) << step;
+    EXPECT_FALSE(messages(s, r, About::accuracy).empty()) << step;
   }
 }
 

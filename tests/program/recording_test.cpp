@@ -59,8 +59,8 @@ TEST(ReadBackEarly, SaysWhyTheRunEnded) {
   const Result ran = gaitlab(fmt::format("run '{}hexapod.yaml' --out run {}", kScenarios, kDiverges), folder.path());
   ASSERT_EQ(ran.code, 1) << ran.err;
   const StoredRecording stored = read_recording(folder / "run");
-  EXPECT_NE(stored.recording.outcome, "done");
-  EXPECT_EQ(stored.recording.outcome, read_summary(folder / "run")["outcome"]);
+  EXPECT_EQ(stored.recording.outcome.ended, Ended::diverged);
+  EXPECT_EQ(stored.recording.outcome.text(), read_summary(folder / "run")["outcome"]);
   const Result again = gaitlab("report run --out again", folder.path());
   EXPECT_EQ(again.code, 0);
   EXPECT_TRUE(again.err.starts_with("run: note: this run ended early: diverged at step ")) << again.err;

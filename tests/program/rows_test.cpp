@@ -181,7 +181,7 @@ TEST(Rows, AreTheSameBesideOthers) {
         std::vector<std::string> ends(all.size());
         run_batch(all, {threads, lanes}, [&](std::size_t i, Recording&& end) {
           const std::lock_guard hold(lock);
-          ends[i] = bits(end, end.outcome);
+          ends[i] = bits(end, end.outcome.text());
         });
         for (std::size_t i = 0; i < all.size(); ++i) {
           EXPECT_EQ(ends[i], expected[i]) << file << ", rollout " << i << ", " << lanes << " lanes, " << threads << " threads";

@@ -282,8 +282,9 @@ TEST(Servo, SourcesAreOfWhatTheModuleTypeStates) {
     return report::motor_source(read_scenario(path, {}, catalog()));
   };
   EXPECT_EQ(source(""), "data sheet 17");
-  EXPECT_EQ(source("actuator: {u_max: 9}\n"), "u_max of the scenario; the rest: data sheet 17");
-  EXPECT_EQ(source("actuator: {stall_torque: 1.5}\n"), "stall_torque of the scenario; the rest: data sheet 17");
+  EXPECT_EQ(source("actuator: {u_max: 9}\n"), "chosen: no source stated for u_max of the scenario; the rest: data sheet 17");
+  EXPECT_EQ(source("actuator: {stall_torque: 1.5, source: bench}\n"),
+            "stall_torque of the scenario: bench; the rest: data sheet 17");
 }
 
 }  // namespace

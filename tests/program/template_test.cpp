@@ -152,6 +152,13 @@ TEST(Stream, EndsAtTheFirstThatIsNotMade) {
   }
 }
 
+/// Its notes, each with its place.
+std::string told(const Scenario& scenario) {
+  std::string text;
+  for (const Note& note : scenario.notes) text += to_string(note.place) + ": " + note.text + "\n";
+  return text;
+}
+
 /// A template whose own settings chose the CPG's type.
 TEST(Template, KeepsWhatItsTypeDropped) {
   const Sets common{"cpg.type=hopf", "duration=0.1"};
@@ -161,13 +168,33 @@ TEST(Template, KeepsWhatItsTypeDropped) {
     both.insert(both.end(), own.begin(), own.end());
     std::string given;
     std::string expected;
-    EXPECT_EQ(errors([&] { given = resolved(from.with(own)) + fmt::format("{}", fmt::join(from.with(own).notes, "|")); }),
-              errors([&] {
+    EXPECT_EQ(errors([&] { given = resolved(from.with(own)) + told(from.with(own)); }), errors([&] {
                 const Scenario again = read_scenario(kScenarios + "caterpillar.yaml", both, catalog());
-                expected = resolved(again) + fmt::format("{}", fmt::join(again.notes, "|"));
+                expected = resolved(again) + told(again);
               }))
         << own[0];
     EXPECT_EQ(given, expected) << own[0];
+  }
+}
+
+/// A source that the file states does not say what a rollout sets, and notes on motors come once.
+TEST(Template, DropsTheSourceOfOtherFigures) {
+  const Folder folder;
+  std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
+  const std::string file = folder.write("s.yaml",
+                                        "robot: {modules: dtto}\nduration: 0.1\nphysics: {engine: articulated}\ncpg: {}\n"
+                                        "actuator: {type: dc_motor, R: 5, source: data sheet 3}\n");
+  for (const Sets& common : {Sets{}, Sets{"actuator.Ks=0.004"}, Sets{"actuator.source=data sheet 4"}}) {
+    const ScenarioTemplate from(file, common, catalog());
+    for (const Sets& own :
+         {Sets{}, Sets{"actuator.Kt=0.004"}, Sets{"cpg.frequency=0.4"}, Sets{"actuator.source=mine"},
+          Sets{"actuator.Kt=0.004", "actuator.source=mine"}, Sets{"actuator={type: dc_motor, R: 6, source: mine}"}}) {
+      Sets both = common;
+      both.insert(both.end(), own.begin(), own.end());
+      const Scenario again = read_scenario(file, both, catalog());
+      EXPECT_EQ(told(from.with(own)), told(again)) << fmt::format("{}", fmt::join(both, " "));
+      EXPECT_EQ(resolved(from.with(own)), resolved(again)) << fmt::format("{}", fmt::join(both, " "));
+    }
   }
 }
 

@@ -122,7 +122,7 @@ wait
 printf '%-12s %-9s %-40s %4s  %-18s %9s  %-30s %9s  %s\n' robot kind change exit "worst column" RMS/band "worst number" chg/band is
 for ((i = 1; i <= count; ++i)); do
   code=$(cat -- "$work/$i.code")
-  read -r _ column ratio number change _ < <(sed -n 2p "$work/$i.out") || true
+  IFS='|' read -r _ column ratio number change _ < <(sed -nE '2s/  +/|/gp' "$work/$i.out") || true
   if [[ $code != 0 && $code != 4 ]]; then
     verdict="BAD: $(head -n 1 "$work/$i.err")" column=- ratio=- number=- change=-
   else

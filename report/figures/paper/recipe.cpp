@@ -93,7 +93,7 @@ void AxisRecipe::fields(Fields& f) {
 }
 
 void PanelRecipe::fields(Fields& f) {
-  f.choice("kind", kind, kPanelKinds, "What is drawn; the other keys of a panel depend on it.");
+  f.choice("kind", kind, enum_names<PanelKind>(), "What is drawn; the other keys of a panel depend on it.");
   const bool curves = kind == PanelKind::curves;
   if (curves) {
     f.texts("runs", runs, "Runs whose curves are drawn, by name; without them all.");
@@ -208,14 +208,14 @@ std::string recipe_page() {
       "<!-- Written by `tests/gates/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n"
       "Every key of what `gaitlab figure` reads, as `gaitlab explain figure KIND` prints it; what is drawn how:\n"
       "[conventions](../conventions.md). Recipes that come with the program: `scenarios/figures/`.\n";
-  for (std::size_t kind = 0; kind < kPanelKinds.size(); ++kind) {
-    const std::vector<KeyRow> rows = recipe_keys(static_cast<PanelKind>(kind)).rows();
-    const bool first = kind == 0;
+  for (const auto& [kind, name] : enum_table<PanelKind>()) {
+    const std::vector<KeyRow> rows = recipe_keys(kind).rows();
+    const bool first = kind == PanelKind::curves;
     const auto begin =
         first ? rows.begin()
               : std::find_if(rows.begin(), rows.end(), [](const KeyRow& row) { return row.key.starts_with("panels[]."); });
-    page += fmt::format("\n## A panel of kind `{}`{}\n\n{}\n\n", kPanelKinds[kind], first ? ", and the recipe itself" : "",
-                        about_panel(static_cast<PanelKind>(kind)));
+    page +=
+        fmt::format("\n## A panel of kind `{}`{}\n\n{}\n\n", name, first ? ", and the recipe itself" : "", about_panel(kind));
     page += markdown_table({begin, rows.end()});
   }
   return page;

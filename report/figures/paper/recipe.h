@@ -1,16 +1,28 @@
 // The recipe of a figure for a paper: which runs, which panels, how large. YAML, read as strictly as a scenario.
 #pragma once
-#include <array>
 #include <string>
 #include <vector>
 
+#include "core/names.h"
 #include "core/plugin/fields.h"
 #include "core/settings/node.h"
 
-namespace gaitlab::report {
+namespace gaitlab {
+
+namespace report {
 
 enum class PanelKind { curves, envelope, heat, footfalls, views };
-inline constexpr std::array<const char*, 5> kPanelKinds{"curves", "envelope", "heat", "footfalls", "views"};
+
+}  // namespace report
+
+template <>
+struct EnumNames<report::PanelKind> {
+  using enum report::PanelKind;
+  static constexpr EnumName<report::PanelKind> kTable[] = {
+      {curves, "curves"}, {envelope, "envelope"}, {heat, "heat"}, {footfalls, "footfalls"}, {views, "views"}};
+};
+
+namespace report {
 
 /// The left or the right axis of a panel with curves.
 struct AxisRecipe {
@@ -61,4 +73,5 @@ std::string explain_panel(PanelKind kind);
 /// All of them: docs/reference/figure.md.
 std::string recipe_page();
 
-}  // namespace gaitlab::report
+}  // namespace report
+}  // namespace gaitlab

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/recording/motor_limit.h"
 #include "report/figures/run/views.h"
 #include "report/plot/panel.h"
 #include "report/plot/svg.h"
@@ -124,11 +125,12 @@ class Chart {
   }
 
   struct Limit {
-    double saturation;  ///< as in the trace
+    MotorLimit limit;
     std::string_view fill;
     const char* name;
   };
-  static constexpr std::array<Limit, 2> kLimits{{{1, "#E3E3E3", "voltage limit"}, {2, "#F3D3BD", "current limit"}}};
+  static constexpr std::array<Limit, 2> kLimits{
+      {{MotorLimit::voltage, "#E3E3E3", "voltage limit"}, {MotorLimit::current, "#F3D3BD", "current limit"}}};
 
   /// A span lasts from its first row to the row after its last.
   void shade_limits() {
@@ -137,7 +139,7 @@ class Chart {
       std::size_t next = i + 1;
       while (next < panel_.limit.size() && panel_.limit[next] == panel_.limit[i]) ++next;
       for (const Limit& limit : kLimits) {
-        if (panel_.limit[i] != limit.saturation) continue;
+        if (panel_.limit[i] != saturation_of(limit.limit)) continue;
         const double from = x_(input_.time[i]);
         const double to = x_(input_.time[std::min(next, panel_.limit.size() - 1)]);
         svg_.rectangle({from, top_}, std::max(to - from, 0.5), bottom_ - top_, {.fill = limit.fill});
@@ -214,7 +216,7 @@ class Chart {
     }
     for (const Limit& limit : kLimits) {
       if (!limited() || std::find(panel_.limit.begin() + static_cast<std::ptrdiff_t>(first_), panel_.limit.end(),
-                                  limit.saturation) == panel_.limit.end())
+                                  saturation_of(limit.limit)) == panel_.limit.end())
         continue;
       x -= text_width(limit.name, 13);
       svg_.text({x, y}, limit.name);

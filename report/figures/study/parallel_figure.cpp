@@ -200,7 +200,6 @@ class Parallel {
 std::string parallel_svg(const ManyFigure& figure) { return Parallel(figure).drawn(); }
 
 std::string many_csv(const ManyFigure& figure) {
-  constexpr std::array kStates{"kept", "guard broken", "infeasible", "failed"};
   const auto cell = [](double value) { return std::isfinite(value) ? number_text(value) : ""; };
   std::string text;
   for (const ManyAxis& axis : figure.axes) text += axis.axis.name + ",";
@@ -212,7 +211,7 @@ std::string many_csv(const ManyFigure& figure) {
       const bool known = p.at[a] >= 0 && p.at[a] < static_cast<double>(words.size());
       text += (words.empty() ? cell(p.at[a]) : known ? words[static_cast<std::size_t>(p.at[a])] : "") + ",";
     }
-    text += cell(p.value) + "," + kStates[static_cast<std::size_t>(p.state)] + "," + (k == figure.best ? "1" : "0") + "\n";
+    text += cell(p.value) + "," + name_of(p.state) + "," + (k == figure.best ? "1" : "0") + "\n";
   }
   return text;
 }

@@ -316,14 +316,12 @@ std::string study_svg(const StudyFigure& figure) {
 }
 
 std::string study_csv(const StudyFigure& figure) {
-  constexpr std::array kStates{"kept", "guard broken", "infeasible", "failed"};
   std::string text =
       figure.x.name + "," + (figure.map ? figure.y.name + "," : "") + figure.value.name + ",least,largest,state,best\n";
   for (std::size_t k = 0; k < figure.points.size(); ++k) {
     const StudyPoint& p = figure.points[k];
     text += cell_text(p.x) + "," + (figure.map ? cell_text(p.y) + "," : "") + cell_text(p.value) + "," + cell_text(p.low) +
-            "," + cell_text(p.high) + "," + kStates[static_cast<std::size_t>(p.state)] + "," + (k == figure.best ? "1" : "0") +
-            "\n";
+            "," + cell_text(p.high) + "," + name_of(p.state) + "," + (k == figure.best ? "1" : "0") + "\n";
   }
   return text;
 }

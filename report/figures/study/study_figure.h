@@ -3,7 +3,11 @@
 #include <string>
 #include <vector>
 
-namespace gaitlab::report {
+#include "core/names.h"
+
+namespace gaitlab {
+
+namespace report {
 
 /// An axis: a parameter or a figure.
 struct StudyAxis {
@@ -14,6 +18,17 @@ struct StudyAxis {
 
 /// kept: no guard and no constraint is broken. Of the others infeasible: by the verdict of a run; broken: by no verdict.
 enum class PointState { kept, broken, infeasible, failed };
+
+}  // namespace report
+
+template <>
+struct EnumNames<report::PointState> {
+  using enum report::PointState;
+  static constexpr EnumName<report::PointState> kTable[] = {
+      {kept, "kept"}, {broken, "guard broken"}, {infeasible, "infeasible"}, {failed, "failed"}};
+};
+
+namespace report {
 
 /// value: the mean over the replicates, low and high the least and the largest; NaN where not known.
 struct StudyPoint {
@@ -49,4 +64,5 @@ std::string study_svg(const StudyFigure& figure);
 /// The points it draws.
 std::string study_csv(const StudyFigure& figure);
 
-}  // namespace gaitlab::report
+}  // namespace report
+}  // namespace gaitlab

@@ -88,14 +88,13 @@ std::string front_svg(const FrontFigure& f) {
 }
 
 std::string front_csv(const FrontFigure& f) {
-  constexpr std::array kStates{"behind", "front", "verified"};
   std::string text = "run,";
   for (const StudyAxis& axis : f.objectives) text += axis.name + ",";
   text += "state\n";
   for (const FrontPoint& p : f.points) {
     text += number_text(p.run) + ",";
     for (const double value : p.objectives) text += number_text(value) + ",";
-    text += std::string(kStates[static_cast<std::size_t>(p.state)]) + "\n";
+    text += std::string(name_of(p.state)) + "\n";
   }
   return text;
 }

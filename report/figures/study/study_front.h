@@ -1,10 +1,23 @@
 // Two objectives against one another: the points that no other is better than in both, and those behind them.
 #pragma once
+#include "core/names.h"
 #include "report/figures/study/study_figure.h"
 
-namespace gaitlab::report {
+namespace gaitlab {
+
+namespace report {
 
 enum class FrontState { behind, front, verified };
+
+}  // namespace report
+
+template <>
+struct EnumNames<report::FrontState> {
+  using enum report::FrontState;
+  static constexpr EnumName<report::FrontState> kTable[] = {{behind, "behind"}, {front, "front"}, {verified, "verified"}};
+};
+
+namespace report {
 
 struct FrontPoint {
   double run = 0;
@@ -23,4 +36,5 @@ struct FrontFigure {
 std::string front_svg(const FrontFigure& figure);
 std::string front_csv(const FrontFigure& figure);
 
-}  // namespace gaitlab::report
+}  // namespace report
+}  // namespace gaitlab

@@ -27,7 +27,7 @@ export const blocks = (meta: Meta): string => (meta.bodies.some((b) => b.role ==
 
 /** How the page is to be read, a sentence or two each. */
 export const explained = (meta: Meta): string[] => [
-  "A check fails where a limit of the robot is exceeded. It warns where little of a limit is left, and where what it finds harms no part of the robot: feet that slip cost way, but break nothing. Whether the numbers can be believed is told apart, and makes no gait infeasible.",
+  "A check fails where a limit of the robot is exceeded. It warns where little of a limit is left, and where what it finds harms no part of the robot: feet that slip cost way, but break nothing. It is too close where the limit lies within the error of the number. Whether the numbers can be believed is told apart, and makes no gait infeasible.",
   `Plots, heat map and table of docks are of the rows on this page, ${number(1000 * meta.period)} ms apart. A peak between two rows counts in the checks of motors, which are of all steps, but is not drawn.`,
   blocks(meta),
 ].filter(Boolean);

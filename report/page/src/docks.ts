@@ -2,6 +2,7 @@
 import { element, make } from "./dom";
 import { number } from "./numbers";
 import type { Desk } from "./panel";
+import { dockName } from "./places";
 import type { Recording } from "./recording";
 
 const kinds = [["tension", "N"], ["shear", "N"], ["bending", "N m"], ["torsion", "N m"]] as const;
@@ -19,15 +20,16 @@ export function docks(desk: Desk): void {
   element("docks-note").textContent = `largest of the rows in the judged window${ghost ? `; below, thin: ${ghost.label}` : ""}`;
   const peaks = meta.docks.map((_, n) => shown.map(([kind]) => peak(recording, n, kind)));
   const second = meta.docks.map((_, n) => (ghost && ghost.number("dock", n) >= 0 && ghost.recording.has(`dock.0.${kinds[0][0]}`) ? shown.map(([kind]) => peak(ghost.recording, ghost.number("dock", n), kind)) : null));
-  const largest = shown.map((_, k) => Math.max(...peaks.map((p) => p[k]), ...second.map((p) => p?.[k] ?? 0), 1e-9)), by = shown.findIndex(([k]) => k === "bending");
+  const largest = shown.map((_, k) => Math.max(...peaks.map((p) => p[k]), ...second.map((p) => p?.[k] ?? 0), 1e-6)), by = shown.findIndex(([k]) => k === "bending");
   const order = meta.docks.map((_, n) => n).sort((a, b) => peaks[b][Math.max(by, 0)] - peaks[a][Math.max(by, 0)]);
+  const load = (value: number, k: number) => number(value, 3, shown[k][1]);
   const bar = (value: number, most: number, ...text: HTMLElement[]): HTMLElement => {
     const fill = make("i");
     fill.style.width = `${(100 * value / most).toFixed(1)}%`;
     return make("span.bar", fill, ...text);
   };
   const body = make("tbody", ...order.map((n) => make("tr", head(recording, n), ...shown.map((_, k) => {
-      const theirs = second[n]?.[k], cell = make("td", bar(peaks[n][k], largest[k], make("span", number(peaks[n][k]) + (theirs === undefined ? "" : ` · ${number(theirs)}`))));
+      const theirs = second[n]?.[k], cell = make("td", bar(peaks[n][k], largest[k], make("span", load(peaks[n][k], k) + (theirs === undefined ? "" : ` · ${load(theirs, k)}`))));
       if (theirs !== undefined) cell.append(bar(theirs, largest[k]));
       return cell;
     }))));
@@ -57,7 +59,7 @@ function shorten(table: HTMLTableElement): void {
 }
 
 function head(recording: Recording, n: number): HTMLTableCellElement {
-  const { name, module, parent, face, parent_face } = recording.meta.docks[n], cell = make("th", name), { modules } = recording.meta;
+  const { name, module, parent, face, parent_face } = recording.meta.docks[n], cell = make("th", dockName(name)), { modules } = recording.meta;
   cell.scope = "row";
   cell.title = `face ${face} of ${modules[module]?.name ?? name} on face ${parent_face} of ${modules[parent]?.name ?? "?"}`;
   return cell;

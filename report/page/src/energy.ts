@@ -2,7 +2,7 @@
 import type { Values } from "./channels";
 import { element, leaveOut, make } from "./dom";
 import { keys } from "./keyline";
-import { number, percent } from "./numbers";
+import { number, percent, quantity } from "./numbers";
 import type { Desk, Panel } from "./panel";
 import type { Recording } from "./recording";
 import { second, TimePlot } from "./timeplot";
@@ -27,8 +27,8 @@ export class Energy implements Panel {
       return;
     }
     all.forEach((m, n) => {
-      const sum = drawn[n], words = ` drawn in ${number(m.duration)} s, ${number((sum ?? 0) / m.duration)} W on average`;
-      host.append(make("p", ...(desk.ghost ? [`${desk.ghost.overlay.labels[n]}: `] : []), ...(sum ? [make("b", `${number(sum)} J`), words] : ["nothing is known of its energy"])));
+      const sum = drawn[n], words = ` drawn in ${number(m.duration)} s, ${quantity((sum ?? 0) / m.duration, "W")} on average`;
+      host.append(make("p", ...(desk.ghost ? [`${desk.ghost.overlay.labels[n]}: `] : []), ...(sum ? [make("b", quantity(sum, "J")), words] : ["nothing is known of its energy"])));
     });
     const rows = sinks.filter(([key]) => all.some((m, n) => Math.abs(m.summary.energy?.[key] ?? 0) > 1e-4 * Math.abs(drawn[n] ?? Infinity)));
     host.append(make("div.ledger", ...rows.flatMap(([key, name, colour]) => all.flatMap((m, n) => {
@@ -36,10 +36,10 @@ export class Energy implements Panel {
       if (!sum) return [];
       fill.style.cssText = `width:${Math.min(100, 100 * Math.abs(value / sum)).toFixed(1)}%;background:var(${colour})`;
       if (n) fill.style.opacity = "0.55";
-      return [make("span", n ? desk.ghost!.label : name), make("span.bar", fill), make("span.n", `${number(value)} J`), make("span.n", percent(value / sum, 2))];
+      return [make("span", n ? desk.ghost!.label : name), make("span.bar", fill), make("span.n", quantity(value, "J")), make("span.n", percent(value / sum, 2))];
     }))));
     const created = meta.summary.energy?.created ?? 0;
-    if (created > 0.02 * drawn[0]) host.append(make("p.note", `Gears that the load drives backwards gave ${number(created)} J too much (equation 2).`));
+    if (created > 0.02 * drawn[0]) host.append(make("p.note", `Gears that the load drives backwards gave ${quantity(created, "J")} too much (equation 2).`));
   }
 
   paint(): void {

@@ -5,7 +5,7 @@ import { element, leaveOut } from "./dom";
 import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
 
-const left = 96, right = 46, foot = 22, threshold = 0.02; // of the weight
+const left = 116, right = 46, foot = 22, threshold = 0.02; // of the weight
 
 interface Foot {
   name: string;
@@ -25,7 +25,7 @@ export class Footfalls implements Panel {
   constructor(private readonly desk: Desk) {
     const { recording } = desk, from = recording.judged;
     this.on = threshold * recording.meta.weight;
-    this.feet = recording.meta.feet.flatMap(({ name }, n) => {
+    this.feet = recording.meta.feet.flatMap(({ title: name }, n) => {
       const load = recording.find(`foot.${n}.fz`);
       if (!load) return [];
       let rows = 0;

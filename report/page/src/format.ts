@@ -73,7 +73,8 @@ export interface Ground {
 }
 
 export interface Foot {
-  name: string;
+  name: string; // of the body
+  title: string; // of its leg in figures: m5 rear left; else the name
   module: number;
   body: number;
 }
@@ -91,20 +92,32 @@ export interface Motor {
   least: number[];
 }
 
-export type Status = "pass" | "warn" | "fail" | "not judged";
+export type Status = "pass" | "warn" | "fail" | "too close" | "not judged";
+export type Part = "none" | "joint" | "body" | "dock" | "foot";
 
+/** value, limit, unit and margin are those of the criterion that decides. */
 export interface Check {
   id: string;
   group: string;
   title: string;
   status: Status;
+  span: "window" | "whole run";
+  can_fail: boolean;
   value: number | null;
   limit: number | null;
+  least: boolean; // the limit is the least that is allowed
   unit: string; // "": a share
-  joint: string | null;
-  joints: number;
-  from: number | null;
+  margin: number | null; // share of the limit that is left; negative: beyond it
+  error: number | null; // share by which the value may be off
+  part: Part; // of worst and first_part
+  worst: string | null; // a dock by its module
+  parts: number; // beyond the limit
+  from: number | null; // s: when the worst part was
   to: number | null;
+  first: number | null; // s: when any part was beyond the limit first
+  first_part: string | null;
+  remedy: string; // what to set; "": no setting is known to help
+  advice: string; // what helps in general
   missing: string;
   definition: string;
   source: string;
@@ -112,14 +125,21 @@ export interface Check {
 }
 
 export interface Verdict {
-  format: 1;
+  format: 2;
   verdict: "feasible" | "infeasible" | "failed" | "not judged";
+  reason: string; // of `not judged`
+  why: string; // behind the word, as the terminal has it; "" of feasible
+  tightest: string | null; // id of the check that can fail with the least margin
+  rests_on: string; // `3 periods of 4 s`
+  /** The joint that is at limits of its motor for the largest share of the judged time. */
+  longest: { joint: string; voltage: number; current: number } | null;
   /** The first joint of the run at a limit of its motor, however shortly; s. */
   first: { joint: string; time: number } | null;
   window: { from: number; to: number };
   counts: Record<Status, number>;
   checks: Check[];
   chosen_motors?: boolean; // figures of the motors are chosen, not a maker's
+  chosen_docks?: boolean; // the same of what docks hold
   demand?: { doubt: string; joints: Demand[] }; // only where somebody asked
 }
 

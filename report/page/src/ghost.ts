@@ -3,6 +3,7 @@ import type { Values } from "./channels";
 import type { Overlay, Stray } from "./format";
 import { Loads } from "./loads";
 import { fixed } from "./numbers";
+import { dockName } from "./places";
 import type { Recording, Second } from "./recording";
 
 type Kind = "joint" | "foot" | "dock";
@@ -84,9 +85,10 @@ export class Ghost {
       const parts = [...(onlyA.length ? [`${a} alone has ${few(onlyA)}`] : []), ...(onlyB.length ? [`${b} alone has ${few(onlyB)}`] : [])];
       told.push(`${common ? `They have ${common} ${nouns[common === 1 ? 0 : 1]} in common` : `They have no ${nouns[0]} in common`}: ${parts.join("; ")}.`);
     };
+    const called = ({ name }: { name: string }) => ({ name: dockName(name) });
     count("joint", ["joint", "joints"], own.meta.joints, recording.meta.joints);
     if (own.meta.feet.length && recording.meta.feet.length) count("foot", ["foot", "feet"], own.meta.feet, recording.meta.feet);
-    count("dock", ["dock", "docks"], own.meta.docks, recording.meta.docks);
+    count("dock", ["dock", "docks"], own.meta.docks.map(called), recording.meta.docks.map(called));
     if (recording.end < own.end - 1e-6) told.push(`${b} ends at ${fixed(recording.end, 2)} s, before ${a}.`);
     if (recording.end > own.end + 1e-6) told.push(`${b} goes on to ${fixed(recording.end, 2)} s; this page ends with ${a}, at ${fixed(own.end, 2)} s.`);
     return told;

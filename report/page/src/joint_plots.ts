@@ -1,7 +1,7 @@
 // The chosen joint over time: angle, set point and torque; what its motor is asked for and draws.
 import { element, leaveOut, make } from "./dom";
 import { keys } from "./keyline";
-import { fixed, number, percent } from "./numbers";
+import { decimalsOf, fixed, number, percent } from "./numbers";
 import type { Desk, Panel, Span } from "./panel";
 import { second, TimePlot, type Level, type Tube } from "./timeplot";
 import { limited } from "./motor";
@@ -68,13 +68,10 @@ export class JointPlots implements Panel {
     const motor = loads.motor(joint);
     const texts: Record<Cell, string> = {
       angle: `${fixed(now("angle"), 3)} rad`, error: `${fixed(now("setpoint") - now("angle"), 3)} rad`, speed: `${fixed(now("speed"), 2)} rad/s`,
-      torque: `${fixed(now("torque"), this.decimals)} N m`, use: limited(motor) ? percent(Math.round(100 * loads.shareAt(joint, t)) / 100) : "no limit",
+      torque: `${fixed(now("torque"), decimalsOf(loads.peak, "N m"))} N m`, use: limited(motor) ? percent(Math.round(100 * loads.shareAt(joint, t)) / 100) : "no limit",
     };
     for (const [key, cell] of this.cells) cell.textContent = this.has(SOURCE[key]) ? texts[key] : "–";
   }
-
-  /** So that a small motor's torque has three digits. */
-  get decimals(): number { return Math.max(2, Math.ceil(-Math.log10(this.desk.loads.peak)) + 1); }
 
   // Of the chosen joint; in the list of numbers of any.
   private has(name: string): boolean { return this.desk.recording.has(`joint.${this.desk.state.joint}.${name}`); }
@@ -82,7 +79,8 @@ export class JointPlots implements Panel {
   // What the motor is told (volts, or N m of those that take a torque) and the current it draws.
   private drive(bands: Span[]): void {
     const { desk } = this, { ink, recording, state: { joint } } = desk, motor = desk.loads.motor(joint), unit = motor?.unit ?? "V";
-    const command = this.has("voltage") ? "voltage" : this.has("voltage_command") ? "voltage_command" : null;
+    // What takes a torque has no voltage, and its command is in N m.
+    const command = (unit === "V" ? ["voltage", "voltage_command"] : ["voltage_command"]).find((name) => this.has(name));
     const current = this.has("current") && recording.meta.joints.some((_, j) => recording.channel(`joint.${j}.current`).some((v) => v !== 0));
     const host = element("drive");
     host.hidden = element("drive-key").hidden = !command;

@@ -50,7 +50,7 @@ export class Loads {
   scale(quantity: Quantity): number {
     const { recording } = this;
     if (quantity === "torque") return this.peak;
-    if (quantity === "error") return Math.max(0.2, ...recording.meta.verdict.checks.filter((c) => c.id === "tracking").map((c) => 2 * (c.limit ?? 0)));
+    if (quantity === "error") return Math.max(0.2, ...recording.meta.verdict.checks.filter((c) => c.id === "tracking").map((c) => c.limit ?? 0));
     if (quantity === "current") return Math.max(...recording.meta.motors.map((m) => m.current ?? 0)) || this.largestCurrent();
     return 1;
   }

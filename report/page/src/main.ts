@@ -1,12 +1,13 @@
 import { unpack } from "./channels";
 import { make } from "./dom";
 import { least, most, use } from "./motor";
+import { capital, decimalsOf, percent, quantity } from "./numbers";
 import { Page } from "./page";
 import { Recording } from "./recording";
 
 /** What tests (and the curious, in the console) see. */
 declare global {
-  interface Window { gaitlab: { page: Page; unpack: typeof unpack; motor: { most: typeof most; least: typeof least; use: typeof use } } }
+  interface Window { gaitlab: { page: Page; unpack: typeof unpack; motor: { most: typeof most; least: typeof least; use: typeof use }; texts: object } }
 }
 
 Recording.of(document).then(([recording, second]) => {
@@ -14,7 +15,7 @@ Recording.of(document).then(([recording, second]) => {
     page.tick(now);
     requestAnimationFrame(frame);
   };
-  window.gaitlab = { page, unpack, motor: { most, least, use } };
+  window.gaitlab = { page, unpack, motor: { most, least, use }, texts: { capital, decimalsOf, percent, quantity } };
   requestAnimationFrame((now) => {
     frame(now);
     document.documentElement.dataset.ready = "";

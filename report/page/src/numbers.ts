@@ -1,30 +1,48 @@
-// Numbers as text: few digits, a real minus.
+// Numbers and sentences as text: few digits, a real minus, names in their own case.
 
 const space = "\u00a0"; // a number and its unit stay on one line
 const minus = (text: string): string => text.replace("-", "−");
 
+/** Less than this is nothing, in that unit: rounding of the simulation, or of the page. */
+const floors: Record<string, number> = { "": 1e-6, m: 1e-7, rad: 1e-4, "rad/s": 1e-5, "N m": 1e-6, N: 1e-5, A: 1e-6, V: 1e-6, J: 1e-7, W: 1e-6 };
+const floored = (x: number, unit: string): number => (Math.abs(x) < (floors[unit] ?? 0) ? 0 : x);
+
 /** To `digits` significant digits, never with an exponent where a reader would stumble over it. */
-export function number(x: number | null | undefined, digits = 3): string {
+export function number(x: number | null | undefined, digits = 3, unit?: string): string {
   if (x === null || x === undefined || !Number.isFinite(x)) return "–";
-  if (x === 0) return "0";
-  const rounded = Number(x.toPrecision(digits));
-  return minus(Math.abs(rounded) >= 1e6 || Math.abs(rounded) < 1e-4 ? rounded.toExponential() : String(rounded));
+  const kept = unit === undefined ? x : floored(x, unit);
+  if (kept === 0) return "0";
+  const rounded = Number(kept.toPrecision(digits));
+  return minus(Math.abs(rounded) >= 1e6 || Math.abs(rounded) < 1e-4 ? rounded.toExponential().replace("e+", "e") : String(rounded));
 }
 
 export const fixed = (x: number, decimals: number): string => minus((Math.abs(x) < 0.5 * 10 ** -decimals ? 0 : x).toFixed(decimals));
 
-export const percent = (share: number, digits = 3): string => `${number(100 * share, digits)}${space}%`;
+/** So that numbers up to `peak` have three digits, and two decimals where they are larger or nothing. */
+export const decimalsOf = (peak: number, unit: string): number => (floored(peak, unit) === 0 ? 2 : Math.max(2, Math.ceil(-Math.log10(peak)) + 1));
 
-/** Value with its unit; "" is a share, which reads in percent; small lengths read in mm. */
+export const percent = (share: number, digits = 3): string => `${number(100 * floored(share, ""), digits)}${space}%`;
+
+/** Value with its unit; "" is a share, which reads in percent; small lengths read in mm, large energies in MJ. */
 export function quantity(x: number | null, unit: string): string {
   if (x === null || !Number.isFinite(x)) return "–";
   if (unit === "") return percent(x);
-  if (unit === "m" && Math.abs(x) < 0.1) return `${number(1000 * x)}${space}mm`;
-  return `${number(x)}${space}${unit.replace(" ", space)}`;
+  if (unit === "m" && Math.abs(x) < 0.1) return `${number(1000 * floored(x, unit))}${space}mm`;
+  const [scale, prefix] = Math.abs(x) < 1e6 || !/^[JWN]/.test(unit) ? [1, ""] : Math.abs(x) < 1e9 ? [1e6, "M"] : [1e9, "G"];
+  return `${number(floored(x, unit) / scale)}${space}${prefix}${unit.replace(" ", space)}`;
 }
 
+/** s, to a millisecond where hundredths do not say it. */
+export const time = (t: number): string => `${fixed(t, Math.abs(100 * t - Math.round(100 * t)) < 0.05 ? 2 : 3)}${space}s`;
+
 export function span(from: number, to: number): string {
-  return to - from > 1e-6 ? `${fixed(from, 2)} to ${fixed(to, 2)}${space}s` : `${fixed(from, 2)}${space}s`;
+  if (!(to - from > 1e-6)) return time(from);
+  const decimals = to - from < 0.1 ? 3 : 2;
+  return `${fixed(from, decimals)} to ${fixed(to, decimals)}${space}s`;
 }
 
 export const plural = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? "" : "s"}`;
+
+/** A name at the start (`m3/active`, `m5's dock`) keeps its case. */
+export const capital = (text: string): string => (/^\S*[\d/]/.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1));
+export const sentence = (text: string): string => (text ? capital(text) + (/[.!?]$/.test(text) ? "" : ".") : "");

@@ -10,7 +10,8 @@ import { Energy } from "./energy";
 import { Envelope } from "./envelope";
 import { Footfalls } from "./footfalls";
 import { Ghost } from "./ghost";
-import { firstAtLimit, hardest, headline } from "./headline";
+import { folder } from "./folder";
+import { headline, leading } from "./headline";
 import { HeatMap } from "./heatmap";
 import { JointPlots } from "./joint_plots";
 import { Loads } from "./loads";
@@ -18,6 +19,7 @@ import { number } from "./numbers";
 import { Overview } from "./overview";
 import type { Desk, Panel, Run, Span, State } from "./panel";
 import { parts } from "./parts";
+import { jointAt, moment } from "./places";
 import { Path } from "./path";
 import { Phases } from "./phases";
 import type { Recording, Second } from "./recording";
@@ -42,24 +44,25 @@ export class Page implements Desk {
   private last: number | null = null; // ms, of the frame before, while playing
   private late = 0; // frames
 
-  constructor(readonly recording: Recording, second: Second | null) {
+  constructor(readonly recording: Recording, laid: Second | null) {
     const { meta } = recording, { cycle, verdict } = meta;
     this.link = new URLSearchParams(location.hash.slice(1));
     const dark = this.link.get("theme") ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
     document.documentElement.dataset.theme = dark === "dark" ? "dark" : "light";
     this.ink = inkOf(document.documentElement);
     this.loads = new Loads(recording);
-    this.ghost = second && new Ghost(second, recording);
+    this.ghost = laid && new Ghost(laid, recording);
     this.runs = [this, ...(this.ghost ? [this.asRun(this.ghost)] : [])];
     const all = recording.end || 1, period = cycle?.period ?? 2;
     this.stretches = { all, four: Math.min(all, 4 * period), one: Math.min(all, period) };
     this.width = this.stretches.four;
-    const failing = verdict.checks.find((c) => c.status === "fail" && c.joint) ?? hardest(meta), first = failing?.group === "motor" ? firstAtLimit(this) : null;
-    const index = (name: string | null | undefined) => meta.joints.findIndex((j) => j.name === name);
-    const stray = this.ghost?.overlay.strays[0], strayed = /^joint\.(\d+)\./.exec(stray?.signal ?? "");
-    const start = [index(this.link.get("joint")), strayed ? Number(strayed[1]) : -1, index(failing?.joint)].find((j) => j >= 0) ?? this.loads.hardest.joint;
+    // Of two runs the first that is not feasible.
+    const fails = (run: Run) => ["infeasible", "failed"].includes(run.recording.meta.verdict.verdict), shown = this.runs.find(fails) ?? this.runs[0], second = shown !== this.runs[0];
+    const check = meta.outcome === "not run" ? null : leading(shown), theirs = check ? jointAt(shown.recording.meta, check.part, check.worst) : -1, seen = check && moment(shown, check);
+    const stray = this.ghost?.overlay.strays[0], strayed = /^joint\.(\d+)\./.exec(stray?.signal ?? ""), linked = meta.joints.findIndex((j) => j.name === this.link.get("joint"));
+    const start = [linked, strayed ? Number(strayed[1]) : -1, second ? this.ghost!.jointBack(theirs) : theirs].find((j) => j >= 0) ?? this.loads.hardest.joint;
     this.state = { t: 0, joint: meta.joints.length ? start : -1, playing: false, rate: 1, span: [0, all] };
-    const t = this.link.has("t") ? Number(this.link.get("t")) : stray?.from ?? failing?.from ?? first?.t ?? (recording.ran ? Math.max(verdict.window.from, 0) : 0);
+    const t = this.link.has("t") ? Number(this.link.get("t")) : stray?.from ?? (second && seen !== null ? this.ghost!.back(seen) : seen) ?? (!recording.ran ? 0 : meta.joints.length ? this.loads.hardest.t : verdict.window.from);
     this.state.t = this.within(Number.isFinite(t) ? t : 0);
     this.state.span = this.spanAround();
     this.text();
@@ -71,8 +74,6 @@ export class Page implements Desk {
     this.choose(this.state.joint);
     this.stage.view?.look((this.link.get("look") as Look | null) ?? "iso");
     for (const marks of ["faces", "axes"] as const) if (meta.outcome === "not run" || this.link.has(marks)) this.press(marks);
-    const calm = matchMedia("(prefers-reduced-motion: reduce)").matches || this.link.has("paused") || this.link.has("t");
-    if (recording.ran && !calm) this.play(true);
   }
 
   // --- what panels ask for
@@ -176,7 +177,7 @@ export class Page implements Desk {
     element("scenario").textContent = meta.scenario;
     const { window, checks: all } = meta.verdict;
     element("definitions").parentElement!.hidden = !ran || !all.length;
-    if (ran) element("definitions").append(...explained(meta).map((text) => make("p", text)), make("p", `Judged from ${number(window.from, 4)} to ${number(window.to, 4)} s; the start is shown, and not judged.`),
+    if (ran) element("definitions").append(...explained(meta).map((text) => make("p", text)), make("p", `Judged from ${number(window.from, 4)} to ${number(window.to, 4)} s; what breaks at once (docks, gears, stops, collisions, falls) in the whole run, its start included.`),
       make("ul", ...all.filter((c) => c.definition).map((c) => make("li", make("b", c.title), `: ${c.definition}${c.source ? ` (limit: ${c.source})` : ""}`))));
   }
 
@@ -185,7 +186,7 @@ export class Page implements Desk {
     const { meta } = this.recording, overlay = this.ghost?.overlay, builds = new Set(this.runs.map((r) => r.recording.meta.build)), made = `gaitlab ${[...builds].join(" and ")}.`;
     if (meta.outcome === "not run" || overlay?.strayed) return [made];
     const hashes = this.runs.map((r, n) => `${overlay ? `${overlay.labels[n]} ` : ""}${r.recording.meta.summary.trace_hash ?? "unknown"}`);
-    return [made, `Trace hash: ${hashes.join(", ")}.`, "Values on this page are rounded. The trace has them in full.", `The same run again: ${meta.command}`];
+    return [made, `Trace hash: ${hashes.join(", ")}.`, "Values on this page are rounded. The trace has them in full.", `The same run again: ${meta.command.replace("FOLDER", folder())}`];
   }
 
   private arrange(): void {

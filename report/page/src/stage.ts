@@ -2,7 +2,7 @@
 import { gradient, type Theme } from "./colour";
 import { element, make } from "./dom";
 import { Labels } from "./labels";
-import { fixed, number, percent } from "./numbers";
+import { decimalsOf, fixed, number, percent } from "./numbers";
 import type { Desk, Panel } from "./panel";
 import { View, type Look } from "./view";
 
@@ -87,7 +87,7 @@ export class Stage implements Panel {
     const at = j >= 0 ? view.place(j) : null;
     this.tag.hidden = !at;
     if (at) {
-      const torque = recording.find(`joint.${j}.torque`), width = this.host.clientWidth, decimals = Math.max(2, Math.ceil(-Math.log10(loads.peak)) + 1);
+      const torque = recording.find(`joint.${j}.torque`), width = this.host.clientWidth, decimals = decimalsOf(loads.peak, "N m");
       const numbers = recording.ran && torque ? ` ${fixed(recording.at(torque, state.t), decimals)} N m${loads.limited ? `, ${percent(Math.round(100 * loads.shareAt(j, state.t)) / 100)}` : ""}` : "";
       this.tag.replaceChildren(make("b", joints[j].name), numbers);
       const half = this.tag.offsetWidth / 2, x = Math.min(Math.max(at[0], half + 8), width - half - 8), under = at[1] < 84;

@@ -279,5 +279,49 @@ TEST(GroundOfBoxes, GapIsThatToTheNearestOfMany) {
   }
 }
 
+/// The highest place of a vertical that is in a box, by looking from above in steps of `step`; 0 where none is.
+double sampled_top(const std::vector<Box>& list, const Vec3& point, double step) {
+  for (double z = 2; z > 0; z -= step) {
+    for (const Box& b : list) {
+      const Vec3 local = b.R.transpose() * (Vec3(point.x(), point.y(), z) - b.center);
+      if ((local.cwiseAbs() - 0.5 * b.size).maxCoeff() < 0) return z;
+    }
+  }
+  return 0;
+}
+
+TEST(GroundSurfaceBelow, OfTurnedBoxesAgreesWithSampledVerticals) {
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  constexpr double kStep = 2e-4;
+  int found = 0;
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Box> list;
+    for (int k = 0; k < 3; ++k) {
+      list.push_back(box(Vec3(unit(engine), unit(engine), 1 + 0.3 * unit(engine)), Vec3(0.7, 0.5, 0.3),
+                         3 * Vec3(unit(engine), unit(engine), unit(engine))));
+    }
+    const Vec3 above(unit(engine), unit(engine), 3);
+    const double top = boxes(list).surface_below(above, 0);
+    found += top > 0 ? 1 : 0;
+    EXPECT_NEAR(top, sampled_top(list, above, kStep), 2 * kStep) << i;  // a corner thinner than a step is missed by as much
+  }
+  EXPECT_GT(found, 30);
+}
+
+TEST(GroundSurfaceBelow, IsNotAWallOrARoof) {
+  const Ground ground = boxes({box({0, 0, 0.05}, {1, 1, 0.1}), box({0, 0, 0.5}, {1, 1, 0.2})});
+  for (const auto& [z, surface] : {std::pair{1.0, 0.6}, {0.6, 0.6}, {0.599, 0.6}, {0.59, 0.1}, {0.3, 0.1}, {0.05, 0.0}})
+    EXPECT_NEAR(ground.surface_below({0.1, 0.1, z}, 0.005), surface, kGroundRounding) << z;
+  EXPECT_EQ(ground.surface_below({0.51, 0, 1}, 0), 0) << "beside them";
+  EXPECT_EQ(ground.surface_below({0.51, 0, -1}, 0), 0) << "below the plane";
+}
+
+TEST(GroundSurfaceBelow, OfAFieldIsItsHeight) {
+  const Ground slope = field(2, {0, 0.1, 0, 0.1}, 1);
+  for (const double z : {-1.0, 0.0, 1.0}) EXPECT_NEAR(slope.surface_below({0.3, 0.6, z}, 0), 0.1, kGroundRounding) << z;
+  EXPECT_EQ(Ground{}.surface_below({3, 4, 5}, 0), 0);
+}
+
 }  // namespace
 }  // namespace gaitlab

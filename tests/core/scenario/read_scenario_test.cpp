@@ -297,7 +297,7 @@ TEST_F(ScenarioTest, SetIsValidatedLikeTheFile) {
   EXPECT_EQ(s.cpg.entry->name, "hopf");
   EXPECT_EQ(s.seed, 7);
   ASSERT_EQ(s.notes.size(), 1U);
-  EXPECT_EQ(s.notes[0], "cpg: type changed from phase_oscillator to hopf; dropped model.rate");
+  EXPECT_EQ(s.notes[0].text, "cpg: type changed from phase_oscillator to hopf; dropped model.rate");
   EXPECT_EQ(error(kShort, {"phyics.step=1", "duration=x", "seed"}),
             "--set seed: error: found no '='; expected KEY.PATH=VALUE, for example physics.step=2.5e-05\n"
             "--set duration=x: error: duration is 'x'; expected a number in s\n"
@@ -305,7 +305,8 @@ TEST_F(ScenarioTest, SetIsValidatedLikeTheFile) {
 }
 
 TEST_F(ScenarioTest, TheCpgsNoteIsPassedOn) {
-  EXPECT_EQ(read(kShort + "cpg: {}\n").notes, (std::vector<std::string>{"cpg: starts at phase 0"}));
+  const Scenario s = read(kShort + "cpg: {}\n");
+  EXPECT_EQ(s.notes, (std::vector<Note>{{{s.file}, "cpg: starts at phase 0"}}));
 }
 
 TEST_F(ScenarioTest, PlacesOfGivenKeys) {

@@ -34,7 +34,7 @@ TEST(Posture, AFallIsAirborneAllTheTime) {
   const double start = r.com(0).z();
   constexpr double kIntegration = 1e-4;  // m: of the adaptive steps, 1 % of torques that are 0
   EXPECT_NEAR(p.height_min, start - g / 2, kIntegration);
-  const double first = (std::floor(judged.from / s.trace.period + 1e-9) + 1) * s.trace.period;
+  const double first = (std::floor(judged.from / s.control_period + 1e-9) + 1) * s.control_period;
   EXPECT_NEAR(p.height_max, start - g * first * first / 2, kIntegration);
 }
 

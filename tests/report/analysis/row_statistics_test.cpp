@@ -58,7 +58,7 @@ TEST(RowStatistics, OfEveryStepAreThoseOfAllSteps) {
       const Check& of = check_of(steps, id);
       const Check& from = check_of(rows, id);
       EXPECT_EQ(from.status, of.status) << name << ' ' << id;
-      EXPECT_EQ(from.joint, of.joint) << name << ' ' << id;
+      EXPECT_EQ(from.worst, of.worst) << name << ' ' << id;
       EXPECT_NEAR(from.value, of.value, 1e-2 * std::abs(of.value)) << name << ' ' << id;
     }
   }
@@ -130,7 +130,7 @@ TEST(RowStatistics, LeaveOutHingesWithoutAMotor) {
   for (const char* const id : {"voltage", "current", "envelope", "speed", "tracking"}) {
     EXPECT_NE(check_of(rows, id).status, CheckStatus::not_judged) << id << ": " << check_of(rows, id).text;
     EXPECT_EQ(check_of(rows, id).status, check_of(steps, id).status) << id;
-    EXPECT_EQ(check_of(rows, id).joint, check_of(steps, id).joint) << id;
+    EXPECT_EQ(check_of(rows, id).worst, check_of(steps, id).worst) << id;
     EXPECT_NEAR(check_of(rows, id).value, check_of(steps, id).value, 1e-2 * std::abs(check_of(steps, id).value)) << id;
   }
   EXPECT_EQ(check_of(verdict_of(s, rows_only(s, whole, "joint.1.torque")), "envelope").text,
@@ -142,7 +142,7 @@ TEST(RowStatistics, OfNothingAreNothing) {
   Recording none;
   fill_ticks_from_rows(s, none);
   EXPECT_FALSE(none.ticks_of_rows);
-  EXPECT_EQ(verdict_of(s, none).word, "not judged");
+  EXPECT_EQ(verdict_of(s, none).word, report::Word::not_judged);
   Recording whole = run(s);
   fill_ticks_from_rows(s, whole);
   EXPECT_FALSE(whole.ticks_of_rows) << "all steps are known";

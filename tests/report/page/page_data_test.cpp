@@ -156,7 +156,7 @@ TEST(PageData, ARobotThatHasNotRun) {
   const Scenario s = shipped("hexapod.yaml");
   const Recording start = report::start_row(s);
   report::Verdict none;
-  none.word = "not judged";
+  none.word = report::Word::not_judged;
   const Opened page(report::page_data(s, start, report::summarise(s, start, 0), none));
   EXPECT_EQ(page.meta["outcome"], "not run");
   EXPECT_EQ(page.meta["rows"], 1);
@@ -170,6 +170,57 @@ TEST(PageData, ARobotThatHasNotRun) {
   const Opened ran(data_of(s, run(shipped("hexapod.yaml", {"duration=0.01"}))));
   for (const char* channel : {"base.z", "com.z", "joint.3.angle"})
     EXPECT_EQ(page.channels.at(channel)[0], ran.channels.at(channel)[0]) << channel << " is that of the first row of a run";
+}
+
+/// The joint that a page says is longest at a limit, and what it says of it.
+json longest_of(const Scenario& s) { return json::parse(data_of(s, run(s)).meta)["verdict"]["longest"]; }
+
+TEST(PageData, TheJointThatIsLongestAtALimitIsThatOfBothLimitsTogether) {
+  const Scenario s =
+      shipped("caterpillar.yaml", {"duration=5", "physics.engine=articulated", "actuator.i_max=0.35", "actuator.u_max=6"});
+  const Recording r = run(s);
+  const report::Summary summary = report::summarise(s, r, 0);
+  double most = 0;
+  std::string name;
+  for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+    const JudgedJoint& joint = summary.judged.joints[j];
+    if (const double share = joint.voltage_limited + joint.current_limited; share > most) {
+      most = share;
+      name = s.robot->joints[j].name;
+    }
+  }
+  ASSERT_GT(most, 0);
+  const json longest = longest_of(s);
+  EXPECT_EQ(longest["joint"], name);
+  EXPECT_EQ(longest["voltage"].get<double>() + longest["current"].get<double>(), most);
+  EXPECT_EQ(longest_of(shipped("caterpillar.yaml",
+                               {"duration=0.5", "physics.engine=articulated", "actuator.i_max=50", "actuator.u_max=500"})),
+            nullptr);
+}
+
+TEST(PageData, TheSentenceBehindTheWordIsTheTerminals) {
+  const Scenario s = shipped("caterpillar.yaml", {"duration=1", "physics.engine=articulated"});
+  const Recording r = run(s);
+  const report::Summary summary = report::summarise(s, r, 0);
+  const report::Verdict verdict = report::verdict(s, r, summary, report::overlaps(s, r));
+  const json told = json::parse(report::page_data(s, r, summary, verdict).meta)["verdict"];
+  EXPECT_NE(verdict.why(), "");
+  EXPECT_EQ(told["why"], verdict.why());
+  for (const json& check : told["checks"]) EXPECT_NE(check["advice"], "") << check["id"];
+}
+
+TEST(PageData, FeetGoByTheirLegs) {
+  const auto titles = [](const Scenario& s) {
+    std::map<std::string, std::string> all;
+    for (const json& foot : json::parse(data_of(s, run(s)).meta)["feet"]) all[foot["name"]] = foot["title"];
+    return all;
+  };
+  const auto legs = titles(shipped("hexapod.yaml", {"duration=0.3", "physics.engine=articulated"}));
+  EXPECT_EQ(legs.size(), 6U);
+  for (const auto& [name, title] : legs)
+    EXPECT_TRUE(title.ends_with(" left") || title.ends_with(" right")) << name << ": " << title;
+  for (const auto& [name, title] : titles(shipped("caterpillar.yaml", {"duration=0.1", "physics.engine=articulated"})))
+    EXPECT_EQ(title, name) << "a caterpillar has no legs";
 }
 
 TEST(PageData, ABodyWithoutJoints) {

@@ -41,7 +41,7 @@ TEST(Demand, IsTheRunWithLimitsTwentyTimesAsLarge) {
     // eq. 2: T = eta Kt n i, so that the peaks are of one instant; to rounding.
     EXPECT_NEAR(joints[j].torque_peak, 0.7 * 0.00395 * 594 * joints[j].current_peak, 1e-12);
   }
-  ASSERT_EQ(weak.judged.word, "infeasible");
+  ASSERT_EQ(weak.judged.word, report::Word::infeasible);
   add_demand(weak.judged, weak.scenario, weak.summary, made);
   // Every joint that is at its limit for some time; what is missing is of the one that lacks most.
   const std::vector<JudgedJoint>& own = weak.summary.judged.joints;
@@ -55,9 +55,9 @@ TEST(Demand, IsTheRunWithLimitsTwentyTimesAsLarge) {
   EXPECT_EQ(weak.judged.demands.size(), limited);
   const auto current = std::ranges::find(weak.judged.checks, "current", &Check::id);
   EXPECT_EQ(current->status, CheckStatus::fail);
-  EXPECT_EQ(current->joints, limited);
+  EXPECT_EQ(current->parts, limited);
   EXPECT_EQ(current->missing.substr(0, current->missing.find(" at ")), fmt::format("{:.3g} A", most));
-  EXPECT_TRUE(contains(to_lines(weak.judged).front() + to_lines(weak.judged).at(1) + to_lines(weak.judged).at(2), "missing"));
+  EXPECT_TRUE(contains(weak.judged.why(), "; missing: "));
   EXPECT_TRUE(contains(to_json(weak.judged), "\"demand\": {"));
 }
 

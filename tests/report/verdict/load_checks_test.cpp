@@ -40,7 +40,7 @@ struct LoadCase {
   [[nodiscard]] Check docks(DockQuantity quantity, const std::vector<double>& limits) const {
     Check made;
     made.value = made.limit = made.from = made.to = kUnknownLimit;
-    judge_docks(scenario, record, summary(), quantity, limits, made);
+    judge_docks(scenario, record, quantity, limits, made);
     return made;
   }
 };
@@ -81,8 +81,8 @@ TEST(LoadChecks, HoldDocksAgainstTheirLimits) {
   EXPECT_EQ(with(10, 5.1).limit, 5.1) << "4 of 5.1 is nearer than 5 of 10";
   EXPECT_EQ(with(10, 4.5).status, CheckStatus::warn) << "above the margin of 80 %";
   EXPECT_EQ(with(10, 3.9).status, CheckStatus::fail);
-  EXPECT_EQ(with(10, 3.9).joints, 1U);
-  EXPECT_EQ(with(4, 3.9).joints, 2U);
+  EXPECT_EQ(with(10, 3.9).parts, 1U);
+  EXPECT_EQ(with(4, 3.9).parts, 2U);
   EXPECT_EQ(with(kUnknownLimit, 5.1).status, CheckStatus::pass) << "docks of which nothing is stated do not count";
   EXPECT_EQ(with(kUnknownLimit, kUnknownLimit).status, CheckStatus::not_judged);
   EXPECT_EQ(with(kUnknownLimit, kUnknownLimit).value, 5);
@@ -119,9 +119,11 @@ TEST(LoadChecks, TakeTheSmallerLimitOfBothConnectors) {
   const double limit = 0.97 * tension;  // of 11.3 N: 11 N
   const LoadCase weak = connected({.tension = limit}, {.tension = 1000});
   EXPECT_EQ(weak.check("dock_tension").status, CheckStatus::fail);
+  EXPECT_EQ(weak.check("dock_tension").source, "chosen: no source stated");
+  EXPECT_TRUE(contains(weak.check("dock_tension").text, "of what it holds by a chosen figure"));
   EXPECT_TRUE(contains(weak.check("dock_tension").text, "m5/dock is pulled apart")) << weak.check("dock_tension").text;
   const Verdict made = verdict(weak.scenario, weak.record, weak.summary(), overlaps(weak.scenario, weak.record));
-  EXPECT_EQ(made.word, "infeasible");
+  EXPECT_EQ(made.word, report::Word::infeasible);
 }
 
 TEST(LoadChecks, OfATensionOnlyThePullCounts) {

@@ -7,7 +7,7 @@
 #include "report/analysis/summary.h"
 #include "report/verdict/number_texts.h"
 #include "report/verdict/summary_text.h"
-#include "tests/program/fixture.h"
+#include "tests/report/verdict/messages.h"
 
 namespace gaitlab::test {
 namespace {
@@ -33,7 +33,7 @@ struct Doubts : testing::Test {
   }
   [[nodiscard]] static Scenario hexapod(const std::vector<std::string>& sets) { return shipped("hexapod.yaml", sets); }
   [[nodiscard]] std::string only() const {
-    const std::vector<std::string> warnings = trust_warnings(s, r);
+    const std::vector<std::string> warnings = messages(s, r, About::accuracy);
     return warnings.size() == 1 ? warnings[0] : fmt::format("{} warnings", warnings.size());
   }
   Scenario s = hexapod({"physics.engine=articulated"});
@@ -88,9 +88,9 @@ TEST_F(Doubts, SayWhatEnergyIsMissing) {
   EXPECT_EQ(only(), "0 warnings");
   for (const double missing : {0.2, -0.2}) {
     r.ledger.electrical = r.ledger.copper + missing;
-    EXPECT_EQ(only(), fmt::format("the energy does not add up: 0.2 J are missing of {:.3g} J drawn; take a smaller "
+    EXPECT_EQ(only(), fmt::format("{:.3g} % of the energy is unaccounted for: 0.2 J, of {:.3g} J drawn; take a smaller "
                                   "physics.accuracy",
-                                  r.ledger.electrical));
+                                  20 / r.ledger.electrical, r.ledger.electrical));
   }
   s = hexapod({});
   EXPECT_TRUE(contains(only(), "take a smaller physics.step")) << only();
@@ -107,9 +107,10 @@ TEST_F(Doubts, NameWhatIsNotFinite) {
 
 TEST_F(Doubts, SayWhatIsOffItsLaw) {
   r.tally.off = 3;
-  EXPECT_EQ(only(),
-            "3 joint-steps ended off the law of their motor or stop: the torques there are wrong; does the torque of the "
-            "actuator fall with the joint's speed, as it must?");
+  EXPECT_EQ(
+      only(),
+      "3 joint-steps ended off the law of their motor or stop: the torques there are wrong; the torque of the actuator must "
+      "fall with the joint's speed");
 }
 
 TEST_F(Doubts, SayWhereTheShortestStepsWereTooLong) {
@@ -152,7 +153,8 @@ TEST(Trust, NothingIsSaidOfShippedScenarios) {
       if (sets[0] == "physics.engine=bullet") sets.emplace_back("duration=0.6");
       const Scenario s = shipped(file.path().filename(), sets);
       const Recording r = run(s);
-      for (const std::string& warning : trust_warnings(s, r)) ADD_FAILURE() << engine << ", " << s.name << ": " << warning;
+      for (const std::string& warning : messages(s, r, About::accuracy))
+        ADD_FAILURE() << engine << ", " << s.name << ": " << warning;
       EXPECT_EQ(r.tally.off, 0) << s.name;
       EXPECT_EQ(r.tally.estimated, s.actuator.entry != nullptr) << s.name;
     }

@@ -12,7 +12,7 @@ namespace gaitlab::test {
 
 using namespace report;
 
-/// A caterpillar of 4 s, changed by hand.
+/// A caterpillar of 4 s, which is one period, changed by hand.
 struct Case {
   Scenario scenario = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated"});
   Recording record = run(scenario);
@@ -35,6 +35,12 @@ struct Case {
 
 inline Case& walk() {
   static Case made;
+  return made;
+}
+
+/// Three periods, which are evidence of a gait.
+inline Case& gait() {
+  static Case made{shipped("caterpillar.yaml", {"duration=12", "physics.engine=articulated"})};
   return made;
 }
 

@@ -2,8 +2,7 @@
 #include "report/verdict/warnings.h"
 
 #include "report/analysis/summary.h"
-#include "report/verdict/trust.h"
-#include "tests/program/fixture.h"
+#include "tests/report/verdict/messages.h"
 
 namespace gaitlab::test {
 namespace {
@@ -91,7 +90,7 @@ TEST(SetupWarnings, TellARobotBesideItsField) {
 std::string warnings_of(const Scenario& s) {
   const Recording r = run(s);
   std::string text;
-  for (const Warning& doubt : run_warnings(s, r, overlaps(s, r))) text += doubt.text + "\n";
+  for (const std::string& doubt : messages(s, r, About::gait)) text += doubt + "\n";
   return text;
 }
 
@@ -106,7 +105,7 @@ TEST(RunWarnings, AreSilentOnAStone) {
       "gaitlab: 1\nrobot: {modules: {name: rigid, bodies: {block: {mass: 1, com: [0, 0, 0], inertia: [1, 1, 1, 0, 0, 0]}}}}\n"
       "contact: {on: none}\nduration: 0.1\n");
   EXPECT_EQ(warnings_of(stone), "");
-  EXPECT_EQ(trust_warnings(stone, run(stone)), std::vector<std::string>{});
+  EXPECT_EQ(messages(stone, run(stone)), std::vector<std::string>{});
 }
 
 TEST(RunWarnings, TellANegativeCostOfTransportHoweverSmall) {
@@ -119,7 +118,8 @@ TEST(RunWarnings, TellANegativeCostOfTransportHoweverSmall) {
   r.joints[0].electrical -= drawn + 1e-9;
   r.ledger.electrical = -1e-9;  // far less than lifts the robot by 1 mm
   EXPECT_LT(summarise(s, r, 1).cost_electrical, 0);
-  expect_one(run_warnings(s, r, {}), true, "so that the cost of transport is negative");
+  ASSERT_EQ(messages(s, r).size(), 1U);
+  EXPECT_TRUE(contains(messages(s, r)[0], "so that the cost of transport is negative"));
 }
 
 TEST(RunWarnings, TellASetPointThatJumps) {
@@ -142,16 +142,20 @@ TEST(RunWarnings, ARampIsOfTheOffset) {
 }
 
 TEST(RunWarnings, TellACpgThatMovesNothing) {
-  const std::vector<std::string> sets{"duration=0.1", "physics.engine=articulated"};
-  EXPECT_TRUE(contains(warnings_of(shipped("caterpillar.yaml", {sets[0], sets[1], "cpg.type=keyframes"})),
-                       "cpg keyframes moves no joint"));
-  EXPECT_TRUE(contains(warnings_of(shipped("caterpillar.yaml", {sets[0], sets[1], "cpg.amplitude=0"})), "moves no joint"));
+  const auto of = [](const std::string& set) {
+    const Scenario s = shipped("caterpillar.yaml", {"duration=0.1", "physics.engine=articulated", set});
+    std::string text;
+    for (const std::string& doubt : messages(s, run(s))) text += doubt + "\n";
+    return text;
+  };
+  EXPECT_TRUE(contains(of("cpg.type=keyframes"), "cpg keyframes moves no joint"));
+  EXPECT_TRUE(contains(of("cpg.amplitude=0"), "moves no joint"));
 }
 
 TEST(RunWarnings, TellJointsBeyondTheirRange) {
   const std::string text =
       warnings_of(shipped("caterpillar.yaml", {"duration=3", "physics.engine=articulated", "cpg.amplitude=1.9"}));
-  EXPECT_TRUE(contains(text, "is beyond its range for")) << text;
+  EXPECT_TRUE(contains(text, "leave the range of the hinge; worst ")) << text;
 }
 
 TEST(RunWarnings, TellARobotThatLeavesItsField) {
@@ -173,7 +177,7 @@ TEST(RunWarnings, TellBodiesThatPassThroughOneAnother) {
     return warnings_of(scenario(text.replace(text.find("%s"), 2, angle) + more));
   };
   const std::string text = with("1.2", "");
-  EXPECT_TRUE(contains(text, "bodies m0/passive and m3/active pass through one another from t = 0.00 s on")) << text;
+  EXPECT_TRUE(contains(text, "of bodies pass")) << text;
   EXPECT_EQ(with("0.6", ""), "");
 }
 
@@ -185,7 +189,7 @@ TEST(RunWarnings, TellBodiesThatGoThroughTheGround) {
                  "cpg: {type: sine, amplitude: 0.5, phase_lag: 1.2, frequency: 0.5, model: {ramp: 0.5}}\ncontact: {on: " +
                  on + "}\n"));
   };
-  EXPECT_TRUE(contains(with("feet"), "mm into the ground (some body from t = ")) << with("feet");
+  EXPECT_TRUE(contains(with("feet"), "mm into the ground; set contact.on: all")) << with("feet");
   EXPECT_EQ(with("all"), "");
 }
 

@@ -159,7 +159,7 @@ TEST(Search, EndsWhereNothingIsEverFeasible) {
   for (const Method method : {Method::cma, Method::xnes, Method::sade, Method::pso}) {
     Search search({.algorithm = method, .dimensions = 2, .population = 8, .restarts = 0});
     const auto flat = [](const Vector&) { return Vector{2e6 + 1}; };
-    EXPECT_LT(asked(search, flat, 100000).size(), 1000U) << kMethods[static_cast<std::size_t>(method)];
+    EXPECT_LT(asked(search, flat, 100000).size(), 1000U) << name_of(method);
   }
   Search search({.algorithm = Method::nsga2, .dimensions = 2, .objectives = 2, .population = 8, .restarts = 0});
   EXPECT_LT(asked(

@@ -1,0 +1,51 @@
+#include "core/scenario/replaced_motors.h"
+
+#include <fmt/format.h>
+
+#include "core/scenario/section_places.h"
+#include "core/settings/wording.h"
+
+namespace gaitlab {
+
+ReplacedMotors::ReplacedMotors(const Node& root, const Scenario& scenario, const TypePresets& presets)
+    : place_(place_of(root, "actuator", "type")),
+      actuator_(scenario.actuator.entry->name),
+      source_(scenario.actuator_source),
+      why_(presets.why()) {
+  const Entry& entry = *scenario.actuator.entry;
+  if (presets.holds(entry)) return;
+  dropped_ = dropped_figures(Kind::actuator, *scenario.robot, *scenario.module_documents, presets, entry);
+  const Node* const section = root.find("actuator");
+  std::vector<std::string> assumed;  // that state something
+  for (const DefaultFigure& one : default_figures(entry)) {
+    if (section != nullptr && section->find(one.key) != nullptr) continue;
+    defaults_.push_back(fmt::format("{} {}", one.key, with_unit(one.value, one.unit)));
+    if (one.value != 0) assumed.push_back(one.key);
+  }
+  for (const auto& [key, place] : section == nullptr ? std::vector<std::pair<std::string, SourceLocation>>() : section->keys)
+    given_ = given_ || (key != "type" && key != "source");
+  if (!source_.empty() && !assumed.empty()) source_ = by_default(assumed, entry) + "; the rest: " + source_;
+}
+
+std::vector<Note> ReplacedMotors::notes() const {
+  std::vector<Note> notes;
+  if (given_ && defaults_.empty()) return notes;
+  for (const DroppedFigures& of : dropped_) {
+    notes.push_back(
+        {place_,
+         fmt::format(
+             "the module type {} states {} for actuator {}, which {} dropped{}: {}; give {} and source under actuator{}",
+             clipped(of.module), joined(of.keys), clipped(of.type), of.keys.size() == 1 ? "is" : "are",
+             why_.empty() ? "" : fmt::format(" because {}", why_),
+             defaults_.empty() ? fmt::format("actuator {} has none of them", actuator_)
+                               : fmt::format("actuator {} takes its own {} {}", actuator_,
+                                             defaults_.size() == 1 ? "default" : "defaults", fmt::join(defaults_, ", ")),
+             defaults_.empty()       ? "its keys"
+             : defaults_.size() == 1 ? "this"
+                                     : "these",
+             why_.empty() ? ", or leave type out" : "")});
+  }
+  return notes;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,128 @@
+#include "report/analysis/motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/analysis/states.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kOnGrid = 1e-6;  // of the spacing: times are whole steps, but for rounding
+
+/// Of /recording/poses, or of the trace of an older folder.
+Series of_motion(const Recording& r, const std::string& column) {
+  return motion_of_ticks(r) ? r.pose(column) : r.series(column);
+}
+
+Series of_joint(const Recording& r, std::size_t joint, const char* quantity) {
+  return of_motion(r, fmt::format("joint.{}.{}", joint, quantity));
+}
+
+/// Samples that are evenly spaced.
+struct Grid {
+  std::size_t rows = 0;
+  double spacing = 0;  ///< s
+};
+
+/// The last row may lie off the grid, where the run ends between two.
+Grid grid(const Scenario& scenario, const Recording& r) {
+  if (!motion_of_ticks(r)) {
+    const double period = scenario.trace.period;
+    return {std::min(r.rows(), static_cast<std::size_t>(std::floor(r.simulated / period + 1e-9)) + 1), period};
+  }
+  const Series t = r.pose("t");
+  if (t.size() < 2) return {};
+  // A row is every control tick, or every second, third ... of short control periods and long runs.
+  const double ticks = std::max(1.0, std::round(t[1] / scenario.control_period));
+  Grid made{0, ticks * scenario.control_period};
+  const auto on_grid = [&](std::size_t k) {
+    return std::abs(t[k] - static_cast<double>(k) * made.spacing) <= kOnGrid * made.spacing;
+  };
+  while (made.rows < t.size() && on_grid(made.rows)) ++made.rows;
+  return made;
+}
+
+MotionCycle cycle(const Grid& grid, const std::vector<Series>& columns) {
+  std::vector<double> all;
+  all.reserve(grid.rows * columns.size());
+  for (std::size_t k = 0; k < grid.rows; ++k) {
+    for (const Series& column : columns) all.push_back(column[k]);
+  }
+  return find_limit_cycle(all, columns.size(), grid.spacing);
+}
+
+}  // namespace
+
+bool motion_of_ticks(const Recording& r) { return !r.pose("com.x").empty(); }
+
+Motion motion(const Recording& r) {
+  const auto of = [&](const char* column) { return of_motion(r, column); };
+  return {of("t"), of("com.x"), of("com.y"), of("com.z"), of("base.qw"), of("base.qx"), of("base.qy"), of("base.qz")};
+}
+
+std::string motion_sentence(const Recording& r) {
+  const Series t = r.series("t");
+  if (motion_of_ticks(r) || r.ticks_of_rows || t.size() < 2) return "";
+  return fmt::format(
+      "in this older folder limit cycle, judged time and the robot's way are of the trace's rows, one per {:.3g} ms; gaitlab "
+      "rerun takes control ticks",
+      1000 * (t[1] - t[0]));
+}
+
+std::vector<Series> ground_loads(const Scenario& scenario, const Recording& r) {
+  if (scenario.base != Base::floating) return {};
+  if (motion_of_ticks(r)) {
+    if (contact_elements(*scenario.robot, scenario.contact.on).empty()) return {};
+    return {r.pose("load")};
+  }
+  std::vector<Series> loads;
+  for (std::size_t m = 0; m < scenario.robot->modules.size(); ++m) {
+    if (const Series one = r.series(fmt::format("load.{}", m)); !one.empty()) loads.push_back(one);
+  }
+  return loads;
+}
+
+std::vector<Series> set_points(const Scenario& scenario, const Recording& r) {
+  std::vector<Series> found;
+  for (std::size_t j = 0; j < scenario.robot->joints.size() && scenario.actuator.entry != nullptr; ++j) {
+    if (!scenario.robot->joints[j].driven()) continue;
+    if (const Series one = of_joint(r, j, "setpoint"); !one.empty()) found.push_back(one);
+  }
+  return found;
+}
+
+MotionCycle limit_cycle(const Scenario& scenario, const Recording& r) {
+  std::vector<Series> columns;
+  for (std::size_t j = 0; j < scenario.robot->joints.size(); ++j) {
+    if (const Series angle = of_joint(r, j, "angle"); !angle.empty()) columns.push_back(angle);
+  }
+  for (const Series& one : set_points(scenario, r)) columns.push_back(one);
+  return columns.empty() ? MotionCycle() : cycle(grid(scenario, r), columns);
+}
+
+MotionCycle set_point_cycle(const Scenario& scenario, const Recording& r) {
+  const std::vector<Series> columns = set_points(scenario, r);
+  return columns.empty() ? MotionCycle() : cycle(grid(scenario, r), columns);
+}
+
+std::vector<Vec3> centres_of_mass(const Scenario& scenario, const Recording& r) {
+  std::vector<Vec3> all;
+  if (motion_of_ticks(r)) {
+    const Motion of = motion(r);
+    for (std::size_t row = 0; row < of.t.size(); ++row) all.emplace_back(of.x[row], of.y[row], of.z[row]);
+    return all;
+  }
+  const States states = States::at_ticks(r, *scenario.robot);
+  Kinematics k(*scenario.robot);
+  for (std::size_t row = 0; row < states.size(); ++row) {
+    k.update(*scenario.robot, states(row));
+    all.push_back(sums(*scenario.robot, k, scenario.physics.gravity).com);
+  }
+  return all;
+}
+
+}  // namespace gaitlab::report

@@ -1,0 +1,70 @@
+#include "report/analysis/upright.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "report/analysis/states.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kRounds = 1e-9;  // s
+
+/// A period, and the sum of the turns in it about level axes, rad.
+struct Stretch {
+  double from, to;
+  Vec3 turn = Vec3::Zero();
+  [[nodiscard]] bool whole_turn() const { return std::hypot(turn.x(), turn.y()) > std::numbers::pi; }
+};
+
+std::vector<Stretch> stretches(const Judged& judged, double set_points) {
+  const bool cycle = judged.periods > 0;
+  const std::size_t count = cycle ? judged.periods : set_points > 0 ? 1 : 2;
+  const double period = !cycle && set_points > 0 ? set_points : (judged.to - judged.from) / static_cast<double>(count);
+  std::vector<Stretch> all;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double to = judged.to - static_cast<double>(k) * period;
+    all.push_back({to - period, to});
+  }
+  return all;
+}
+
+/// rad, about world axes.
+Vec3 turn_between(const Quat& before, const Quat& after) {
+  const Eigen::AngleAxisd turn(after * before.inverse());  // by up to pi
+  return turn.angle() * turn.axis();
+}
+
+}  // namespace
+
+std::optional<Upright> upright(const Scenario& scenario, const Recording& r, const Judged& judged, double set_points) {
+  const States states = States::at_ticks(r, *scenario.robot);
+  if (scenario.base != Base::floating || states.size() == 0) return {};
+  Quat before = states(0).orientation;
+  const Vec3 up = before.inverse() * Vec3::UnitZ();
+  std::vector<Stretch> periods = stretches(judged, set_points);
+  Upright found;
+  double least = 1;  // cosine of the tilt
+  for (std::size_t row = 0; row < states.size(); ++row) {
+    const double time = states.time(row);
+    const Quat now = states(row).orientation;
+    const double cosine = (now * up).z();
+    if (cosine < least) {
+      least = cosine;
+      found.tilt_time = time;
+    }
+    if (cosine < 0 && !found.over) found.over = time;
+    for (Stretch& period : periods) {
+      if (time > period.from + kRounds && time < period.to + kRounds) period.turn += turn_between(before, now);
+    }
+    before = now;
+  }
+  found.tilt = std::acos(std::clamp(least, -1.0, 1.0));
+  found.rolls = std::ranges::all_of(periods, &Stretch::whole_turn);
+  return found;
+}
+
+}  // namespace gaitlab::report

@@ -1,0 +1,121 @@
+#include "report/verdict/screen.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/settings/wording.h"
+#include "report/analysis/posture.h"
+#include "report/verdict/number_texts.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr std::size_t kColumns = 100, kTitle = 10;
+constexpr std::size_t kMostOfAKind = 4;
+constexpr double kInstant = 0.1;  // s: a stretch that is told by its start
+
+class Screen {
+ public:
+  void add(const std::string& title, const std::string& text, Tone tone = Tone::plain) {
+    const std::string broken = wrapped(text, 0, kColumns - kTitle - 2);
+    std::string head = title;
+    for (std::size_t at = 0; at < broken.size();) {
+      const std::size_t end = std::min(broken.find('\n', at), broken.size());
+      lines.push_back({head, broken.substr(at, end - at), tone});
+      head.clear();
+      at = end + 1;
+    }
+  }
+  std::vector<ScreenLine> lines;
+};
+
+std::string names(const std::vector<const Check*>& checks, std::size_t from = 0) {
+  std::vector<std::string> ids;
+  bool docks = false;
+  for (std::size_t k = from; k < checks.size(); ++k) {
+    const bool dock = checks[k]->id.starts_with("dock_") && checks[k]->status == CheckStatus::not_judged;
+    if (dock && docks) continue;
+    docks = docks || dock;
+    ids.push_back(dock ? "docks" : checks[k]->id);
+  }
+  return fmt::format("{}", fmt::join(ids, ", "));
+}
+
+std::vector<const Check*> of_status(const Verdict& verdict, CheckStatus status) {
+  std::vector<const Check*> found;
+  for (const Check& check : verdict.checks) {
+    if (check.status == status) found.push_back(&check);
+  }
+  return found;
+}
+
+/// The text without its advice.
+std::string brief(const Check& check) {
+  const std::string text = check.text + (check.missing.empty() ? "" : "; missing: " + check.missing);
+  const bool instant = check.part != Part::none && check.to - check.from < kInstant;
+  return instant ? text + fmt::format(", at {:.2f} s", check.from) : text;
+}
+
+void add_kind(Screen& screen, const std::vector<const Check*>& checks, std::size_t skip, const char* title, Tone tone) {
+  for (std::size_t k = skip; k < checks.size(); ++k) {
+    if (k - skip == kMostOfAKind) {
+      screen.add("", "and " + names(checks, k) + " (--verbose)", tone);
+      return;
+    }
+    screen.add(k == skip ? title : "", brief(*checks[k]), tone);
+  }
+}
+
+std::string gait(const RunData& run) {
+  const Summary& s = run.summary;
+  if (run.record.series("com.x").empty() || run.scenario.base != Base::floating) return "";
+  std::string text = fmt::format("{:.4f} m/s", s.speed);
+  if (const double speed = cycle_speed(run.record, s.judged); s.limit_cycle.found && std::isfinite(speed))
+    text += fmt::format(", {:.4f} m per period of {:.4g} s", speed * s.limit_cycle.period, s.limit_cycle.period);
+  if (s.cost_electrical != 0 && has_motors(run)) text += fmt::format(", cost of transport {:.3g}", s.cost_electrical);
+  return text;
+}
+
+Tone tone_of(Word word) { return word == Word::feasible ? Tone::good : word == Word::not_judged ? Tone::doubtful : Tone::bad; }
+
+}  // namespace
+
+std::string tightest_text(const Verdict& verdict) {
+  const Check* const check = verdict.tightest();
+  if (check == nullptr) return "";
+  std::string name = check->id;
+  std::ranges::replace(name, '_', ' ');
+  if (!check->worst.empty()) name += " of " + check->worst;
+  return fmt::format("{}, margin {}", name, texts::percent(check->margin));
+}
+
+std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict) {
+  Screen screen;
+  std::string head = name_of(verdict.word);
+  if (verdict.word == Word::feasible) {
+    head += std::string(" with these motors") + (verdict.chosen_motors ? " (chosen figures)" : "") +
+            (verdict.rests_on.empty() ? "" : ", over " + verdict.rests_on);
+  } else if (const std::string why = verdict.why(); !why.empty()) {
+    head += ": " + why;
+  }
+  screen.add("verdict", head, tone_of(verdict.word));
+  const bool led = verdict.word == Word::infeasible || verdict.word == Word::failed;  // the first failure is told already
+  if (const std::string tightest = tightest_text(verdict); !led && !tightest.empty()) screen.add("tightest", tightest);
+  if (!verdict.demand_doubt.empty()) screen.add("demand", verdict.demand_doubt, Tone::doubtful);
+  add_kind(screen, of_status(verdict, CheckStatus::fail), led ? 1 : 0, "fails", Tone::bad);
+  add_kind(screen, of_status(verdict, CheckStatus::too_close), 0, "too close", Tone::doubtful);
+  add_kind(screen, of_status(verdict, CheckStatus::warn), 0, "warns", Tone::doubtful);
+  if (const auto open = of_status(verdict, CheckStatus::not_judged); !open.empty())
+    screen.add("unknown", names(open) + " (gaitlab explain verdict)");
+  if (const std::string text = gait(run); !text.empty()) screen.add("gait", text);
+  for (const std::string& rows : {verdict.of_rows, verdict.window_of_rows}) {
+    if (!rows.empty()) screen.add("rows", rows, Tone::doubtful);
+  }
+  if (!verdict.figures.empty()) screen.add("rests on", verdict.figures);
+  return screen.lines;
+}
+
+}  // namespace gaitlab::report

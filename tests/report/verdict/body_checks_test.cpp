@@ -1,0 +1,344 @@
+// Checks of the robot above its ground: fall, upright, in_ground, on kinds of ground and at their limits.
+#include <cmath>
+#include <numbers>
+
+#include "core/model/kinematics.h"
+#include "core/simulation/start.h"
+#include "report/analysis/fall.h"
+#include "report/analysis/states.h"
+#include "report/analysis/upright.h"
+#include "report/verdict/verdict.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace report;
+
+constexpr double kBodyRounding = 1e-9;  // m, rad: of numbers near 1, and room
+constexpr double kPlateau = 0.1;        // m
+
+/// Grounds that are level at `kPlateau`, but for the plane.
+const std::vector<std::pair<std::string, double>> kLevelGrounds{
+    {"{type: plane}", 0},
+    {"{type: boxes, boxes: [{center: [0, 0, 0.05], size: [2, 2, 0.1]}]}", kPlateau},
+    {"{type: heightfield, heightfield: {values: [[0, 0], [0, 0]], spacing: 2, origin: [-1, -1, 0.1]}}", kPlateau},
+};
+
+/// A module that lies still, changed by hand.
+struct Still {
+  Scenario scenario;
+  Recording record;
+
+  explicit Still(const std::string& ground, const std::vector<std::string>& sets = {})
+      : scenario(gaitlab::test::scenario("gaitlab: 1\nrobot: {modules: mtran, position: [0.2, 0.1]}\ncontact: {on: all}\n"
+                                         "physics: {engine: articulated}\nduration: 0.3\nground: " +
+                                             ground + "\n",
+                                         sets)),
+        record(run(scenario)) {}
+
+  [[nodiscard]] Check check(const std::string& id) const {
+    const Verdict made = verdict(scenario, record, summarise(scenario, record, 0), overlaps(scenario, record));
+    return *std::ranges::find(made.checks, id, &Check::id);
+  }
+  double& pose(const std::string& column, std::size_t row) {
+    return record.poses.values.at(row * record.poses.columns.size() + record.poses.find(column));
+  }
+  void move(const std::string& column, double by, std::size_t from) {
+    for (std::size_t row = from; row < record.poses.rows(); ++row) pose(column, row) += by;
+  }
+  /// Turned about x.
+  void turn(double angle, std::size_t from) {
+    for (std::size_t row = from; row < record.poses.rows(); ++row) {
+      pose("base.qw", row) = std::cos(angle / 2);
+      pose("base.qx", row) = std::sin(angle / 2);
+      pose("base.qy", row) = pose("base.qz", row) = 0;
+    }
+  }
+};
+
+constexpr std::size_t kRow = 7;
+
+/// A module that stands on its end, 0.065 m high, and from row `from` on lies that high.
+Still lying(const std::string& ground, double height, std::size_t from, double level) {
+  Still made(ground, {"robot.orientation=[0, 1.5707963267948966, 0]"});
+  made.turn(0, from);
+  for (std::size_t row = from; row < made.record.poses.rows(); ++row) made.pose("base.z", row) = level + height;
+  return made;
+}
+
+/// A share of the height above the ground is the limit, wherever the ground is; the time is that of the first tick below it.
+TEST(FallCheck, IsOfTheHeightAboveTheGround) {
+  constexpr double kStanding = 0.065;  // m
+  for (const auto& [ground, level] : kLevelGrounds) {
+    const auto status = [&](double share, double limit) {
+      Still made = lying(ground, share * kStanding, kRow, level);
+      made.scenario.limits.height = limit;
+      return made.check("fall").status;
+    };
+    EXPECT_EQ(status(0.5 + kBodyRounding, 0.5), CheckStatus::pass) << ground;
+    EXPECT_EQ(status(0.5 - kBodyRounding, 0.5), CheckStatus::fail) << ground;
+    EXPECT_EQ(status(0.7 + kBodyRounding, 0.7), CheckStatus::pass) << ground;
+    EXPECT_EQ(status(0.7 - kBodyRounding, 0.7), CheckStatus::fail) << ground;
+    Still fallen = lying(ground, 0.75 * kStanding, kRow, level);
+    fallen.scenario.limits.height = 0.8;
+    EXPECT_NEAR(standing_height(fallen.scenario), kStanding, kBodyRounding) << ground;
+    EXPECT_NEAR(heights(fallen.scenario, fallen.record).front(), kStanding, kBodyRounding) << ground;
+    fallen.move("base.z", -0.1 * kStanding, kRow + 2);
+    const Check check = fallen.check("fall");
+    EXPECT_EQ(check.status, CheckStatus::fail) << ground;
+    EXPECT_EQ(check.from, fallen.pose("t", kRow)) << "first, not lowest: " << ground;
+    EXPECT_EQ(check.to, fallen.pose("t", kRow + 2));
+    EXPECT_NEAR(check.value, 0.65, kBodyRounding) << ground;
+    EXPECT_EQ(check.first, check.from);
+  }
+}
+
+TEST(FallCheck, ComparesWithThePoseOnTheGround) {
+  const double standing = standing_height(Still("{type: plane}").scenario);
+  const Still dropped("{type: plane}", {"robot.position=[0.2, 0.1, 0.1]", "duration=0.5"});
+  EXPECT_NEAR(standing_height(dropped.scenario), standing, kBodyRounding);
+  EXPECT_EQ(dropped.check("fall").status, CheckStatus::pass) << dropped.check("fall").text;
+}
+
+TEST(FallCheck, IsOfFloatingBasesAboveAGround) {
+  EXPECT_EQ(Still("{type: none}").check("fall").status, CheckStatus::not_judged);
+  Still fixed("{type: plane}", {"robot.base=fixed", "robot.position=[0, 0, 1]"});
+  EXPECT_EQ(fixed.check("fall").status, CheckStatus::not_judged);
+  Still rows("{type: plane}");
+  rows.record.poses = {};
+  EXPECT_EQ(rows.check("fall").status, CheckStatus::pass) << "of the rows of an old folder";
+  rows.record.trace = rows.record.rest = {};
+  EXPECT_EQ(rows.check("fall").status, CheckStatus::not_judged);
+  EXPECT_TRUE(contains(rows.check("fall").text, "no poses"));
+}
+
+/// What is beside an element, or above it, is not below it.
+TEST(FallCheck, KnowsWallsAndRoofs) {
+  // The module reaches 0.065 m to the front: its front face is 0.1 mm in the wall.
+  const Still wall("{type: boxes, boxes: [{center: [0.3149, 0.1, 0.5], size: [0.1, 1, 1]}]}",
+                   {"robot.position=[0.2, 0.1, 0.0325]"});
+  EXPECT_NEAR(heights(wall.scenario, wall.record).front(), 0.0325, kBodyRounding) << "the wall is 1 m high";
+  const Still roof("{type: boxes, boxes: [{center: [0.2, 0.1, 0.5], size: [1, 1, 0.1]}]}",
+                   {"robot.position=[0.2, 0.1, 0.0325]"});
+  EXPECT_NEAR(heights(roof.scenario, roof.record).front(), 0.0325, kBodyRounding);
+  EXPECT_EQ(roof.check("fall").status, CheckStatus::pass);
+}
+
+TEST(UprightCheck, FailsBelowTheHorizontal) {
+  constexpr double kHalf = std::numbers::pi / 2;
+  const Still still("{type: none}", {"actuator.type=none", "physics.gravity=[0, 0, 0]"});
+  struct Turned {
+    double angle;
+    CheckStatus status;
+  };
+  for (const auto& [angle, status] : {Turned{1.04, CheckStatus::pass},
+                                      {1.05, CheckStatus::warn},  // limits.tilt is pi / 3
+                                      {kHalf - kBodyRounding, CheckStatus::warn},
+                                      {kHalf + kBodyRounding, CheckStatus::fail},
+                                      {3, CheckStatus::fail},
+                                      {-3, CheckStatus::fail}}) {
+    Still turned = still;
+    turned.turn(angle, kRow);
+    const Check check = turned.check("upright");
+    EXPECT_EQ(check.status, status) << angle;
+    EXPECT_NEAR(check.value, std::abs(angle), 1e-7) << "the acos of a double";
+    EXPECT_EQ(check.from, turned.pose("t", kRow));
+    EXPECT_EQ(check.limit, kHalf);
+    EXPECT_NEAR(check.margin, (kHalf - std::abs(angle)) / kHalf, 1e-7);
+  }
+  Still set = still;
+  set.scenario.limits.tilt = 1.3;
+  set.turn(1.2, kRow);
+  EXPECT_EQ(set.check("upright").status, CheckStatus::pass);
+  set.scenario.limits.tilt = 4;
+  set.turn(1.6, kRow);
+  EXPECT_EQ(set.check("upright").status, CheckStatus::fail) << "the key moves the warning alone";
+}
+
+/// What lies on its side from the start is upright as it lies.
+TEST(UprightCheck, IsOfTheStart) {
+  const Still side("{type: plane}", {"robot.orientation=[1.7, 0.3, 2]"});
+  EXPECT_LT(upright(side.scenario, side.record, {}, 0)->tilt, 1.8);
+  Still lies("{type: plane}", {"robot.orientation=[1.5707963267948966, 0, 1]", "duration=0.1"});
+  EXPECT_EQ(lies.check("upright").status, CheckStatus::pass);
+  EXPECT_LT(lies.check("upright").value, 0.01);
+  Still fixed("{type: plane}", {"robot.base=fixed", "robot.position=[0, 0, 1]"});
+  EXPECT_EQ(fixed.check("upright").status, CheckStatus::not_judged);
+}
+
+/// Rows 0.01 s apart over 4 s, in the periods of 1 s behind 1 s.
+Upright turned_by(const std::function<double(double)>& angle, std::size_t periods = 3, double set_points = 0, double from = 1) {
+  static const Still still("{type: none}", {"actuator.type=none", "physics.gravity=[0, 0, 0]"});
+  Recording record = still.record;
+  Trace& poses = record.poses;
+  const std::vector<double> first(poses.values.begin(),
+                                  poses.values.begin() + static_cast<std::ptrdiff_t>(poses.columns.size()));
+  poses.values.clear();
+  for (int row = 0; row <= 400; ++row) {
+    std::vector<double> values = first;
+    values[poses.find("t")] = 0.01 * row;
+    values[poses.find("base.qw")] = std::cos(angle(0.01 * row) / 2);
+    values[poses.find("base.qx")] = std::sin(angle(0.01 * row) / 2);
+    poses.values.insert(poses.values.end(), values.begin(), values.end());
+  }
+  Judged judged;
+  judged.from = from;
+  judged.to = 4;
+  judged.periods = periods;
+  return *upright(still.scenario, record, judged, set_points);
+}
+
+TEST(UprightCheck, IsNotOfWhatRolls) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const auto rolls = [](double t) { return kTurn * t; };
+  const auto sways = [](double t) { return -kTurn * t + 2 * std::sin(kTurn * t); };
+  const auto slips = [](double t) { return 0.51 * kTurn * t; };  // the nearest number of turns is one
+  EXPECT_TRUE(turned_by(rolls).rolls);
+  EXPECT_TRUE(turned_by(sways).rolls);
+  EXPECT_TRUE(turned_by(slips).rolls);
+  const auto slow = [](double t) { return 0.49 * kTurn * t; };
+  const auto nods = [](double t) { return 0.9 * (1 - std::cos(kTurn * t)); };                    // up to 1.8 rad and back
+  const auto lies = [](double t) { return t < 0.2 ? 0.0 : 3.0; };                                // on its back
+  const auto rocks = [](double t) { return t < 0.2 ? 0.0 : 1.57 + 0.7 * std::sin(kTurn * t); };  // on its side
+  const auto topples = [](double t) { return t < 3.4 ? 0.2 * std::sin(t) : 2.5; };               // in the last period
+  const auto tumbles = [](double t) { return t < 1 ? kTurn * t : 0.0; };                         // once, onto its feet
+  const auto stops = [](double t) { return t < 3 ? kTurn * t : 0.0; };                           // before the last period
+  for (const auto& [name, angle] : std::vector<std::pair<std::string, std::function<double(double)>>>{{"slow", slow},
+                                                                                                      {"nods", nods},
+                                                                                                      {"lies", lies},
+                                                                                                      {"rocks", rocks},
+                                                                                                      {"topples", topples},
+                                                                                                      {"tumbles", tumbles},
+                                                                                                      {"stops", stops}}) {
+    EXPECT_TRUE(turned_by(angle).over) << name;
+    EXPECT_FALSE(turned_by(angle).rolls) << name;
+  }
+  EXPECT_NEAR(*turned_by(rolls).over, 0.26, 1e-9);
+  EXPECT_NEAR(*turned_by(topples).over, 3.4, 1e-9);
+  // Without a limit cycle: the last period of the set points; if these do not repeat, the halves of the window.
+  EXPECT_TRUE(turned_by(rolls, 0, 1).rolls);
+  EXPECT_FALSE(turned_by(lies, 0, 1).rolls);
+  EXPECT_TRUE(turned_by(rolls, 0, 0).rolls);
+  EXPECT_FALSE(turned_by(topples, 0, 0).rolls);
+  EXPECT_FALSE(turned_by(tumbles, 0, 0, 0).rolls) << "a whole turn in the first half alone";
+}
+
+/// Less than a period behind the first time that it turns over, a run does not show whether it rolls; of a run of three
+/// periods this is asked no more.
+TEST(UprightCheck, IsNotJudgedBeforeItCanBe) {
+  const auto status = [](const char* duration, double over) {
+    Still made("{type: none}", {"cpg.type=sine", "cpg.frequency=5", "cpg.amplitude=0.1", "physics.gravity=[0, 0, 0]",
+                                std::string("duration=") + duration});
+    std::size_t row = 0;
+    while (made.pose("t", row) < over - 1e-9) ++row;
+    made.turn(3, row);
+    return made.check("upright").status;
+  };
+  EXPECT_EQ(status("0.45", 0.3), CheckStatus::not_judged);
+  EXPECT_EQ(status("0.45", 0.15), CheckStatus::fail) << "it lies there for more than a period";
+  EXPECT_EQ(status("0.75", 0.6), CheckStatus::fail);
+}
+
+/// At the limit, on every ground: what is the same is judged the same.
+TEST(InGroundCheck, IsOfEveryGround) {
+  for (const auto& [ground, level] : kLevelGrounds) {
+    Still still(ground);
+    EXPECT_EQ(still.check("in_ground").status, CheckStatus::pass) << ground;
+    EXPECT_EQ(still.check("in_ground").value, 0) << ground;
+    const auto at = [&](double depth) {
+      Still sunk = still;
+      for (std::size_t row = kRow; row < sunk.record.poses.rows(); ++row) {
+        for (const char* column : {"base.qw", "base.qx", "base.qy", "base.qz"}) sunk.pose(column, row) = sunk.pose(column, 0);
+        for (std::size_t j = 0; j < sunk.scenario.robot->joints.size(); ++j)
+          sunk.record.poses.values[row * sunk.record.poses.columns.size() + 8 + j] = 0;
+        sunk.pose("base.z", row) = level + 0.0325 - depth;
+      }
+      return sunk;
+    };
+    EXPECT_EQ(at(0.005 - kBodyRounding).check("in_ground").status, CheckStatus::pass) << ground;
+    EXPECT_EQ(at(0.005 + kBodyRounding).check("in_ground").status, CheckStatus::fail) << ground;
+    const Still deep = at(0.02);
+    const Check check = deep.check("in_ground");
+    EXPECT_NEAR(check.value, 0.02, kBodyRounding) << ground;
+    EXPECT_EQ(check.from, Still(deep).pose("t", kRow)) << ground;
+    EXPECT_TRUE(contains(check.text, " goes 20 mm into the ground")) << check.text;
+  }
+  const Check none = Still("{type: none}").check("in_ground");
+  EXPECT_EQ(none.status, CheckStatus::not_judged);
+  EXPECT_EQ(none.text, "judged above a ground");
+}
+
+/// The way out counts, not the depth below the top: beside an edge it is short.
+TEST(InGroundCheck, IsTheWayOut) {
+  // The module reaches 0.065 m to the front, 3 mm deep into the side of a block 0.2 m high.
+  const std::string block = "{type: boxes, boxes: [{center: [0.312, 0.1, 0.1], size: [0.1, 1, 0.2]}]}";
+  const Still beside(block, {"robot.position=[0.2, 0.1, 0.0325]", "duration=0.015"});
+  EXPECT_EQ(beside.check("in_ground").status, CheckStatus::pass);
+  const Still deeper(block, {"robot.position=[0.207, 0.1, 0.0325]", "duration=0.015"});
+  EXPECT_EQ(deeper.check("in_ground").status, CheckStatus::fail);
+  EXPECT_NEAR(deeper.check("in_ground").value, 0.01, kBodyRounding);
+}
+
+// Scenarios whose truth is known by construction.
+
+struct Known {
+  Scenario scenario;
+  Recording record = run(scenario);
+  Summary summary = summarise(scenario, record, 0);
+  Verdict judged = verdict(scenario, record, summary, overlaps(scenario, record));
+
+  explicit Known(const std::string& name)
+      : scenario(read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/verdict/" + name + ".yaml", {}, catalog())) {}
+  [[nodiscard]] const Check& check(const std::string& id) const { return *std::ranges::find(judged.checks, id, &Check::id); }
+};
+
+TEST(KnownTruth, ThrownOnItsBackIsNoGait) {
+  const Known thrown("V3-thrown-on-its-back");
+  const Check& check = thrown.check("upright");
+  EXPECT_EQ(check.status, CheckStatus::fail) << check.text;
+  EXPECT_GT(check.value, 3);
+  // It turns at 12.8 rad/s: a quarter of a turn in pi / 2 / 12.8 = 0.123 s, in steps of the control period.
+  EXPECT_NEAR(check.from, 0.123, 0.03);
+  EXPECT_EQ(thrown.judged.word, Word::infeasible);
+}
+
+/// How deep its outline is, by another function: half cylinders are round there, and here prisms of 24 sides.
+void expect_buried(const Known& buried, double level) {
+  constexpr double kPrism = 0.009 * 0.0325;  // m: of the radius, which is what a prism lacks
+  const Check& check = buried.check("in_ground");
+  ASSERT_EQ(check.status, CheckStatus::fail) << check.text;
+  const States states = States::at_ticks(buried.record, *buried.scenario.robot);
+  Kinematics k(*buried.scenario.robot);
+  double deepest = 0;
+  double first = -1;
+  for (std::size_t row = 0; row < states.size(); ++row) {
+    k.update(*buried.scenario.robot, states(row));
+    const double depth = level - lowest_point(*buried.scenario.robot, k, {});
+    deepest = std::max(deepest, depth);
+    if (first < 0 && depth > buried.scenario.limits.sink) first = states.time(row);
+  }
+  EXPECT_NEAR(check.value, deepest, kPrism);
+  EXPECT_EQ(check.from, first);
+  EXPECT_EQ(buried.judged.word, Word::infeasible);
+}
+
+TEST(KnownTruth, InsideABox) { expect_buried(Known("V4-inside-a-box"), 0.2); }
+
+TEST(KnownTruth, UnderAHeightfield) { expect_buried(Known("V4-under-a-heightfield"), 0); }
+
+TEST(KnownTruth, StartsAboveTheGround) {
+  const Known dropped("V11-starts-above-the-ground");
+  EXPECT_EQ(dropped.check("fall").status, CheckStatus::pass) << dropped.check("fall").text;
+  EXPECT_NE(dropped.judged.word, Word::infeasible) << dropped.judged.why();
+}
+
+TEST(KnownTruth, DownAStep) {
+  const Known slid("V12-down-a-step");
+  EXPECT_EQ(slid.check("fall").status, CheckStatus::pass) << slid.check("fall").text;
+  EXPECT_EQ(slid.check("in_ground").status, CheckStatus::pass) << slid.check("in_ground").text;
+  EXPECT_NE(slid.judged.word, Word::infeasible) << slid.judged.why();
+}
+
+}  // namespace
+}  // namespace gaitlab::test
