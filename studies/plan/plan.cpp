@@ -97,12 +97,6 @@ void check_same(const std::vector<Quantity>& first, const std::vector<Quantity>&
   if (problems.empty()) check(other, first, "there is a quantity {}, which the first scenario does not have");
 }
 
-/// Keeps what both have; the first time all.
-void keep_common(std::vector<Limit>& kept, const std::vector<Limit>& limits, bool first) {
-  if (first) kept = limits;
-  std::erase_if(kept, [&](const Limit& one) { return std::ranges::find(limits, one.text, &Limit::text) == limits.end(); });
-}
-
 }  // namespace
 
 Plan::Plan(Study study, const QuantityOffer& offer, Catalog& catalog)
@@ -150,7 +144,6 @@ void Plan::make_judges(const QuantityOffer& offer, const Catalog& catalog, Probl
     judge_ = std::make_unique<Judge>(study_, columns[s], offer, one.joints, found[s]);
     one.other_engine = other_engine_of(study_.verify, one.nominal, catalog, found[s]);
     stops_ = std::make_unique<StopRules>(study_, offer, one.joints, found[s]);
-    keep_common(limits_, judge_->limits(), s + 1 == scenarios_.size());
   }
   if (std::ranges::all_of(found, &Problems::empty)) {
     for (std::size_t s = 1; s < scenarios_.size(); ++s) check_same(columns_, columns[s], study_.quantities_place, found[s]);
@@ -397,7 +390,7 @@ JournalHead Plan::head() const {
   for (const Variation& v : study_.replicates.vary) head.parameters.push_back({v.key, v.words, true, 0, 0, false, v.values});
   head.quantities = columns_;
   for (const std::size_t column : shown_) head.shown.push_back(columns_[column].name);
-  head.limits = limits_;
+  head.limits = judge_->limits();
   head.guarded = study_.guarded;
   return head;
 }

@@ -89,7 +89,6 @@ class Plan {
   std::unique_ptr<Judge> judge_;
   std::unique_ptr<StopRules> stops_;
   std::vector<std::size_t> shown_;
-  std::vector<Limit> limits_;  ///< that are the same in every scenario
 };
 
 }  // namespace gaitlab::studies

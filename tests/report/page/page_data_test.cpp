@@ -214,8 +214,8 @@ TEST(PageData, FeetGoByTheirLegs) {
     std::map<std::string, std::string> all;
     Simulation simulation({&s, 1}, Loads::recorded);
     simulation.run();
-    for (const json& foot : json::parse(data_of(s, simulation.take_recording(0)).meta)["feet"])
-      all[foot["name"]] = foot["title"];
+    const json meta = json::parse(data_of(s, simulation.take_recording(0)).meta);
+    for (const json& foot : meta["feet"]) all[foot["name"]] = foot["title"];
     return all;
   };
   const auto legs = titles(shipped("hexapod.yaml", {"duration=2.5", "physics.engine=articulated"}));
