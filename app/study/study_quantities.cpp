@@ -28,7 +28,9 @@ bool limited(const report::CheckKind& kind) {
 /// the run does not have it.
 double margin(const report::Check& check) {
   if (!std::isnan(check.margin)) return check.status == report::CheckStatus::pass ? std::max(0.0, check.margin) : check.margin;
-  const bool beyond = check.status == (check.can_fail ? report::CheckStatus::fail : report::CheckStatus::warn);
+  const auto kind =
+      std::ranges::find_if(report::check_kinds(), [&](const report::CheckKind& one) { return one.id == check.id; });
+  const bool beyond = check.status == (kind->can_fail() ? report::CheckStatus::fail : report::CheckStatus::warn);
   const bool missing = check.id == "evidence" && check.status != report::CheckStatus::pass;
   return beyond || missing ? -1 : std::nan("");
 }
