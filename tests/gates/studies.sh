@@ -97,8 +97,8 @@ verify: {best: 2, change: 0.2}
 budget: {runs: 80}
 TEXT
 done
-# Speed without guards takes all that the motors have and more: the best are found, and not verified.
-printf 'objective: {maximize: speed}\nmethod: {type: cma, population: 8, instances: 2}\n' >>"$work/cma.yaml"
+# Without guards, motors turn faster than they are rated for, which no time undoes: the best are found, and not verified.
+printf 'set: [actuator.speed_max=0.01]\nobjective: {maximize: speed}\nmethod: {type: cma, population: 8, instances: 2}\n' >>"$work/cma.yaml"
 printf 'objective: [{minimize: torque.peak}, {maximize: distance}]\nmethod: {type: nsga2, population: 16}\n' >>"$work/nsga2.yaml"
 for kind in cma nsga2; do
   ends=0 # with this code
