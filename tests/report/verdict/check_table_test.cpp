@@ -191,10 +191,11 @@ TEST(CheckTable, EachIsWhole) {
     EXPECT_FALSE(check.text.empty()) << check.id;
     EXPECT_FALSE(check.definition.empty()) << check.id;
     const bool judged = check.status != CheckStatus::not_judged;
-    if (judged && check.can_fail && check.id != "outcome" && check.id != "progress")
-      EXPECT_FALSE(std::isnan(check.margin)) << check.id;
-    if (judged && check.can_fail && check.id != "outcome") EXPECT_FALSE(check.source.empty()) << check.id;
-    if (!judged) EXPECT_TRUE(std::isnan(check.margin)) << check.id;
+    const bool limited = judged && check.can_fail && check.id != "outcome";
+    EXPECT_EQ(std::isnan(check.margin),
+              !limited && (check.can_fail || !judged || std::isnan(check.value) || std::isnan(check.limit)))
+        << check.id;
+    EXPECT_EQ(check.source.empty() && limited, false) << check.id;
   }
 }
 
