@@ -112,7 +112,7 @@ std::string no_created_energy(const Scenario& scenario) {
 bool chosen(const std::string& source) {
   constexpr std::string_view kWord = "chosen";
   const auto alike = [](char in_text, char in_word) { return in_text == in_word || in_text == in_word - 'a' + 'A'; };
-  return source.empty() || !std::ranges::search(source, kWord, alike).empty();
+  return source.empty() || std::search(source.begin(), source.end(), kWord.begin(), kWord.end(), alike) != source.end();
 }
 
 std::string figures_sentence(const std::vector<std::string>& motors, const std::vector<std::string>& docks) {
