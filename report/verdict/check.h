@@ -1,5 +1,6 @@
 // A check of the verdict: a limit, and the number of the run that is held against it.
 #pragma once
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -71,7 +72,7 @@ struct Check {
   double value, limit;   ///< of the worst part: of the criterion that decides
   std::string unit;      ///< "" of shares
   /// Of the criterion that decides. Orders the checks, and is a quantity of studies.
-  double margin = value;
+  double margin = std::numeric_limits<double>::quiet_NaN();
   std::vector<Criterion> criteria = {};  ///< those of a check that has several, the main one first
   double error = 0;                      ///< share by which the value may be off; 0: not estimated
   Part part = Part::none;                ///< of `worst`

@@ -71,7 +71,7 @@ Still lying(const std::string& ground, double height, std::size_t from, double l
 TEST(FallCheck, IsOfTheHeightAboveTheGround) {
   constexpr double kStanding = 0.065;  // m
   for (const auto& [ground, level] : kLevelGrounds) {
-    const auto status = [&](double share, double limit) {
+    const auto status = [&, &ground = ground, level = level](double share, double limit) {
       Still made = lying(ground, share * kStanding, kRow, level);
       made.scenario.limits.height = limit;
       return made.check("fall").status;
@@ -246,7 +246,7 @@ TEST(InGroundCheck, IsOfEveryGround) {
     Still still(ground);
     EXPECT_EQ(still.check("in_ground").status, CheckStatus::pass) << ground;
     EXPECT_EQ(still.check("in_ground").value, 0) << ground;
-    const auto at = [&](double depth) {
+    const auto at = [&, level = level](double depth) {
       Still sunk = still;
       for (std::size_t row = kRow; row < sunk.record.poses.rows(); ++row) {
         for (const char* column : {"base.qw", "base.qx", "base.qy", "base.qz"}) sunk.pose(column, row) = sunk.pose(column, 0);
