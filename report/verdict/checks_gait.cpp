@@ -51,9 +51,10 @@ double extent(const Scenario& s, const Recording& r) {
   return (most - least).norm();
 }
 
-/// J: work of gravity in the whole run.
-double gravity_work(const Scenario& s, const Motion& m) {
-  const Vec3 travel(m.x.back() - m.x.front(), m.y.back() - m.y.front(), m.z.back() - m.z.front());
+/// J: work of gravity in the window: a drop at the start is not a slide.
+double gravity_work(const Scenario& s, const Motion& m, const Rows& rows) {
+  const auto way = [&](const Series& one) { return one[rows.last] - one[rows.first]; };
+  const Vec3 travel(way(m.x), way(m.y), way(m.z));
   return s.robot->mass * s.physics.gravity.dot(travel);
 }
 
@@ -120,7 +121,7 @@ void progress(const CheckedRun& run, Check& made) {
   made.text = fmt::format("the robot goes {:.3g} m {}{}", made.value, each,
                           goes ? "" : fmt::format(", less than {:.3g} m", made.limit));
   made.can_fail = asked > 0;
-  const double fallen = gravity_work(s, m);
+  const double fallen = gravity_work(s, m, rows);
   double driven = 0;
   for (const JointStatistics& joint : r.joints) driven += joint.shaft;
   if (!run.evidence.not_borne.empty()) return;  // a fall is not a slide
@@ -159,7 +160,11 @@ void field(const CheckedRun& run, Check& made) {
   if (s.ground.kind != Ground::Kind::heightfield || m.x.empty() || m.y.empty()) return;
   made.status = CheckStatus::pass;
   made.text = "the robot stays on its heightfield";
-  if (beside_field(s.ground, m.x.front(), m.y.front())) return;  // told before the run
+  if (beside_field(s.ground, m.x.front(), m.y.front())) {  // told before the run
+    made.status = CheckStatus::not_judged;
+    made.text = "the robot starts beside its heightfield";
+    return;
+  }
   for (std::size_t k = 0; k < m.x.size(); ++k) {
     if (!beside_field(s.ground, m.x[k], m.y[k])) continue;
     made.status = CheckStatus::warn;

@@ -98,7 +98,7 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made) {
   const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
   const std::vector<Series> asked = set_points(s, r);
   if (made.not_trusted = makes_energy(s); !made.not_trusted.empty()) return;
-  if (driven && s.cpg.entry != nullptr && !asked.empty() && !moves(asked)) {
+  if (driven && made.too_short.empty() && s.cpg.entry != nullptr && !asked.empty() && !moves(asked)) {
     made.not_trusted = fmt::format("no set point changes: cpg {} moves no joint", s.cpg.entry->name);
     made.remedy = "look for its amplitudes, frames or equations";
   } else if (error.estimated && error.share > s.limits.torque_error) {

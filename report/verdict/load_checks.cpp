@@ -87,7 +87,7 @@ DockPeak peak_of(const Window& window, std::size_t module, DockQuantity quantity
     double value = quantity == DockQuantity::tension ? values[row] : std::abs(values[row]);
     if (std::abs(value) < kNothing) value = 0;
     if (value > limit && std::isnan(peak.first)) peak.first = window.time(row);
-    if (value <= peak.value) continue;
+    if (!(value > peak.value)) continue;
     peak.value = value;
     peak.time = window.time(row);
   }

@@ -104,6 +104,14 @@ TEST(Earned, SlidingDownASlope) {
   EXPECT_NE(slide.made.word, Word::feasible);
 }
 
+/// A robot that drops at its start and begins its gait slowly walks all the same.
+TEST(Earned, ADropAtTheStartIsNoSlide) {
+  Catalog& known = catalog();
+  const Told dropped(read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/tests/data/verdict/V11-starts-above-the-ground.yaml",
+                                   {"cpg.model.ramp=8", "duration=10"}, known));
+  EXPECT_NE(dropped.check("progress").status, CheckStatus::fail) << dropped.check("progress").text;
+}
+
 /// V14: the worst joint of a check is that of the terminal, and its message names no other.
 TEST(Earned, TheTerminalNamesTheJointOfTheCheck) {
   const Told wide(shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=12", "cpg.amplitude=1.7"}));
