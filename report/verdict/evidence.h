@@ -23,7 +23,7 @@ struct Evidence {
   std::string not_trusted;  ///< the numbers are wrong by more than the shares above, a motor makes energy, or nothing moves
   std::string remedy;       ///< of set points that never change
   bool repeats = false;     ///< the set points do
-  std::string rests_on;     ///< `3 periods of 4 s`, `these 18 s: the set points do not repeat`
+  std::string rests_on;     ///< `3 periods of 4 s`, `the last 18 s; the set points do not repeat`
   [[nodiscard]] bool complete() const { return too_short.empty() && not_borne.empty() && not_trusted.empty(); }
 };
 

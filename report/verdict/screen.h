@@ -21,7 +21,7 @@ struct ScreenLine {
 /// limits.
 std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict);
 
-/// `dock bending of m5, 94 % of what fails`; empty: no margin is known.
+/// `dock bending of m5, margin 6 %`; empty: no margin is known.
 std::string tightest_text(const Verdict& verdict);
 
 }  // namespace gaitlab::report
