@@ -267,7 +267,7 @@ std::string verification_text(Journal& journal) {
       if (!v.reason.empty())
         reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", clipped(v.what), one_line(v.reason));
     }
-    text += fmt::format("run {} {} ({}){}\n", run, reasons.empty() ? "stood" : "did not stand", ways,
+    text += fmt::format("run {} {} ({}){}\n", run, reasons.empty() ? "stood" : "not verified", ways,
                         reasons.empty() ? "" : "\n  " + reasons);
   }
   return text.empty() ? "" : "the best, tried again (" + objective_text(journal.head()) + "):\n" + text;

@@ -11,15 +11,16 @@
 #include "core/plugin/plugin_instance.h"
 #include "core/robot_files/type_presets.h"
 #include "core/scenario/ground_section.h"
+#include "core/scenario/old_names.h"
 #include "core/scenario/plugin_files.h"
 #include "core/scenario/replaced_motors.h"
 #include "core/scenario/robot_section.h"
 #include "core/scenario/scenario_checks.h"
+#include "core/scenario/scenario_periods.h"
 #include "core/scenario/section_places.h"
 #include "core/scenario/sections.h"
 #include "core/settings/joint_patterns.h"
 #include "core/settings/overlay.h"
-#include "core/settings/periods.h"
 #include "core/settings/reader.h"
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
@@ -39,8 +40,9 @@ class ScenarioReader {
     std::optional<Node> root = parse_yaml(text, path_, problems_);
     if (!root) raise();
     root_ = std::move(*root);
+    rename_old_names(root_, {}, problems_);
     const std::vector<Retyped> retyped = apply_sets(root_, sets, problems_);
-    rename_old_keys();
+    rename_old_names(root_, sets, problems_);
     if (root_.find("gaitlab_module") != nullptr) {
       problems_.add(root_.place,
                     fmt::format("this is a module type, not a scenario; what is in it: gaitlab explain module {}", path_));
@@ -77,7 +79,7 @@ class ScenarioReader {
     if (sets.empty()) return scenario_;
     ScenarioReader own = *this;
     apply_sets(own.root_, sets, own.problems_);
-    own.rename_old_keys();
+    rename_old_names(own.root_, sets, own.problems_);
     own.raise();
     own.tell_dropped_source(sets);
     for (const std::string& set : sets) own.touched_.push_back(set.substr(0, set.find_first_of(".=")));
@@ -102,19 +104,6 @@ class ScenarioReader {
     if (std::ranges::any_of(sets, another)) std::erase(scenario_.notes, source_note_);  // that of the template
     source_note_ = {{path_}, drop_source(root_, sets)};
     add_note(source_note_.text);
-  }
-
-  /// Gives keys of earlier editions their present names.
-  void rename_old_keys() {
-    const auto section = std::ranges::find(root_.keys, "limits", [](const auto& key) { return key.first; });
-    if (section == root_.keys.end()) return;
-    Node& limits = root_.items[static_cast<std::size_t>(section - root_.keys.begin())];
-    for (auto& [key, place] : limits.keys) {
-      if (key != "margin") continue;
-      if (limits.find("warn_share") != nullptr)
-        problems_.add(place, "limits.margin is the old name of limits.warn_share, which is given, too; expected one of them");
-      key = "warn_share";
-    }
   }
 
   /// Where the touched keys are given, as far as that differs from the template's own.
@@ -247,7 +236,8 @@ class ScenarioReader {
     checks.figure_joints();
     if (joints != nullptr) scenario_.figure.joints = joints_meant(scenario_.figure.joints, *joints);
     checks.base_velocity();
-    check_all_periods();
+    checks.limits();
+    finish_periods(root_, scenario_, catalog_, problems_);
     const auto concerns = [&](const char* section) { return reads(section); };
     constexpr std::array kOfPlugins{"physics", "contact", "actuator", "controller", "cpg"};
     if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
@@ -289,35 +279,6 @@ class ScenarioReader {
     }
   }
 
-  void check_all_periods() {
-    // Nothing is commanded: the control tick only watches the step.
-    if (scenario_.actuator.entry == nullptr && root_.find("cpg") == nullptr) {
-      scenario_.control_period = scenario_.physics.adaptive_step ? kLongestStep : scenario_.trace.period;
-      scenario_.cpg_step = scenario_.control_period;
-    }
-    Physics& physics_ = scenario_.physics;
-    if (physics_.engine != nullptr && !physics_.adapts())
-      ScenarioChecks(root_, scenario_, catalog_, problems_).automatic_step();
-    if (physics_.adaptive_step) {
-      physics_.step = longest_step(scenario_.control_period);
-      return check_cpg_period();
-    }
-    const Period step{"step", scenario_.physics.step, given(root_, "physics", "step")};
-    const Period control{"control period", scenario_.control_period, given(root_, "controller", "period")};
-    const SourceLocation physics = place_of(root_, "physics", "step");
-    std::vector<Period> periods{control, {"trace period", scenario_.trace.period, given(root_, "trace", "period")}};
-    if (const Node* duration = root_.find("duration"); duration != nullptr && scenario_.duration > 0) {
-      periods.push_back({"duration", scenario_.duration, duration->place});
-    }
-    if (step.value > 0) check_periods(periods, step, physics, problems_);
-    check_cpg_period();
-  }
-  void check_cpg_period() {
-    if (!(scenario_.cpg_step > 0)) return;
-    const Period control{"control period", scenario_.control_period, given(root_, "controller", "period")};
-    const Period cpg{"CPG step", scenario_.cpg_step, given(root_, "cpg", "step")};
-    check_periods({control}, cpg, place_of(root_, "cpg", "step"), problems_);
-  }
   /// A file that the section names, and that messages may not quote; empty: there is none.
   [[nodiscard]] std::string other_file(const Node& section) const {
     if (section.kind == Node::Kind::scalar) {

@@ -104,6 +104,21 @@ void ScenarioChecks::base_velocity() {
   }
 }
 
+void ScenarioChecks::limits() {
+  const Limits& limits = scenario_.limits;
+  if (limits.touch <= limits.collision) return;
+  const std::optional<SourceLocation> touch = given(root_, "limits", "touch");
+  const std::optional<SourceLocation> collision = given(root_, "limits", "collision");
+  const auto size = [](double value, bool is_given) { return number_text(value) + (is_given ? " m" : " m by default"); };
+  Problem& problem = problems_.add(
+      touch ? *touch : place_of(root_, "limits", "collision"),
+      fmt::format(
+          "limits.touch, above which bodies that touch are a warning, is {}, and limits.collision, above which they are "
+          "a failure, is {}; expected limits.touch of at most {} m",
+          size(limits.touch, touch.has_value()), size(limits.collision, collision.has_value()), number_text(limits.collision)));
+  if (touch && collision) problem.notes.emplace_back(*collision, "limits.collision is here");
+}
+
 void ScenarioChecks::automatic_step() {
   const Node* physics = root_.find("physics");
   const Node* step = physics == nullptr ? nullptr : physics->find("step");

@@ -19,6 +19,8 @@ class ScenarioChecks {
   void figure_joints();
   /// A base cannot start with a velocity that it cannot have.
   void base_velocity();
+  /// What warns comes before what fails.
+  void limits();
   /// What only integrators that choose their steps have.
   void automatic_step();
   /// The controller commands what the actuator takes.

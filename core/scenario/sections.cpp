@@ -219,7 +219,9 @@ void Limits::fields(Fields& f) {
   f.number("sink", sink, {"m", 0, 10, "How deep a body may be in the ground. Default: the softness of the ground."});
   f.number(
       "energy_residual", energy_residual,
-      {"", 0, 1, "Share of the energy drawn that may be unaccounted for. Default: the error of the torques that is judged."});
+      {"", 0, kMostResidual,
+       "Share of the energy drawn that may be unaccounted for without a warning; above 5 % a run is not judged. Default: the "
+       "error of the torques that is judged."});
   f.number("energy_created", energy_created,
            {"", 0, 1, "Share of the energy drawn that back-driven gears may create (eq. 2). Default: chosen."});
   f.number(

@@ -109,20 +109,4 @@ MotionCycle set_point_cycle(const Scenario& scenario, const Recording& r) {
   return columns.empty() ? MotionCycle() : cycle(grid(scenario, r), columns);
 }
 
-std::vector<Vec3> centres_of_mass(const Scenario& scenario, const Recording& r) {
-  std::vector<Vec3> all;
-  if (motion_of_ticks(r)) {
-    const Motion of = motion(r);
-    for (std::size_t row = 0; row < of.t.size(); ++row) all.emplace_back(of.x[row], of.y[row], of.z[row]);
-    return all;
-  }
-  const States states = States::at_ticks(r, *scenario.robot);
-  Kinematics k(*scenario.robot);
-  for (std::size_t row = 0; row < states.size(); ++row) {
-    k.update(*scenario.robot, states(row));
-    all.push_back(sums(*scenario.robot, k, scenario.physics.gravity).com);
-  }
-  return all;
-}
-
 }  // namespace gaitlab::report

@@ -36,7 +36,4 @@ std::vector<Series> set_points(const Scenario& scenario, const Recording& record
 MotionCycle limit_cycle(const Scenario& scenario, const Recording& record);
 MotionCycle set_point_cycle(const Scenario& scenario, const Recording& record);
 
-/// m, at the rows of States::at_ticks; of an older folder from its states.
-std::vector<Vec3> centres_of_mass(const Scenario& scenario, const Recording& record);
-
 }  // namespace gaitlab::report

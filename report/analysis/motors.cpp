@@ -106,7 +106,7 @@ std::string no_created_energy(const Scenario& scenario) {
   const std::string key = "efficiency_model";
   Explainer settings;
   visit_settings(*scenario.actuator.entry, default_settings(*scenario.actuator.entry).get(), settings);
-  return std::ranges::find(settings.keys(), key) != settings.keys().end() ? "actuator." + key + ": directional does not" : "";
+  return std::ranges::find(settings.keys(), key) != settings.keys().end() ? "take actuator." + key + ": directional" : "";
 }
 
 bool chosen(const std::string& source) {

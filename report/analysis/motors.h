@@ -22,7 +22,7 @@ std::vector<double> rest_torques(const Scenario& scenario);
 /// and the text says so. Empty: no actuator.
 std::string motor_source(const Scenario& scenario);
 
-/// What would keep the gears from creating energy (eq. 2): `actuator.efficiency_model: directional does not`; empty where the
+/// What would keep the gears from creating energy (eq. 2): `take actuator.efficiency_model: directional`; empty where the
 /// actuator has no such key.
 std::string no_created_energy(const Scenario& scenario);
 

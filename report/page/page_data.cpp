@@ -10,10 +10,10 @@
 #include "core/scenario/resolved.h"
 #include "report/analysis/envelope.h"
 #include "report/analysis/harmonic.h"
+#include "report/analysis/legs.h"
 #include "report/analysis/loads.h"
 #include "report/analysis/plugin_names.h"
 #include "report/analysis/settings_numbers.h"
-#include "report/figures/run/run_footfalls.h"
 #include "report/page/page_ground.h"
 #include "report/page/robot_tree.h"
 #include "report/page/signals.h"
@@ -77,26 +77,10 @@ Json motors_json(const Motors& motors) {
   return all;
 }
 
-/// The name of a foot in figures: that of its leg, and its own where that leg has several.
-std::vector<std::string> foot_titles(const Scenario& scenario, const std::vector<Foot>& feet) {
-  const std::vector<Leg> legs = legs_that_walk(scenario);
-  const std::vector<std::string> names = leg_names(legs);
-  std::vector<std::string> of_feet;
-  for (const Foot& foot : feet) {
-    of_feet.push_back(foot.name);
-    for (std::size_t i = 0; i < legs.size(); ++i) {
-      const auto in_leg = [&](const Foot& one) {
-        return std::ranges::find(legs[i].modules, static_cast<std::int64_t>(one.module)) != legs[i].modules.end();
-      };
-      if (in_leg(foot))
-        of_feet.back() = std::ranges::count_if(feet, in_leg) > 1 ? fmt::format("{}, {}", names[i], foot.name) : names[i];
-    }
-  }
-  return of_feet;
-}
-
 Json feet_json(const Scenario& scenario, const std::vector<Foot>& feet, const RobotTree& tree) {
-  const std::vector<std::string> titles = foot_titles(scenario, feet);
+  std::vector<std::size_t> bodies;
+  for (const Foot& foot : feet) bodies.push_back(foot.body);
+  const std::vector<std::string> titles = foot_names(scenario, bodies);
   Json all = Json::array();
   for (std::size_t i = 0; i < feet.size(); ++i) {
     all.push_back(

@@ -52,8 +52,7 @@ constexpr CheckKind kChecks[] = {
      kWindow, "actuator", kGentler, checks::envelope},
     {"speed", Group::motor, "rad/s", "Speed within reach",
      "largest speed, over all steps: in the window against the speed at which the actuator has no torque left, in the whole "
-     "run "
-     "against the rated one",
+     "run against the rated one",
      "above it", "above limits.warn_share of it", kWindow, "actuator.speed_max", kGentler, checks::speed},
     {"heat", Group::motor, "A", "Motors stay cool", "RMS current in the window against the continuous rating, over all steps",
      "above actuator.i_continuous", "above limits.warn_share of it", kWindow, "actuator.i_continuous", kGentler, checks::heat},

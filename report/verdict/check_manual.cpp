@@ -10,8 +10,9 @@ namespace {
 
 constexpr const char* kAbout =
     "The verdict answers one question: can the actual robot do this gait? Every known limit is a check: a number of the run "
-    "held "
-    "against a limit. A limit that is not stated is not judged, and never assumed kept.";
+    "held against a limit. A limit that is not stated is not judged, and never assumed kept.";
+
+constexpr std::size_t kTerminal = 80, kPage = 120;  // columns
 
 struct Meaning {
   Word word;
@@ -23,35 +24,36 @@ constexpr Meaning kWords[] = {
      "ground, fall and in_ground, too. The run is evidence: long enough, borne by the ground, and accurate."},
     {Word::infeasible,
      "A check fails. In a run that is too short only a check of the whole run counts (docks, gears, collision, stops, fall "
-     "...), "
-     "because more time cannot undo it."},
+     "...), because more time cannot undo it."},
     {Word::not_judged, "Anything else. The sentence says what is missing and what to set."},
     {Word::failed, "The run ended early."},
 };
 
 constexpr const char* kEvidence =
     "Evidence. Long enough: a whole period of a limit cycle that repeats within 1 %; else three periods of the slowest set "
-    "point; "
-    "where set points do not repeat, 2 s. Borne: the ground carries at least half of the weight in the mean, of a floating "
-    "base. "
-    "Accurate: torque error at most limits.torque_error, at most 5 % of the energy unaccounted for, at most 10 % of the time "
-    "coarser than physics.accuracy, and no motor whose efficiency x Kt exceeds Ks.";
+    "point; where set points do not repeat, 2 s. Borne: the ground carries at least half of the weight in the mean, of a "
+    "floating base. Accurate: torque error at most limits.torque_error, at most 5 % of the energy unaccounted for, at most 10 "
+    "% of the time coarser than physics.accuracy, and no motor whose efficiency x Kt exceeds Ks.";
 
 constexpr const char* kMargin =
     "Margin of a check: (limit - value) / limit, for a least limit with the opposite sign, with the limit at which it fails; "
-    "of "
-    "several limits the least; of a limit of 0 not divided. Below 0 it fails. The worst joint, body, dock or foot is the one "
-    "with "
-    "the least margin. A value whose error, by the estimated error of the torques, reaches across the limit is too close.";
+    "of several limits the least; of a limit of 0 not divided. Below 0 it fails. The worst joint, body, dock or foot is the "
+    "one with the least margin. A value whose error, by the estimated error of the torques, reaches across the limit is too "
+    "close.";
+
+/// A paragraph behind a head, which its other lines are indented by.
+std::string hanging(const std::string& head, const std::string& text, std::size_t width) {
+  return head + wrapped(text, head.size(), width).substr(head.size());
+}
 
 const char* of(CheckSpan span) { return span == CheckSpan::window ? "the judged window" : "the whole run"; }
 
 }  // namespace
 
 std::string explain_verdict() {
-  std::string text = wrapped(kAbout) + "\n\n";
-  for (const Meaning& one : kWords) text += wrapped(fmt::format("{}: {}", name_of(one.word), one.meaning)) + "\n";
-  text += "\n" + wrapped(kEvidence) + "\n\n" + wrapped(kMargin) + "\n\nchecks (gaitlab explain CHECK)\n";
+  std::string text = wrapped(kAbout) + "\n";
+  for (const Meaning& one : kWords) text += hanging(fmt::format("  {:<11} ", name_of(one.word)), one.meaning, kTerminal);
+  text += "\n" + wrapped(kEvidence) + "\n" + wrapped(kMargin) + "\nchecks (gaitlab explain CHECK)\n";
   for (const CheckKind& kind : check_kinds()) text += fmt::format("  {:<16} {}\n", kind.id, kind.title);
   return text;
 }
@@ -59,7 +61,7 @@ std::string explain_verdict() {
 std::string explain_check(const CheckKind& kind) {
   std::string text = fmt::format("{}: {}\n", kind.id, kind.title);
   const auto line = [&](const char* title, const std::string& what) {
-    if (!what.empty()) text += wrapped(fmt::format("  {:<8} {}", title, what), 11) + "\n";
+    if (!what.empty()) text += hanging(fmt::format("  {:<8} ", title), what, kTerminal);
   };
   line("value", fmt::format("{}{}", kind.definition, *kind.unit == '\0' ? "" : fmt::format(", {}", kind.unit)));
   line("over", of(kind.span));
@@ -71,9 +73,9 @@ std::string explain_check(const CheckKind& kind) {
 }
 
 std::string verdict_page() {
-  std::string text = fmt::format("# Verdict\n\nMade by `gaitlab reference verdict`.\n\n{}\n\n", wrapped(kAbout, 0, 120));
-  for (const Meaning& one : kWords) text += wrapped(fmt::format("- `{}`: {}", name_of(one.word), one.meaning), 2, 120) + "\n";
-  text += fmt::format("\n{}\n\n{}\n\n", wrapped(kEvidence, 0, 120), wrapped(kMargin, 0, 120));
+  std::string text = fmt::format("# Verdict\n\nMade by `gaitlab reference verdict`.\n\n{}\n", wrapped(kAbout, 0, kPage));
+  for (const Meaning& one : kWords) text += hanging("- ", fmt::format("`{}`: {}", name_of(one.word), one.meaning), kPage);
+  text += fmt::format("\n{}\n{}\n", wrapped(kEvidence, 0, kPage), wrapped(kMargin, 0, kPage));
   text += "| check | group | value | over | fails | warns | setting | remedy |\n|---|---|---|---|---|---|---|---|\n";
   for (const CheckKind& kind : check_kinds()) {
     text +=

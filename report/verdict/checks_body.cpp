@@ -215,7 +215,7 @@ void collision(const CheckedRun& run, Check& made) {
   made.remedy = "take smaller amplitudes or offsets: contact.law penalty does not keep bodies apart";
   made.text = fmt::format("{} of bodies pass{} through one another, deepest {} and {}", counted(found->pairs, "pair"),
                           found->pairs == 1 ? "es" : "", made.worst, run.scenario.robot->bodies[found->deepest_second].name);
-  made.text += fmt::format(", by {:.3g} mm", 1000 * found->depth);
+  made.text += fmt::format(", by {}", texts::length(found->depth));
 }
 
 void battery(const CheckedRun&, Check& made) { made.text = "the module types state no battery"; }
@@ -233,7 +233,7 @@ void in_ground(const CheckedRun& run, Check& made) {
   made.from = made.to = found->deepest_time;
   made.first_part = run.scenario.robot->bodies[found->first].name;
   made.text =
-      fmt::format("body {} goes {:.3g} mm into the ground", run.scenario.robot->bodies[found->body].name, 1000 * found->depth);
+      fmt::format("body {} goes {} into the ground", run.scenario.robot->bodies[found->body].name, texts::length(found->depth));
   made.first = found->time;
   made.part = Part::body;
   made.worst = run.scenario.robot->bodies[found->body].name;

@@ -20,6 +20,7 @@ namespace {
 constexpr double kLeastTravel = 0.01, kLeastTurn = 0.01;  // of the extent, and rad: per period, ten times that without one
 constexpr const char* kTooShort = "the run is too short";
 constexpr double kMostCycleError = 0.02;  // as core/recording/limit_cycle.h
+constexpr const char* kTimes = "times";   // unit of a growth
 constexpr double kSpeedsUp = 1.2;         // of the first half's speed, where gravity drives the robot
 
 /// Control ticks in the judged window.
@@ -142,10 +143,10 @@ void progress(const CheckedRun& run, Check& made) {
   if (!run.evidence.not_borne.empty()) return;  // a fall is not a slide
   const double faster = speed_up(m, two, run.summary.judged.to);
   if (!(fallen > std::max(driven, least_energy(s))) || !(faster > kSpeedsUp)) return;
-  made.criteria = {{made.value, made.limit, made.unit, true}, {faster, kSpeedsUp}};
+  made.criteria = {{made.value, made.limit, made.unit, true}, {faster, kSpeedsUp, kTimes}};
   made.value = faster;
   made.limit = kSpeedsUp;
-  made.unit = "";
+  made.unit = kTimes;
   made.least = false;
   made.margin = made.criteria.back().margin();
   made.can_fail = true;

@@ -9,6 +9,7 @@
 #include "core/dynamics/body_tree.h"
 #include "core/model/docking.h"
 #include "core/model/pattern.h"
+#include "report/analysis/legs.h"
 #include "report/analysis/motors.h"
 #include "report/verdict/number_texts.h"
 
@@ -94,10 +95,6 @@ DockPeak peak_of(const Window& window, std::size_t module, DockQuantity quantity
   return peak;
 }
 
-}  // namespace
-
-namespace {
-
 double stated(const Connector& connector, DockQuantity quantity) {
   const double limit = quantity == DockQuantity::tension   ? connector.tension
                        : quantity == DockQuantity::shear   ? connector.shear
@@ -170,27 +167,34 @@ void judge_slip(const Scenario& scenario, const Recording& record, const Summary
   const Window window(record, summary);
   const double way = window.grown(window.series("path"));
   const double slip = window.grown(window.series("slip"));
-  std::string worst;
+  std::vector<std::size_t> feet;  // by their bodies
+  std::size_t worst = 0;
   double farthest = 0;
   for (const Column& column : record.loads.columns) {
     if (!glob("foot.*.slid", column.name)) continue;
+    const std::string body = column.name.substr(5, column.name.size() - 10);
+    const std::vector<Body>& bodies = scenario.robot->bodies;
+    const auto at = static_cast<std::size_t>(std::ranges::find(bodies, body, &Body::name) - bodies.begin());
     const double slid = window.grown(window.series(column.name));
-    if (slid <= farthest) continue;
-    farthest = slid;
-    worst = column.name.substr(5, column.name.size() - 10);
+    if (at == bodies.size()) continue;
+    if (slid > farthest) {
+      farthest = slid;
+      worst = feet.size();
+      made.part = Part::foot;
+      made.worst = body;
+    }
+    feet.push_back(at);
   }
-  if (!worst.empty()) made.part = Part::foot;
-  made.worst = worst;
-  made.text = fmt::format("the robot goes {:.3g} mm: less than {:.3g} mm is not walking", 1000 * way, 1000 * kLeastWay);
+  made.text = fmt::format("the robot goes {}: less than {} is not walking", texts::length(way), texts::length(kLeastWay));
   if (way < kLeastWay) return;
   made.value = slip / way;
   made.limit = scenario.limits.slip;
   made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // not a number: a warning
   made.from = window.time(window.start);
   made.to = window.loads.at(window.loads.rows() - 1, 0);
-  made.text = worst.empty() ? "no foot slides under load"
-                            : fmt::format("feet slide {} of the way under load, farthest {}, by {:.3g} of {:.3g} m",
-                                          texts::percent(made.value), worst, farthest, way);
+  made.text = made.worst.empty() ? "no foot slides under load"
+                                 : fmt::format("feet slide {} of the way under load, farthest {}, by {:.3g} of {:.3g} m",
+                                               texts::percent(made.value), foot_names(scenario, feet)[worst], farthest, way);
 }
 
 void judge_stability(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {
@@ -219,15 +223,15 @@ void judge_stability(const Scenario& scenario, const Recording& record, const Su
   made.text =
       made.value >= 0 && aloft > 0
           ? fmt::format(
-                "a note: no foot bears a load for {} of the time; else the centre of mass stays {:.3g} mm within the "
+                "a note: no foot bears a load for {} of the time; else the centre of mass stays {} within the "
                 "support polygon",
-                texts::percent(static_cast<double>(aloft) / static_cast<double>(aloft + seen)), 1000 * made.value)
+                texts::percent(static_cast<double>(aloft) / static_cast<double>(aloft + seen)), texts::length(made.value))
       : made.value >= 0
-          ? fmt::format("statically stable: the centre of mass stays {:.3g} mm within the support polygon", 1000 * made.value)
+          ? fmt::format("statically stable: the centre of mass stays {} within the support polygon", texts::length(made.value))
           : fmt::format(
-                "a note: the centre of mass comes {:.3g} mm out of the support polygon, and is out of it {} of the "
+                "a note: the centre of mass comes {} out of the support polygon, and is out of it {} of the "
                 "time on the ground, as it may be in a dynamic gait",
-                -1000 * made.value, texts::percent(static_cast<double>(outside) / static_cast<double>(seen)));
+                texts::length(-made.value), texts::percent(static_cast<double>(outside) / static_cast<double>(seen)));
 }
 
 }  // namespace gaitlab::report

@@ -13,15 +13,33 @@ namespace gaitlab::report::texts {
 
 namespace {
 
+constexpr double kMostShare = 10, kLeastShare = 1e-6;
 constexpr double kVisible = 1e-3;      // share of what is drawn
 constexpr std::size_t kWidth = 64;     // columns beside the titles, of 80
 constexpr double kLeastTravel = 1e-3;  // m: the work of a robot that stays is divided by noise
 
 }  // namespace
 
-std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+std::string percent(double share) {
+  if (share > kMostShare) return "more than 1000 %";
+  if (share < -kMostShare) return "less than -1000 %";
+  if (std::abs(share) >= 1) return fmt::format("{:.0f} %", 100 * share);
+  if (share > 0 && share < kLeastShare) return "0.0001 % and less";
+  return std::abs(share) < kLeastShare ? "0 %" : fmt::format("{:.3g} %", 100 * share);
+}
 
-std::string rough_percent(double share) { return fmt::format("{:.{}g} %", 100 * share, share < 0.1 ? 2 : 3); }
+std::string rough_percent(double share) {
+  if (share > kMostShare) return "1000 % and more";
+  if (share > 0 && share < kLeastShare) return percent(share);
+  return share >= 1 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.{}g} %", 100 * share, share < 0.1 ? 2 : 3);
+}
+
+std::string length(double metres) {
+  const double size = std::abs(metres);
+  if (size < 0.9995) return fmt::format("{:.3g} mm", 1000 * metres);
+  if (size < 999.5) return fmt::format("{:.3g} m", metres);
+  return size < 999.5e3 ? fmt::format("{:.3g} km", metres / 1000) : "more than 1000 km";
+}
 
 std::string thousandths(double value) { return value < 1000 ? fmt::format("{:.3f}", value) : fmt::format("{:.3g}", value); }
 

@@ -9,9 +9,13 @@ namespace gaitlab::report::texts {
 
 using Lines = std::vector<std::string>;
 
+/// Three digits; `more than 1000 %`, `0.0001 % and less` of what more digits would say nothing about.
 std::string percent(double share);
-/// Of estimates: two digits, three from 10 % on.
+/// Of estimates: two digits, three from 10 % on, `1000 % and more`.
 std::string rough_percent(double share);
+
+/// `5.2 mm`; from 1 m on in m, from 1 km on in km, three digits.
+std::string length(double metres);
 
 /// Three decimals; of a thousand and more three digits.
 std::string thousandths(double value);

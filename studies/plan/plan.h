@@ -77,6 +77,7 @@ class Plan {
   void find_nominal(StudyScenario& scenario, Problems& problems) const;
   void find_columns(const QuantityOffer& offer, Problems& problems);
   void choose_shown(Problems& problems);
+  void check_stops(Problems& problems) const;
   void make_judges(const QuantityOffer& offer, const Catalog& catalog, Problems& problems);
 
   Study study_;

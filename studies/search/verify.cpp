@@ -54,8 +54,19 @@ double apart(const Study& study, const std::vector<std::string>& a, const std::v
   return most;
 }
 
-/// The sentence on an infeasible verdict. `why`: the sentence behind it.
-std::string verdict_text(const std::string& why) { return "the verdict is infeasible" + (why.empty() ? "" : ": " + why); }
+constexpr const char* kEvidence = "margin.evidence";  // below 0: some is missing
+
+/// Why a verdict, which guards may not ask for, keeps a point from standing, or "". `why`: the sentence behind its word.
+std::string doubt(const std::string& word, double evidence, const std::string& why) {
+  const std::string end = why.empty() ? "" : ": " + why;
+  if (word == "infeasible") return "the verdict is infeasible" + end;
+  return word == "not judged" && evidence < 0 ? word + end : "";
+}
+
+double evidence(const Plan& plan, const Row& row) {
+  const auto at = std::ranges::find(plan.columns(), kEvidence, &Quantity::name);
+  return row.quantities.at(static_cast<std::size_t>(at - plan.columns().begin()));
+}
 
 /// `in rubble: ` of a row, where the study has several scenarios.
 std::string in_scenario(const Row& row) { return row.scenario.empty() ? "" : "in " + row.scenario + ": "; }
@@ -76,12 +87,13 @@ std::string reason(const Plan& plan, const std::vector<Row>& rows, const PointRe
   }
   for (const Row& row : rows) {
     const bool breaks = is.score.violation > 0 && row.score && row.score->violation > 0;
-    if (!breaks && row.verdict != "infeasible") continue;
+    const std::string doubted = doubt(row.verdict, evidence(plan, row), row.message);
+    if (!breaks && doubted.empty()) continue;
     const std::vector<std::string> broken = plan.judge().broken(row.quantities, row.verdict, row.message);
     const std::string of_verdict = row.verdict + (row.message.empty() ? "" : ": " + row.message);
     if (breaks) add(in_scenario(row) + fmt::format("{}", fmt::join(broken, ", ")));
     const bool said = breaks && std::ranges::find(broken, of_verdict) != broken.end();
-    if (row.verdict == "infeasible" && !said) add(in_scenario(row) + verdict_text(row.message));
+    if (!doubted.empty() && !said) add(in_scenario(row) + doubted);
     break;  // of several replicates the first
   }
   return why;
@@ -98,9 +110,10 @@ Verification as_run(const Plan& plan, Journal& journal, const PointResult& point
     const std::vector<std::string> row = journal.row(run);
     const std::string& word = row[place("verdict")];
     if (own.verdict.empty()) own.verdict = word;
-    if (word != "infeasible" || !own.reason.empty()) continue;
+    const std::string doubted = doubt(word, number_of(row[place(kEvidence)]), row[place("message")]);
+    if (doubted.empty() || !own.reason.empty()) continue;
     own.verdict = word;
-    own.reason = in_scenario(plan.row(run)) + verdict_text(row[place("message")]);
+    own.reason = in_scenario(plan.row(run)) + doubted;
   }
   for (std::size_t k = 0; k < plan.study().objectives.size(); ++k) own.objectives.push_back(point.score.objectives[k]);
   return own;

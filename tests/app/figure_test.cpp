@@ -87,6 +87,20 @@ TEST_F(PaperFigure, RecipesAreReadStrictly) {
           "creep=FOLDER");
 }
 
+TEST_F(PaperFigure, AStretchThatTheRunDoesNotHold) {
+  for (const std::string kind : {"curves, left: {columns: [com.x]}", "heat", "envelope"}) {
+    const std::string column = std::to_string(23 + kind.size());
+    const std::string panel = kRuns + "panels: [{kind: " + kind + ", ";
+    refused(panel + "to: 2}]\n", "figure.yaml:2:" + column + ": error: to is 2 s, beyond the end of the run at 0.5 s");
+    refused(panel + "from: 0.6}]\n", "figure.yaml:2:" + std::to_string(25 + kind.size()) +
+                                         ": error: from is 0.6 s, not before the end of the run at 0.5 s");
+  }
+  refused(kRuns + "panels: [{kind: heat, from: 0.101, to: 0.102}]\n",
+          "figure.yaml:2:29: error: the run has no two rows from 0.101 s to 0.102 s; expected a longer stretch");
+  refused(kRuns + "panels: [{kind: heat, from: 0.2, to: 0.1}]\n",
+          "figure.yaml:2:38: error: to is 0.1 s, not behind from, 0.2 s");
+}
+
 TEST_F(PaperFigure, HingesWithoutAMotorAreLeftOut) {
   folder.write("cart.yaml", kCastorFirst);
   ASSERT_EQ(gaitlab("run cart.yaml --quiet --out cart", folder / "").code, 0);

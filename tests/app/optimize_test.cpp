@@ -12,7 +12,7 @@ class Optimize : public ::testing::Test {
     folder_.write("two.yaml",
                   "gaitlab: 1\nname: two\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"
                   "physics: {engine: articulated, step: 0.001}\ncpg: {type: phase_oscillator, frequency: 1}\n"
-                  "trace: {period: 0.015}\nduration: 0.3\n");
+                  "trace: {period: 0.015}\nduration: 3\n");
   }
   void study(const std::string& lines) {
     folder_.write("s.yaml", "gaitlab_study: 1\nscenario: two.yaml\nguards: none\n" + lines);
@@ -60,7 +60,7 @@ TEST_F(Optimize, TellsWhatItWouldDo) {
   const Result result = call("optimize s.yaml --dry-run -j 1");
   EXPECT_EQ(result.code, 0);
   EXPECT_EQ(result.out.rfind("24 runs: 24 points, 1 run each\nmethod cma chooses them, and the best 1 are run again\n"
-                             "7.2 s simulated in all\ntakes about ",
+                             "72 s simulated in all\ntakes about ",
                              0),
             0U)
       << result.out;
@@ -100,6 +100,19 @@ TEST_F(Optimize, WhatChangesWithTheStepIsNotVerified) {
   EXPECT_EQ(result.code, 3);
   EXPECT_NE(result.err.find("o: none of the best points was verified"), std::string::npos) << result.err;
   EXPECT_NE(result.out.find("half step: torque.peak is "), std::string::npos) << result.out;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "o/best"));
+}
+
+TEST_F(Optimize, WhatNobodyCouldJudgeIsNotVerified) {
+  study("set: [duration=0.3]\n" + std::string(kGentle) + "budget: {runs: 16}\n");
+  const Result result = call("optimize s.yaml --out o");
+  EXPECT_EQ(result.code, 3);
+  EXPECT_NE(result.out.find("not verified (as run "), std::string::npos) << result.out;
+  for (const studies::Verification& v : journal("o").verifications())
+    EXPECT_EQ(v.reason.rfind("not judged: ", 0), 0U) << v.what << ": " << v.reason;
+  EXPECT_NE(result.out.find("half step: not judged: 0.3 s are 0.3 of a gait's 3 periods of 1 s; take duration: 3;"),
+            std::string::npos)
+      << result.out;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "o/best"));
 }
 

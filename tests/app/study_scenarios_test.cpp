@@ -125,10 +125,11 @@ TEST_F(StudyScenarios, WhatFailsIsToldWithItsScenario) {
 }
 
 TEST_F(StudyScenarios, AreSearchedAndVerifiedTogether) {
-  folder_.write("o.yaml",
-                "gaitlab_study: 1\nscenarios: {short: two.yaml, long: three.yaml}\nguards: none\nset: [physics.step=0.001]\n"
-                "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nobjective: {minimize: torque.peak}\n"
-                "verify: {best: 1, change: 0.5, engine: bullet}\nbudget: {runs: 48}\n");
+  folder_.write(
+      "o.yaml",
+      "gaitlab_study: 1\nscenarios: {short: two.yaml, long: three.yaml}\nguards: none\nset: [physics.step=0.001, duration=3]\n"
+      "parameters: {cpg.amplitude: {low: 0.05, high: 0.2}}\nobjective: {minimize: torque.peak}\n"
+      "verify: {best: 1, change: 0.5, engine: bullet}\nbudget: {runs: 48}\n");
   ASSERT_EQ(call("optimize o.yaml --out o --quiet").code, 0);
   studies::Journal journal(folder_ / "o/study.db");
   EXPECT_EQ(journal.head().replicates, 2U);

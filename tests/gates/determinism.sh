@@ -56,6 +56,20 @@ terminal() {
   script -qec "$command" /dev/null </dev/null >"$work/screen"
   grep -q '\[#' "$work/screen" || bad "on a terminal: it showed no bar, so it saw no terminal"
   same "on a terminal" "$out"
+  colours
+}
+
+# Colours are for a terminal alone, and not where NO_COLOR is set and not empty (https://no-color.org).
+colours() {
+  local command before=$failed
+  printf -v command '%q ' "$program" report "$work/reference"
+  # coloured COMMAND: whether it shows colours on a terminal.
+  coloured() { script -qec "$1" /dev/null </dev/null | grep $'\033\\[3[123]m' >/dev/null; }
+  coloured "$command" || bad "on a terminal: no colours"
+  coloured "env NO_COLOR= $command" || bad "on a terminal with an empty NO_COLOR: no colours"
+  if coloured "env NO_COLOR=1 $command"; then bad "on a terminal with NO_COLOR=1: colours"; fi
+  if coloured "$command | cat"; then bad "in a pipe: colours"; fi
+  ((failed > before)) || ok "colours on a terminal alone, without NO_COLOR"
 }
 
 address_space() {

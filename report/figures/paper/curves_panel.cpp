@@ -66,14 +66,7 @@ class CurvesOfPanel final : public PaperPanel {
     several_runs_ = runs.size() > 1;
     end_ = 0;
     for (const PaperRun* run : runs) end_ = std::max(end_, run->recording.simulated);
-    if (to_ <= 0) to_ = end_;
-    if (panel_.to > end_ + 1e-9) {
-      source.problem({"to"},
-                     fmt::format("to is {}, beyond the end of the run at {}", with_unit(panel_.to, "s"), with_unit(end_, "s")));
-    } else if (from_ >= end_) {
-      source.problem({"from"}, fmt::format("from is {}, not before the end of the run at {}", with_unit(from_, "s"),
-                                           with_unit(end_, "s")));
-    }
+    to_ = source.stretch(end_).to;
     find(source, runs, panel_.left, Side::left, "left");
     find(source, runs, panel_.right, Side::right, "right");
     if (!panel_.stance.empty()) find_stance(source, runs);

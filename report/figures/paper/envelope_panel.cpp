@@ -28,13 +28,10 @@ class EnvelopeOfPanel final : public PaperPanel {
  public:
   explicit EnvelopeOfPanel(const PanelSource& source) : height_(source.height(kEnvelopeHeight)) {
     const PaperRun& run = source.run();
-    const PanelRecipe& panel = source.panel();
     const std::vector<std::size_t> joints = source.joints();
     const std::vector<std::string> names = joint_names(*run.scenario.robot);
     const std::vector<double> time = row_times(run.recording);
-    const Rows rows = rows_within(time, panel.from, panel.to);
-    if (rows.last - rows.first < 2)
-      source.problem({panel.from > 0 ? "from" : "to"}, "the run has no two rows from `from` to `to`");
+    const Rows rows = source.rows(time);
     for (const std::size_t j : joints) {
       JointPath path{names[j], {}, {}};
       const Series speed = run.recording.joint(j, "speed");

@@ -47,17 +47,14 @@ class HeatOfPanel final : public PaperPanel {
  public:
   explicit HeatOfPanel(const PanelSource& source) {
     const PaperRun& run = source.run();
-    const PanelRecipe& panel = source.panel();
     joints_ = source.joints();
     const std::vector<std::string> all = joint_names(*run.scenario.robot);
     for (const std::size_t j : joints_) names_.push_back(all[j]);
     height_ = source.height(kHeatRow * static_cast<double>(std::max<std::size_t>(joints_.size(), 3)) / source.px_per_mm);
     const std::vector<double> time = row_times(run.recording);
-    const Rows rows = rows_within(time, panel.from, panel.to);
-    if (rows.last - rows.first < 2) {
-      source.problem({panel.from > 0 ? "from" : "to"}, "the run has no two rows from `from` to `to`");
-      return;
-    }
+    const std::size_t before = source.problems.size();
+    const Rows rows = source.rows(time);
+    if (source.problems.size() > before) return;
     from_ = time[rows.first];
     to_ = time[rows.last - 1];
     std::vector<Series> speed(all.size());

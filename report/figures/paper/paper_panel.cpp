@@ -12,6 +12,12 @@
 
 namespace gaitlab::report {
 
+namespace {
+
+constexpr double kSlack = 1e-9;  // s: a row's time is a number of steps times the step
+
+}  // namespace
+
 void PanelSource::problem(std::vector<std::string> path, const std::string& text) const {
   path.insert(path.begin(), {"panels", std::to_string(number)});
   problems.add(recipe.place(path), text);
@@ -20,6 +26,28 @@ void PanelSource::problem(std::vector<std::string> path, const std::string& text
 const PaperRun& PanelSource::run() const {
   const auto found = std::ranges::find(runs, panel().run, &PaperRun::name);
   return found == runs.end() ? runs.front() : *found;
+}
+
+PanelSource::Stretch PanelSource::stretch(double end) const {
+  const PanelRecipe& asked = panel();
+  if (asked.to > end + kSlack) {
+    problem({"to"}, fmt::format("to is {}, beyond the end of the run at {}", with_unit(asked.to, "s"), with_unit(end, "s")));
+  } else if (asked.from >= end) {
+    problem({"from"},
+            fmt::format("from is {}, not before the end of the run at {}", with_unit(asked.from, "s"), with_unit(end, "s")));
+  }
+  return {asked.from, asked.to > 0 ? asked.to : end};
+}
+
+Rows PanelSource::rows(std::span<const double> time) const {
+  const std::size_t before = problems.size();
+  const Stretch asked = stretch(run().recording.simulated);
+  const Rows rows = rows_within(time, asked.from, asked.to);
+  if (problems.size() == before && rows.last - rows.first < 2) {
+    problem({panel().from > 0 ? "from" : "to"}, fmt::format("the run has no two rows from {} to {}; expected a longer stretch",
+                                                            with_unit(asked.from, "s"), with_unit(asked.to, "s")));
+  }
+  return rows;
 }
 
 std::vector<std::size_t> PanelSource::joints() const {
@@ -63,7 +91,6 @@ Style curve_style(std::size_t n) {
 }
 
 Rows rows_within(std::span<const double> time, double from, double to) {
-  constexpr double kSlack = 1e-9;  // s: a row's time is a number of steps times the step
   Rows rows;
   while (rows.first < time.size() && time[rows.first] < from - kSlack) ++rows.first;
   rows.last = rows.first;

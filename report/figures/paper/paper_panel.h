@@ -44,6 +44,12 @@ class PaperPanel {
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
 
+/// The first and last row within [from, to] s, one behind it; `to` 0: the end.
+struct Rows {
+  std::size_t first = 0, last = 0;
+};
+Rows rows_within(std::span<const double> time, double from, double to);
+
 /// Where a panel is in its recipe, with the runs.
 struct PanelSource {
   const Recipe& recipe;
@@ -57,6 +63,13 @@ struct PanelSource {
   void problem(std::vector<std::string> path, const std::string& text) const;
   /// The run of `run:`, or the only one.
   [[nodiscard]] const PaperRun& run() const;
+  /// s: from where to where the panel shows runs that end at `end`; a problem where they do not hold that.
+  struct Stretch {
+    double from = 0, to = 0;
+  };
+  [[nodiscard]] Stretch stretch(double end) const;
+  /// The rows of `run()` within the stretch; a problem where it has no two.
+  [[nodiscard]] Rows rows(std::span<const double> time) const;
   /// Numbers of the joints of `run()` with a motor that a pattern of `joints:` matches, in their order; a problem where one
   /// matches none.
   [[nodiscard]] std::vector<std::size_t> joints() const;
@@ -73,11 +86,6 @@ std::unique_ptr<PaperPanel> views_panel(const PanelSource& source);
 /// Line of the nth curve of a panel: colours of Okabe and Ito, each with a dash of its own, so that they differ in grey, too.
 Style curve_style(std::size_t n);
 
-/// The first and last row within [from, to] s, one behind it; `to` 0: the end.
-struct Rows {
-  std::size_t first = 0, last = 0;
-};
-Rows rows_within(std::span<const double> time, double from, double to);
 /// Of a recording, s.
 std::vector<double> row_times(const Recording& recording);
 

@@ -21,7 +21,6 @@ class FootfallsOfPanel final : public PaperPanel {
  public:
   explicit FootfallsOfPanel(const PanelSource& source) {
     const PaperRun& run = source.run();
-    const PanelRecipe& panel = source.panel();
     const std::vector<Leg> legs = legs_that_walk(run.scenario);
     const std::vector<double> time = row_times(run.recording);
     if (legs.empty() || time.empty()) {
@@ -33,12 +32,11 @@ class FootfallsOfPanel final : public PaperPanel {
                      fmt::format("run {} has no column {}, by which a leg is known to stand", in_quotes(run.name), lacks));
       return;
     }
-    from_ = panel.from;
-    to_ = panel.to > 0 ? std::min(panel.to, time.back()) : time.back();
-    if (from_ >= to_) {
-      source.problem({"from"}, fmt::format("from is {}, not before the end at {}", with_unit(from_, "s"), with_unit(to_, "s")));
-      return;
-    }
+    const std::size_t before = source.problems.size();
+    const PanelSource::Stretch shown = source.stretch(time.back());
+    if (source.problems.size() > before) return;
+    from_ = shown.from;
+    to_ = shown.to;
     rows_ = footfalls(run.scenario, run.recording, legs, time, from_);
     for (Footfall& row : rows_) {
       row.duty_factor = duty_factor(row.stances, from_, to_);

@@ -11,13 +11,6 @@ namespace {
 constexpr double kRow = 24, kBar = 12;  // px
 constexpr double kGapSeen = 0.6;        // px: a foot that bounces within it looks as if it stood, and the file stays small
 
-std::string place_on_side(std::size_t rank, std::size_t count) {
-  if (rank == 0) return "front";
-  if (rank + 1 == count) return "rear";
-  if (count == 3) return "middle";
-  return fmt::format("{}{}", rank + 1, rank == 1 ? "nd" : rank == 2 ? "rd" : "th");
-}
-
 void draw_bars(Canvas& canvas, const Footfall& row, const Scale& x, double y) {
   const auto bar = [&](double from, double to) {
     if (to > from) canvas.rectangle({from, y - kBar / 2}, to - from, kBar, {.fill = colour::kInk});
@@ -54,19 +47,6 @@ double duty_factor(const std::vector<Stance>& stances, double from, double to) {
   double sum = 0;
   for (const Stance& stance : stances) sum += std::max(0.0, std::min(stance.to, to) - std::max(stance.from, from));
   return to > from ? sum / (to - from) : 0;
-}
-
-std::vector<std::string> leg_names(const std::vector<Leg>& legs) {
-  const auto left = static_cast<std::size_t>(std::count_if(legs.begin(), legs.end(), [](const Leg& leg) { return leg.left; }));
-  std::size_t rank_left = 0;
-  std::size_t rank_right = 0;
-  std::vector<std::string> names;
-  for (const Leg& leg : legs) {
-    const std::size_t rank = leg.left ? rank_left++ : rank_right++;
-    const std::size_t count = leg.left ? left : legs.size() - left;
-    names.push_back(fmt::format("m{} {} {}", leg.modules.front(), place_on_side(rank, count), leg.left ? "left" : "right"));
-  }
-  return names;
 }
 
 double footfall_height(std::size_t rows) { return kFootfallHead + kRow * static_cast<double>(rows) + kFootfallFoot; }

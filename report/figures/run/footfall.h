@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "core/plugin/legs.h"
 #include "report/plot/axes.h"
 
 namespace gaitlab::report {
@@ -27,10 +26,6 @@ std::vector<Stance> stances(std::span<const double> time, std::span<const double
 
 /// Share of [from, to] (s, from < to) that the stances cover; 0 for an empty stretch.
 double duty_factor(const std::vector<Stance>& stances, double from, double to);
-
-/// A name for each leg: its first module, its place on its side counted from the front (front, middle, rear; with more than
-/// three front, 2nd, 3rd ... rear) and the side. `legs` as find_legs orders them.
-std::vector<std::string> leg_names(const std::vector<Leg>& legs);
 
 /// Of a diagram with so many rows, px.
 double footfall_height(std::size_t rows);

@@ -4,16 +4,7 @@
 
 #include <algorithm>
 
-#include "core/plugin/robot_info.h"
-
 namespace gaitlab::report {
-
-std::vector<Leg> legs_that_walk(const Scenario& s) {
-  if (s.ground.kind == Ground::Kind::none || s.contact.on == ContactSet::none) return {};
-  std::vector<Leg> legs = find_legs(info(*s.robot));
-  if (legs.size() < 4) legs.clear();
-  return legs;
-}
 
 std::string lacking_load(const Scenario& scenario, const Recording& r, const std::vector<Leg>& legs) {
   const std::vector<ContactElement> elements = contact_elements(*scenario.robot, scenario.contact.on);

@@ -194,6 +194,50 @@ TEST_F(ScenarioTest, ErrorsOfAPositionNameBothForms) {
             "DIR/s.yaml:1:37: error: position[1] is 'far'; expected a number in m");
 }
 
+TEST_F(ScenarioTest, LimitsThatContradictOneAnother) {
+  EXPECT_EQ(read(kShort + "limits: {touch: 0.002}\n").limits.touch, 0.002);  // the same: no warning, then a failure
+  const std::string text = "limits.touch, above which bodies that touch are a warning, is ";
+  EXPECT_EQ(error(kShort + "limits: {touch: 0.02, collision: 0.01}\n"),
+            "DIR/s.yaml:3:17: error: " + text +
+                "0.02 m, and limits.collision, above which they are a failure, is 0.01 m; expected limits.touch of at most "
+                "0.01 m\nDIR/s.yaml:3:34: note: limits.collision is here");
+  EXPECT_EQ(error(kShort + "limits: {touch: 0.02}\n"),
+            "DIR/s.yaml:3:17: error: " + text +
+                "0.02 m, and limits.collision, above which they are a failure, is 0.002 m by default; expected limits.touch of "
+                "at most 0.002 m");
+  EXPECT_EQ(error(kShort, {"limits.collision=1e-4"}),
+            "--set limits.collision=1e-4: error: " + text +
+                "0.0005 m by default, and limits.collision, above which they are a failure, is 0.0001 m; expected limits.touch "
+                "of at most 0.0001 m");
+}
+
+TEST_F(ScenarioTest, LimitsBeyondWhatTheyAreSharesOf) {
+  EXPECT_EQ(error(kShort + "limits: {energy_residual: 0.06}\n"),
+            "DIR/s.yaml:3:27: error: energy_residual is 0.06; allowed are 0 to 0.05");
+  EXPECT_EQ(error(kShort + "limits: {saturated_share: 1.1, warn_share: 1.2}\n"),
+            "DIR/s.yaml:3:27: error: saturated_share is 1.1; allowed are 0 to 1\n"
+            "DIR/s.yaml:3:44: error: warn_share is 1.2; allowed are 0 to 1");
+  EXPECT_EQ(error(kShort + "limits: {tracking_error: 0}\n"),
+            "DIR/s.yaml:3:26: error: tracking_error is 0 rad; allowed are more than 0 and up to 1000 rad");
+}
+
+TEST_F(ScenarioTest, AnOldNameAndThePresentOne) {
+  const std::string old = kShort + "limits: {margin: 0.7}\n";
+  EXPECT_EQ(read(old).limits.warn_share, 0.7);
+  // What --set says takes the place of what the file says, under either name.
+  EXPECT_EQ(read(old, {"limits.margin=0.6"}).limits.warn_share, 0.6);
+  EXPECT_EQ(read(old, {"limits.warn_share=0.6"}).limits.warn_share, 0.6);
+  EXPECT_EQ(read(kShort + "limits: {warn_share: 0.7}\n", {"limits.margin=0.6"}).limits.warn_share, 0.6);
+  const ScenarioTemplate file(folder_.write("s.yaml", old), {"limits.warn_share=0.5"}, catalog_);
+  EXPECT_EQ(file.with({}).limits.warn_share, 0.5);
+  EXPECT_EQ(file.with({"limits.margin=0.4"}).limits.warn_share, 0.4);
+  const std::string both = "limits.margin is the old name of limits.warn_share, which is given, too; expected one of them\n";
+  EXPECT_EQ(error(kShort + "limits: {margin: 0.7, warn_share: 0.9}\n"),
+            "DIR/s.yaml:3:18: error: " + both + "DIR/s.yaml:3:35: note: limits.warn_share is here");
+  EXPECT_EQ(error(kShort, {"limits.margin=0.6", "limits.warn_share=0.5"}),
+            "--set limits.margin=0.6: error: " + both + "--set limits.warn_share=0.5: note: limits.warn_share is here");
+}
+
 TEST_F(ScenarioTest, PeriodsAreWholeMultiples) {
   EXPECT_EQ(
       error(kShort + "physics: {step: 7e-5}\ntrace: {period: 0.0049}\n"),

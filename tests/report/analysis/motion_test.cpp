@@ -190,16 +190,19 @@ TEST(Motion, OfAnOlderFolderIsOfItsRowsAndSaysSo) {
   EXPECT_TRUE(contains(read(folder / "again/report.html"), sentence));
 }
 
-/// Recorded, or from the states of an older folder.
 TEST(Motion, HasTheCentreOfMassOfTheStates) {
   const Scenario s = shipped("hexapod.yaml", {"duration=0.6", "physics.engine=articulated"});
   const Recording r = run(s);
-  const std::vector<Vec3> recorded = centres_of_mass(s, r);
-  const std::vector<Vec3> of_states = centres_of_mass(s, older(r, s.robot->joints.size()));
-  ASSERT_EQ(recorded.size(), r.poses.rows());
-  ASSERT_EQ(of_states.size(), recorded.size());
-  for (std::size_t k = 0; k < recorded.size(); ++k)
-    ASSERT_LT((recorded[k] - of_states[k]).norm(), 1e-12) << k;  // m: rounding of a mean over 33 bodies
+  const report::Motion recorded = report::motion(r);
+  const States states = States::at_ticks(r, *s.robot);
+  ASSERT_EQ(recorded.t.size(), states.size());
+  Kinematics k(*s.robot);
+  for (std::size_t row = 0; row < states.size(); ++row) {
+    k.update(*s.robot, states(row));
+    const Vec3 com = sums(*s.robot, k, s.physics.gravity).com;
+    const Vec3 of_motion(recorded.x[row], recorded.y[row], recorded.z[row]);
+    ASSERT_LT((of_motion - com).norm(), 1e-12) << row;  // m: rounding of a mean over 33 bodies
+  }
 }
 
 }  // namespace

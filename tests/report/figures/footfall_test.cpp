@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "report/analysis/legs.h"
 #include "report/figures/run/run_figure.h"
 #include "report/plot/svg.h"
 #include "tests/program/fixture.h"

@@ -101,6 +101,8 @@ TEST(Earned, SlidingDownASlope) {
                                             fmt::format("physics.gravity=[{}, 0, {}]", g / 2, -g * std::sqrt(3) / 2)}));
   EXPECT_GT(slide.summary.distance, 50);
   EXPECT_EQ(slide.check("progress").status, CheckStatus::fail) << slide.check("progress").text;
+  EXPECT_EQ(slide.check("progress").unit, "times");
+  EXPECT_EQ(slide.check("progress").limit, 1.2);
   EXPECT_NE(slide.made.word, Word::feasible);
 }
 

@@ -176,6 +176,18 @@ TEST(LoadChecks, WarnOfFeetThatSlide) {
   EXPECT_EQ(lenient.check("slip").status, CheckStatus::warn);
 }
 
+/// As figures and pages name it.
+TEST(LoadChecks, NameAFootByItsLeg) {
+  LoadCase made{shipped("hexapod.yaml", {"duration=1", "physics.engine=articulated"})};
+  for (const Column& column : made.record.loads.columns) {
+    if (glob("foot.*.slid", column.name)) made.set(column.name, 0);
+  }
+  made.set("foot.m9/passive.slid", 0.123, made.last());
+  const Check slip = made.check("slip");
+  EXPECT_TRUE(contains(slip.text, "farthest m9 front left, by 0.123 of ")) << slip.text;
+  EXPECT_EQ(slip.worst, "m9/passive");  // by which the page finds it
+}
+
 TEST(LoadChecks, NoteWhatStandsAndWhatFalls) {
   LoadCase made = crawl();
   made.set("stability", 0.02);

@@ -59,13 +59,17 @@ TEST_F(StudyFile, IsTaken) {
 }
 
 TEST_F(StudyFile, ItsRulesForStoppingAreChecked) {
-  EXPECT_EQ(with("stop: [fell, saturated.voltage > 0.3 after 4, \"torque.peak[m0/active] > 2\"]\n"), "taken");
+  EXPECT_EQ(with("stop: [fell, saturated.voltage > 0.3 after 0.04, \"torque.peak[m0/active] > 2\"]\n"), "taken");
   EXPECT_EQ(with("stop: [feel]\n"), "s.yaml:4:8: error: unknown quantity 'feel'; did you mean 'fell'?");
   EXPECT_EQ(with("stop: [fell after noon]\n"),
             "s.yaml:4:8: error: a rule ends with after 'noon'; expected a number of seconds: fell after 2");
   EXPECT_TRUE(
       contains(with("stop: [limit_cycle.found]\n"),
                "s.yaml:4:8: error: limit_cycle.found is known when a run has ended; while it runs there are simulated, "));
+  EXPECT_EQ(with("stop: [fell, distance > 1 after 4]\n"),
+            "s.yaml:4:14: error: the rule begins at 4 s, and the run ends at 0.1 s; expected an earlier time behind `after`");
+  EXPECT_EQ(with("stop: [fell after 4]\nset: [duration=5]\n"), "taken");
+  EXPECT_EQ(parameters("duration: {values: [1, 5]}", "stop: [fell after 4]\n"), "taken");
   EXPECT_EQ(with("stop: fell\n"), "s.yaml:4:7: error: stop is 'fell'; expected a list of texts");
 }
 
@@ -121,6 +125,8 @@ TEST_F(StudyFile, ItsExpressionsAreChecked) {
   EXPECT_EQ(with("constraints: ['speed[m0/active] <= 1']\n"),
             "s.yaml:4:16: error: 'speed' is of the whole robot; expected it without [m0/active]");
   EXPECT_EQ(with("guards: {stop: 0.1}\n"), "s.yaml:4:10: error: unknown check 'stop'; did you mean 'stops'?");
+  EXPECT_EQ(with("guards: {slip: false, voltge: {margin: 0.1}}\n"),
+            "s.yaml:4:23: error: unknown check 'voltge'; did you mean 'voltage'?");
   EXPECT_EQ(with("guards: {stops: much}\n"),
             "s.yaml:4:17: error: guards.stops is 'much'; expected a limit, {margin: NUMBER}, true or false");
   EXPECT_EQ(with("guards: {stops: {limit: 1}}\n"),

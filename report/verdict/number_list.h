@@ -1,0 +1,16 @@
+// The parts of the list of summary numbers, in its order.
+#pragma once
+#include <vector>
+
+#include "report/verdict/numbers.h"
+
+namespace gaitlab::report {
+
+std::vector<SummaryNumber> run_numbers();
+std::vector<SummaryNumber> joint_numbers();
+std::vector<SummaryNumber> motion_numbers();
+
+/// Null of what is not a number.
+nlohmann::ordered_json or_null(double value);
+
+}  // namespace gaitlab::report
