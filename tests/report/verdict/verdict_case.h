@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "report/verdict/verdict.h"
@@ -16,9 +18,14 @@ using namespace report;
 struct Case {
   Scenario scenario = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated"});
   Recording record = run(scenario);
+  std::optional<Overlaps> known = {};                  ///< none: those of the record, which take most of a test's time
+  std::function<void(Summary&, Overlaps&)> also = {};  ///< changes what is computed from the record
 
   [[nodiscard]] Verdict judged() const {
-    return verdict(scenario, record, summarise(scenario, record, 0), overlaps(scenario, record));
+    Summary summary = summarise(scenario, record, 0);
+    Overlaps there = known ? *known : overlaps(scenario, record);
+    if (also) also(summary, there);
+    return verdict(scenario, record, summary, there);
   }
   [[nodiscard]] Check check(const std::string& id) const {
     const Verdict made = judged();
@@ -31,6 +38,13 @@ struct Case {
     return record.ticks.values.at(row * record.ticks.columns.size() + 1 + joint * kTickColumns + column);
   }
   [[nodiscard]] std::size_t last_tick() const { return record.ticks.rows() - 1; }
+  [[nodiscard]] double time(std::size_t row) const { return record.ticks.values.at(row * record.ticks.columns.size()); }
+  /// Cells of the tables of poses and of loads, which have the rows of ticks.
+  double& pose(const std::string& column, std::size_t row) { return cell(record.poses, column, row); }
+  double& load(const std::string& column, std::size_t row) { return cell(record.loads, column, row); }
+  static double& cell(Trace& of, const std::string& column, std::size_t row) {
+    return of.values.at(row * of.columns.size() + of.find(column));
+  }
 };
 
 inline Case& walk() {
@@ -38,10 +52,47 @@ inline Case& walk() {
   return made;
 }
 
-/// Three periods, which are evidence of a gait.
+/// Three periods, which are evidence of a gait, with the loads of docks and feet.
 inline Case& gait() {
-  static Case made{shipped("caterpillar.yaml", {"duration=12", "physics.engine=articulated"})};
+  static Case made = [] {
+    Scenario scenario = shipped("caterpillar.yaml", {"duration=12", "physics.engine=articulated"});
+    Simulation simulation({&scenario, 1}, Loads::recorded);
+    simulation.run();
+    Recording record = simulation.take_recording(0);
+    return Case{std::move(scenario), std::move(record)};
+  }();
   return made;
+}
+
+/// By what tests change a recorded run.
+using Change = std::function<void(Case&)>;
+
+/// The same as the gait, with what makers state of motors, gears and docks, far above what it takes, no error of its torques,
+/// and no bodies in one another, which saves most of a test's time.
+inline Case& rated_gait() {
+  static Case made = [] {
+    const Connector connector{.tension = 1000, .shear = 800, .bending = 400, .torsion = 200, .source = "chosen: test"};
+    Case rated = gait();
+    rated.scenario = shipped("caterpillar.yaml",
+                             {"duration=12", "physics.engine=articulated", "actuator.i_continuous=1",
+                              "actuator.gear_torque_peak=5", "actuator.gear_torque_continuous=3", "actuator.speed_max=10"});
+    Robot robot = *rated.scenario.robot;
+    for (ModuleType& type : robot.types) {
+      type.connectors = {{"latch", connector}};
+      for (FaceType& face : type.faces) face.connector = "latch";
+    }
+    rated.scenario.robot = std::make_shared<const Robot>(std::move(robot));
+    rated.record.tally.estimated = false;
+    rated.known = Overlaps{rated.scenario.robot->bodies.size()};
+    return rated;
+  }();
+  return made;
+}
+
+/// A check of it after a change.
+inline Check changed(const std::string& id, const Change& change, Case made = rated_gait()) {
+  change(made);
+  return made.check(id);
 }
 
 /// Joint 3 is at the limit in each of the last `rows` ticks but every one whose number `every` divides.
@@ -50,8 +101,7 @@ inline Case at_limit(TickColumn column, std::size_t rows, std::size_t every = 0)
   double total = 0;
   for (std::size_t k = made.last_tick() - rows + 1; k <= made.last_tick(); ++k) {
     const bool gap = every > 0 && k % every == 0;
-    const auto t = [&](std::size_t row) { return made.record.ticks.values[row * made.record.ticks.columns.size()]; };
-    if (!gap) total += t(k) - t(k - 1);
+    if (!gap) total += made.time(k) - made.time(k - 1);
     made.tick(k, 3, column) = total;
   }
   return made;
