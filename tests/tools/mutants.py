@@ -99,6 +99,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   GTEST_FLAG_SET(fail_fast, true);
+  GTEST_FLAG_SET(throw_on_failure, true);
   for (int i = 1; i < argc; ++i) {
     const pid_t child = fork();
     if (child == 0) {
@@ -318,14 +319,14 @@ def link_line(build):
     return [word for word in shlex.split(found.group(1)) if not word.startswith("bench/")]  # of MuJoCo's tests
 
 
-def compile_all(build, jobs):
+def compile_all(build, jobs, names):
     mutants, made = generate()
     shadow = OUT / "sources"
     for path, text in made.items():
         write(shadow / path, text)
     write(OUT / "mutants.h", SUPPORT)
     write(OUT / "main.cpp", MAIN)
-    tests = [ROOT / "tests" / (path + "_test.cpp") for path in QUICK + SLOW]
+    tests = [ROOT / "tests" / (path + "_test.cpp") for path in names]
     base = ["g++", "-O1", "-w", f"-I{shadow}", f"-I{ROOT}", f"-I{OUT}", "-include", str(OUT / "mutants.h")]
     ours, theirs = flags_of(build, "gaitlab_core") + flags_of(build, "gaitlab_report"), flags_of(build, "program_tests")
     newest = max((OUT / "mutants.h").stat().st_mtime, *(p.stat().st_mtime for p in shadow.rglob("*.h")))
@@ -361,20 +362,20 @@ def main():
     parser.add_argument("build", nargs="?", default="build/release")
     parser.add_argument("--list", action="store_true", help="print the mutants, and run none")
     parser.add_argument("--only", default="", help="mutants with this in their names")
-    parser.add_argument("--quick", action="store_true", help="survivors of the quick tests do not meet the others")
-    parser.add_argument("--jobs", type=int, default=2, help="compilers at a time")
+    parser.add_argument("--quick", action="store_true", help="without the tests that simulate")
+    parser.add_argument("--jobs", type=int, default=2, help="compilers, and processes of tests, at a time")
     given = parser.parse_args()
     if given.list:
         print("\n".join(generate()[0].names.values()))
         return 0
     os.chdir(ROOT)
-    mutants, program = compile_all(pathlib.Path(given.build).resolve(), given.jobs)
+    mutants, program = compile_all(pathlib.Path(given.build).resolve(), given.jobs, QUICK if given.quick else QUICK + SLOW)
     chosen = [k for k, name in mutants.names.items() if given.only in name]
     told = {}
 
     def run(numbers, tests, environment):
         """Of tests that are red without a mutant the first; else empty."""
-        command = ["nice", str(program), "--gtest_brief=1", "--gtest_filter=" + tests, *map(str, numbers)]
+        command = ["nice", "-n", "3", str(program), "--gtest_brief=1", "--gtest_filter=" + tests, *map(str, numbers)]
         with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=environment) as running:
             for line in running.stderr:
                 words = line.split()
@@ -388,12 +389,20 @@ def main():
     survivors = chosen
     for tests in [QUICK_FILTER] if given.quick else [QUICK_FILTER, SLOW_FILTER]:
         print(f"tests {tests}", flush=True)
-        if red := run([k for k in survivors if k not in mutants.fresh], tests, os.environ):
-            sys.exit(f"red without a mutant: {red}")
-        for number in [k for k in survivors if k in mutants.fresh]:  # each from the start: scenarios keep their limits
+        cached = [k for k in survivors if k not in mutants.fresh]
+        fresh = [k for k in survivors if k in mutants.fresh]  # each from the start: scenarios keep their limits
+
+        def from_the_start(number, tests=tests):
             red = run([], tests, {**os.environ, "GAITLAB_MUTANT": str(number)})
             told[number] = "red " + red if red else "green"
             print(f"{told[number]}: {mutants.names[number]}", flush=True)
+
+        with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
+            parts = [cached[k::given.jobs] for k in range(given.jobs)]
+            for red in pool.map(lambda part: run(part, tests, os.environ), parts):
+                if red:
+                    sys.exit(f"red without a mutant: {red}")
+            list(pool.map(from_the_start, fresh))
         survivors = [k for k in survivors if told.get(k, "green") == "green"]
     print(f"{len(chosen)} mutants, {len(chosen) - len(survivors)} killed")
     left = 0
