@@ -33,8 +33,11 @@ std::string printed(const std::string& text) {
     all += one_line(text.substr(at, end - at)) + (end < text.size() ? "\n" : "");
     at = end + 1;
   }
-  return report::texts::without_nan(all);
+  return all;
 }
+
+/// The same of a table, in which a number that is not known is a dash.
+std::string printed_table(const std::string& text) { return report::texts::without_nan(printed(text)); }
 
 }  // namespace
 
@@ -49,10 +52,11 @@ void print_summary(const Scenario& scenario, const Recording& recording, const r
   };
   const report::RunData run{scenario, recording, summary};
   for (const std::string& line : report::texts::simulated(run)) fmt::print("{}\n", printed(line));
-  for (const report::ScreenLine& line : report::first_screen(run, verdict))
+  constexpr std::size_t kFew = 4;  // lines of one kind
+  for (const report::ScreenLine& line : report::first_screen(run, verdict, shown.verbose ? verdict.checks.size() : kFew))
     fmt::print("  {:<9} {}\n", line.title, painted(printed(line.text), line.tone));
-  if (shown.verbose) fmt::print("{}", printed(report::to_text(summary, scenario, recording)));
-  if (shown.joints) fmt::print("{}", printed(report::joint_table(summary, scenario)));
+  if (shown.verbose) fmt::print("{}", printed_table(report::to_text(summary, scenario, recording)));
+  if (shown.joints) fmt::print("{}", printed_table(report::joint_table(summary, scenario)));
 }
 
 report::Verdict judged(const Scenario& scenario, const Recording& recording, const report::Summary& summary,

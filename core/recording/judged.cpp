@@ -15,9 +15,9 @@ constexpr double kShareOfStart = 0.2;  // of the run, without a limit cycle
 constexpr double kWholePeriod = 1e-3;  // of a period: what it may miss and be whole
 constexpr double kSameInstant = 1e-9;  // s
 
-void window(Judged& judged, double end, const MotionCycle& cycle) {
+void window(Judged& judged, double end, const MotionCycle& cycle, bool repeats) {
   judged.to = end;
-  judged.from = cycle.found ? std::min(cycle.from, cycle.period) : std::min(kLongestStart, kShareOfStart * end);
+  judged.from = cycle.found ? std::min(cycle.from, cycle.period) : repeats ? left_out_start(end) : 0;
   if (!cycle.found) return;
   judged.periods = static_cast<std::size_t>((end - judged.from) / cycle.period + kWholePeriod);
   const auto start = [&] { return end - static_cast<double>(judged.periods) * cycle.period; };
@@ -110,9 +110,11 @@ std::size_t Judged::first(const std::vector<JudgedJoint>& joints) {
   return static_cast<std::size_t>(std::min_element(joints.begin(), joints.end(), earlier) - joints.begin());
 }
 
-Judged judge(const Recording& r, const MotionCycle& cycle) {
+double left_out_start(double end) { return std::min(kLongestStart, kShareOfStart * end); }
+
+Judged judge(const Recording& r, const MotionCycle& cycle, bool repeats) {
   Judged judged;
-  window(judged, r.simulated, cycle);
+  window(judged, r.simulated, cycle, repeats);
   judged.joints.resize(r.ticked());
   judged.whole.resize(r.ticked());
   const bool known = r.ticked() > 0 && !r.tick(0, kCurrentLimited).empty();

@@ -47,11 +47,14 @@ struct Judged {
   [[nodiscard]] static std::size_t first(const std::vector<JudgedJoint>& joints);
 };
 
+/// s: what is left out of a run that ends at `end` and has no limit cycle, because it is the start: 2 s or a fifth.
+double left_out_start(double end);
+
 /// The window holds whole periods up to the end of the run: from the limit cycle on, or from earlier on where more than one
 /// period would be left out. At most one period of a start is forgiven, because motors that are at their limits until a late
 /// limit cycle begins would count for nothing. Without a limit cycle it begins at 2 s or a fifth of the run, whichever is
-/// earlier. From Recording::ticks, which are of all steps: nothing depends on trace.period. The window begins at the row of
-/// ticks before its start.
-Judged judge(const Recording& recording, const MotionCycle& cycle);
+/// earlier; where the set points do not repeat, at 0, because what is played once counts. From Recording::ticks, which are of
+/// all steps: nothing depends on trace.period. The window begins at the row of ticks before its start.
+Judged judge(const Recording& recording, const MotionCycle& cycle, bool repeats);
 
 }  // namespace gaitlab

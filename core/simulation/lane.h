@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/plugin/plugin_instance.h"
+#include "core/simulation/cpg_integrator.h"
 #include "core/simulation/lane_clock.h"
 #include "core/simulation/load_meter.h"
 #include "core/simulation/simulation.h"
@@ -23,34 +24,22 @@ struct Simulation::Lane {
         contacts(std::move(elements)),
         cpg(make_cpg(s.cpg, info)),
         controller(make_controller(s.controller, info)),
-        sample(*s.robot, contacts.size(), cpg == nullptr ? 0 : cpg->states()) {
+        sample(*s.robot, contacts.size(), cpg == nullptr ? 0 : cpg->states()),
+        integrator(sample.cpg.size()) {
     const std::size_t n = info.joints.size();
     for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit}) values->assign(n, 0.0);
     for (std::size_t j = 0; j < n; ++j) {
       if (!robot.joints[j].driven()) passive.push_back(j);
     }
     touching.assign(info.modules.size(), 0.0);
-    for (auto* values : {&k1, &k2, &k3, &k4, &stage}) values->assign(sample.cpg.size(), 0.0);
   }
 
   [[nodiscard]] Measured measured(double t) const { return {t, scenario.control_period, angle, speed, torque, touching}; }
 
-  /// CPG states from t to t + Ts: classical Runge-Kutta, sub-step cpg.step, inputs held.
+  /// CPG states from t to t + Ts, inputs held.
   void integrate_cpg(double t) {
-    const std::int64_t sub_steps = whole(scenario.control_period, scenario.cpg_step);
-    const double h = scenario.cpg_step;
-    for (std::int64_t i = 0; i < sub_steps && !cpg_state.empty(); ++i) {
-      const auto slope = [&](double reach, In k, Out out) {
-        const Measured m = measured(t + (static_cast<double>(i) + reach) * h);
-        for (std::size_t j = 0; j < stage.size(); ++j) stage[j] = cpg_state[j] + (k.empty() ? 0 : reach * h * k[j]);
-        cpg->derivative(m, stage, out);
-      };
-      slope(0, {}, k1);
-      slope(0.5, k1, k2);
-      slope(0.5, k2, k3);
-      slope(1, k3, k4);
-      for (std::size_t j = 0; j < stage.size(); ++j) cpg_state[j] += h / 6 * (k1[j] + 2 * (k2[j] + k3[j]) + k4[j]);
-    }
+    integrator.advance(*cpg, cpg_state, t, whole(scenario.control_period, scenario.cpg_step), scenario.cpg_step,
+                       [&](double at) { return measured(at); });
   }
 
   const Scenario& scenario;
@@ -66,8 +55,8 @@ struct Simulation::Lane {
   Out cpg_state, controller_state, ledger;                                       // parts of the one state array
   double energy_at_start = 0;                                                    // J
   std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // one lane, contiguous, for the plugins
-  std::vector<double> k1, k2, k3, k4, stage;
   Sample sample;
+  CpgIntegrator integrator;
   std::unique_ptr<Probes> probes;
   std::unique_ptr<LoadMeter> loads;  ///< nullptr: nobody asked
   Recording recording;

@@ -153,6 +153,7 @@ class Search {
       }
       if (depth <= collision_.depth) return;
       collision_.depth = depth;
+      collision_.deepest_time = time;
       std::tie(collision_.deepest_first, collision_.deepest_second) = pair;
     });
   }
@@ -164,6 +165,8 @@ class Search {
       if (!sunk_) sunk_ = Sunk{.time = time};
       sunk_->body = pieces_[i].body;
       sunk_->depth = depth;
+      sunk_->deepest_time = time;
+      if (time == sunk_->time) sunk_->first = sunk_->body;
     }
   }
   [[nodiscard]] std::optional<Collision> collision() const {

@@ -13,16 +13,17 @@ namespace gaitlab::report {
 struct Collision {
   double time = 0;                                    ///< s, of the first tick at which any two were in one another
   std::size_t first = 0, second = 0;                  ///< the deepest pair of that tick
-  double depth = 0;                                   ///< m, the largest of all ticks
+  double depth = 0, deepest_time = 0;                 ///< m, the largest of all ticks; s
   std::size_t deepest_first = 0, deepest_second = 0;  ///< the pair that has it
   std::size_t pairs = 0;                              ///< how many pairs met
 };
 
 /// A body in the ground, by the ways out (Ground::query) of its shapes' vertices; of a sphere of the whole.
 struct Sunk {
-  std::size_t body = 0;  ///< Robot::bodies: the deepest one
-  double time = 0;       ///< s, of the first tick at which any was
-  double depth = 0;      ///< m, the largest of all ticks
+  std::size_t body = 0;                ///< Robot::bodies: the deepest one
+  double time = 0;                     ///< s, of the first tick at which any was
+  std::size_t first = 0;               ///< the deepest one of that tick
+  double depth = 0, deepest_time = 0;  ///< m, the largest of all ticks; s
 };
 
 struct Overlaps {

@@ -21,6 +21,7 @@ struct Summary {
   double heading_change = 0;                        ///< rad, of the base's x axis about world z
   double cost_electrical = 0, cost_mechanical = 0;  ///< J / (N m); 0 where the robot has not moved or weighs nothing
   MotionCycle limit_cycle;
+  double set_point_period = 0;                    ///< s, gait_period.h; 0: the set points do not repeat
   double stability_max = 0, stability_share = 0;  ///< h lambda; share of control ticks above 1
   std::string stability_source;
   Judged judged;
@@ -32,6 +33,7 @@ struct Summary {
 /// Of a recording of which little is known yet: time, ways and speeds alone.
 Summary travelled(const Recording& record);
 
+/// Throws PluginError.
 Summary summarise(const Scenario& scenario, const Recording& record, double wall_time);
 
 }  // namespace gaitlab::report

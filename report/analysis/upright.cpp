@@ -11,13 +11,18 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kRounds = 1e-9;  // s
+constexpr double kRounds = 1e-9;                     // s
+constexpr double kNearly = 1 / std::numbers::sqrt2;  // cosine of 45 degrees
 
-/// A period, and the sum of the turns in it about level axes, rad.
+/// A period, the sum of the turns in it about level axes, rad, and the cosines of the least and the largest tilt.
 struct Stretch {
   double from, to;
   Vec3 turn = Vec3::Zero();
-  [[nodiscard]] bool whole_turn() const { return std::hypot(turn.x(), turn.y()) > std::numbers::pi; }
+  double most = -1, least = 1;
+  /// Turns of what wobbles and yaws add up, too, but it never points nearly upwards and nearly downwards.
+  [[nodiscard]] bool whole_turn() const {
+    return std::hypot(turn.x(), turn.y()) > std::numbers::pi && most > kNearly && least < -kNearly;
+  }
 };
 
 std::vector<Stretch> stretches(const Judged& judged, double set_points) {
@@ -58,7 +63,10 @@ std::optional<Upright> upright(const Scenario& scenario, const Recording& r, con
     }
     if (cosine < 0 && !found.over) found.over = time;
     for (Stretch& period : periods) {
-      if (time > period.from + kRounds && time < period.to + kRounds) period.turn += turn_between(before, now);
+      if (!(time > period.from + kRounds && time < period.to + kRounds)) continue;
+      period.turn += turn_between(before, now);
+      period.most = std::max(period.most, cosine);
+      period.least = std::min(period.least, cosine);
     }
     before = now;
   }

@@ -12,13 +12,13 @@ struct Upright {
   double tilt = 0;                  ///< rad, largest angle from the vertical
   double tilt_time = 0;             ///< s
   std::optional<double> over = {};  ///< s, of the first tick at which it points below the horizontal
-  /// Whether the base rolls: about level axes it makes one whole turn or more in every period, to the nearest number of turns.
-  /// What rocks on its side, or lies on its back, makes none.
+  /// Whether the base rolls: about level axes it makes one whole turn or more in every period, to the nearest number of turns,
+  /// and its axis comes within 45 degrees of upwards and of downwards. What rocks, tumbles or lies on its back does not.
   bool rolls = false;
 };
 
 /// Of a floating base; none of others, and without poses. Periods are those of the limit cycle in the judged window; without
-/// one the last of the set points, `set_points` s long (slowest_period); where these do not repeat (0), the halves of the
+/// one the last of the set points, `set_points` s long (gait_period.h); where these do not repeat (0), the halves of the
 /// window.
 std::optional<Upright> upright(const Scenario& scenario, const Recording& record, const Judged& judged, double set_points);
 

@@ -88,6 +88,8 @@ struct Check {
   std::string missing = {};              ///< how much more it takes: `11 V`; empty: not known
   SourceLocation place = {};             ///< of the setting to look at
 
+  /// `text`, the time of what was at one instant, and what is missing.
+  [[nodiscard]] std::string sentence() const;
   /// The least margin if the limit of the main criterion were `limit`.
   [[nodiscard]] double margin_of(double limit) const;
 };

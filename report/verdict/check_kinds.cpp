@@ -33,7 +33,8 @@ constexpr CheckKind kChecks[] = {
      "least height of the centre of mass above the ground over that at the start, at control ticks", "below limits.height", "",
      kWhole, "limits.height", "a gait with more support, or limits.height", checks::height, true},
     {"progress", Group::run, "m", "Goes somewhere", "travel of the centre of mass per period (without periods: in the window)",
-     "below limits.progress of the robot's extent where that is given; or the robot slides down faster and faster",
+     "below limits.progress of the robot's extent (diagonal of the box around links and contact elements at the start) where "
+     "that is given; or the robot slides down faster and faster",
      "below a hundredth of the robot's extent (without periods: a tenth), with as little turning", kWindow, "limits.progress",
      "limits.progress, where standing still is a failure", checks::progress, true},
     {"upright", Group::run, "rad", "Stays upright", "largest turn of the base away from its start, at control ticks",

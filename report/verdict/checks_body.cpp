@@ -37,12 +37,12 @@ void name_joint(Check& made, const CheckedRun& run, std::size_t joint) {
   made.worst = run.joint(joint);
 }
 
-/// Why bodies cannot be judged, or which are not; empty: all are.
+/// Why what bodies without a shape pass through cannot be judged; empty: all have one.
 std::string no_bodies(const CheckedRun& run) {
   const std::size_t all = run.scenario.robot->bodies.size();
   if (run.scenario.contact.solver()) return "the solver of contact.law bullet keeps bodies apart and above the ground";
   if (run.overlaps.shaped == 0) return "no body has a shape, or the run has no poses";
-  return run.overlaps.shaped == all ? "" : fmt::format(" ({} of {} bodies have a shape)", run.overlaps.shaped, all);
+  return run.overlaps.shaped == all ? "" : fmt::format("{} of {} bodies have a shape", run.overlaps.shaped, all);
 }
 
 }  // namespace
@@ -69,9 +69,11 @@ void height(const CheckedRun& run, Check& made) {
   made.to = run.fall->lowest_time;
   made.status = run.fall->time ? CheckStatus::fail : CheckStatus::pass;
   const std::string share = texts::percent(made.value) + " of its height above the ground at the start";
-  made.text = fmt::format("the centre of mass {} {}", run.fall->time ? "comes down to" : "keeps at least", share);
-  if (run.fall->lowest < 0) made.text = fmt::format("the centre of mass comes {:.3g} m below the ground", -run.fall->lowest);
+  made.text = "the centre of mass keeps at least " + share;
   if (made.status == CheckStatus::pass) return;
+  made.text =
+      fmt::format("the robot falls at {:.2f} s: the centre of mass comes {}", made.from,
+                  run.fall->lowest < 0 ? fmt::format("{:.3g} m below the ground", -run.fall->lowest) : "down to " + share);
   made.first = made.from;
   made.remedy = "take a gait with more support";
 }
@@ -82,7 +84,7 @@ void upright(const CheckedRun& run, Check& made) {
   std::optional<Upright> found = report::upright(run.scenario, run.record, judged, 0);
   if (!found) return;
   if (found->over && judged.periods == 0) {
-    const double period = slowest_period(run.scenario, run.record);
+    const double period = run.summary.set_point_period;
     found = report::upright(run.scenario, run.record, judged, period);
     made.text = fmt::format("the base turns over at {:.2f} s, and the run is too short to show whether it rolls", *found->over);
     const bool early = run.record.simulated < kPeriodsNeeded * period;
@@ -100,7 +102,8 @@ void upright(const CheckedRun& run, Check& made) {
   if (made.status == CheckStatus::warn) made.text += fmt::format(", more than {:.3g} rad (limits.tilt)", run.limits().tilt);
   if (!found->over) return;
   made.first = *found->over;
-  made.text = fmt::format("the base turns over: it tilts by up to {:.3g} rad from its start", made.value);
+  made.text =
+      fmt::format("the base turns over at {:.2f} s: it tilts by up to {:.3g} rad from its start", made.from, made.value);
   made.remedy = "take a gait with more support";
 }
 
@@ -195,16 +198,17 @@ void start(const CheckedRun& run, Check& made) {
 }
 
 void collision(const CheckedRun& run, Check& made) {
-  const std::string missing = no_bodies(run);
-  made.text = missing;
-  if (run.overlaps.shaped == 0) return;
   const std::optional<Collision>& found = run.overlaps.collision;
+  made.text = no_bodies(run);
+  if (!found && !made.text.empty()) return;
   judge(made, "collision", &Limits::collision, run);
   made.value = found ? found->depth : 0;
   made.status = graded(made.value, run.limits().touch, made.limit);
-  made.text = "no two bodies are in one another (those on one hinge are not compared)" + missing;
+  made.text = "no two bodies are in one another (those on one hinge are not compared)";
   if (!found) return;
-  made.from = made.first = found->time;
+  made.from = made.to = found->deepest_time;
+  made.first = found->time;
+  made.first_part = run.scenario.robot->bodies[found->first].name;
   made.parts = found->pairs;
   made.part = Part::body;
   made.worst = run.scenario.robot->bodies[found->deepest_first].name;
@@ -217,17 +221,17 @@ void collision(const CheckedRun& run, Check& made) {
 void battery(const CheckedRun&, Check& made) { made.text = "the module types state no battery"; }
 
 void in_ground(const CheckedRun& run, Check& made) {
-  const std::string missing = no_bodies(run);
-  const bool grounded = run.scenario.ground.kind != Ground::Kind::none;
-  made.text = grounded ? missing : "judged above a ground";
-  if (run.overlaps.shaped == 0 || !grounded) return;
   const std::optional<Sunk>& found = run.overlaps.sunk;
+  const bool grounded = run.scenario.ground.kind != Ground::Kind::none;
+  made.text = grounded ? no_bodies(run) : "judged above a ground";
+  if (!found && !made.text.empty()) return;
   judge(made, "sink", &Limits::sink, run);
   made.value = found ? found->depth : 0;
   made.status = found ? CheckStatus::fail : CheckStatus::pass;
-  made.text = "no body goes through the ground" + missing;
+  made.text = "no body goes through the ground";
   if (!found) return;
-  made.from = found->time;
+  made.from = made.to = found->deepest_time;
+  made.first_part = run.scenario.robot->bodies[found->first].name;
   made.text =
       fmt::format("body {} goes {} into the ground", run.scenario.robot->bodies[found->body].name, texts::length(found->depth));
   made.first = found->time;

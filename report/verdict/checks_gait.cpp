@@ -52,30 +52,44 @@ double extent(const Scenario& s, const Recording& r) {
   return (most - least).norm();
 }
 
-/// J: work of gravity in the window: a drop at the start is not a slide.
-double gravity_work(const Scenario& s, const Motion& m, const Rows& rows) {
-  const auto way = [&](const Series& one) { return one[rows.last] - one[rows.first]; };
-  const Vec3 travel(way(m.x), way(m.y), way(m.z));
-  return s.robot->mass * s.physics.gravity.dot(travel);
+/// Two stretches of equal length up to the end of the run, each of whole periods.
+struct Halves {
+  double from = 0, length = 0;  ///< s, of the first; 0 long: the run has no two periods
+};
+
+/// The halves of the window; of an odd number of periods the middle one is in both, and a period alone is compared with the one
+/// before. A drop at the start is left out of a run that is judged whole.
+Halves halves(const CheckedRun& run) {
+  constexpr double kMissing = 1e-3;  // of a period: what it may lack
+  const Judged& judged = run.summary.judged;
+  const double start = judged.periods > 0 ? judged.from : std::max(judged.from, left_out_start(judged.to));
+  const double window = judged.to - start;
+  const double period = judged.periods > 0 ? window / static_cast<double>(judged.periods) : run.summary.set_point_period;
+  const double unit = period > 0 ? period : window / 2;
+  const double held = std::max(2.0, std::floor(window / unit + kMissing));
+  const double from = judged.to - held * unit;
+  return from >= -kMissing * unit ? Halves{from, std::ceil(held / 2) * unit} : Halves{};
 }
 
-/// Ratio of the path speeds of the second and the first half of the window; of an odd number of periods the middle one counts
-/// for both.
-double speed_up(const CheckedRun& run, const Motion& m, const Rows& rows) {
-  const Judged& judged = run.summary.judged;
-  const double whole = judged.to - judged.from;
-  const double half = judged.periods > 1
-                          ? whole * std::ceil(static_cast<double>(judged.periods) / 2) / static_cast<double>(judged.periods)
-                          : whole / 2;
+/// J: work of gravity from the first half on.
+double gravity_work(const Scenario& s, const Motion& m, const Halves& of) {
+  std::size_t first = 0;
+  while (first + 1 < m.t.size() && m.t[first] < of.from) ++first;
+  const auto way = [&](const Series& one) { return one.back() - one[first]; };
+  return s.robot->mass * s.physics.gravity.dot(Vec3(way(m.x), way(m.y), way(m.z)));
+}
+
+/// Ratio of the path speeds of the second and the first half.
+double speed_up(const Motion& m, const Halves& of, double end) {
   const auto way = [&](double from, double to) {
     double sum = 0;
-    for (std::size_t k = rows.first + 1; k <= rows.last; ++k) {
+    for (std::size_t k = 1; k < m.t.size(); ++k) {
       if (m.t[k] > from && m.t[k] <= to) sum += std::hypot(m.x[k] - m.x[k - 1], m.y[k] - m.y[k - 1]);
     }
     return sum;
   };
-  const double before = way(judged.from, judged.from + half);
-  return before > 0 ? way(judged.to - half, judged.to) / before : 1;
+  const double before = way(of.from, of.from + of.length);
+  return before > 0 ? way(end - of.length, end) / before : 1;
 }
 
 }  // namespace
@@ -122,11 +136,12 @@ void progress(const CheckedRun& run, Check& made) {
   made.text = fmt::format("the robot goes {:.3g} m {}{}", made.value, each,
                           goes ? "" : fmt::format(", less than {:.3g} m", made.limit));
   made.can_fail = asked > 0;
-  const double fallen = gravity_work(s, m, rows);
+  const Halves two = halves(run);
+  const double fallen = gravity_work(s, m, two);
   double driven = 0;
   for (const JointStatistics& joint : r.joints) driven += joint.shaft;
   if (!run.evidence.not_borne.empty()) return;  // a fall is not a slide
-  const double faster = speed_up(run, m, rows);
+  const double faster = speed_up(m, two, run.summary.judged.to);
   if (!(fallen > std::max(driven, least_energy(s))) || !(faster > kSpeedsUp)) return;
   made.criteria = {{made.value, made.limit, made.unit, true}, {faster, kSpeedsUp, kTimes}};
   made.value = faster;

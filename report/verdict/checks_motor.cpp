@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -45,20 +46,17 @@ struct Span {
 
 /// The longest stretch behind the first row that a joint may have been at the limit without a break: rows of ticks that were so
 /// all the while, and the parts of the rows before and after them. A row that was partly at the limit, in how many pieces
-/// nobody knows, counts as one piece at its end and one at its start.
-Span longest_span(const Recording& record, std::size_t joint, TickColumn limited, std::size_t first) {
+/// nobody knows, counts as one piece at its end and one at its start. parts: s, of every row.
+Span longest_span(const Series& t, const std::vector<double>& parts, std::size_t first) {
   constexpr double kAllTheWhile = 0.999;
-  const Series t(record.ticks, 0);
-  const Series at = record.tick(joint, limited);
   Span longest;
   Span now;
   for (std::size_t k = first + 1; k < t.size(); ++k) {
-    const double part = at[k] - at[k - 1];
     if (now.to != t[k - 1]) now = {t[k - 1], t[k - 1]};
-    now.to = t[k - 1] + part;
-    if (part > kAllTheWhile * (t[k] - t[k - 1])) now.to = t[k];
+    now.to = t[k - 1] + parts[k];
+    if (parts[k] > kAllTheWhile * (t[k] - t[k - 1])) now.to = t[k];
     if (now.length() > longest.length()) longest = now;
-    if (now.to != t[k]) now = {t[k] - part, t[k]};
+    if (now.to != t[k]) now = {t[k] - parts[k], t[k]};
     if (now.length() > longest.length()) longest = now;
   }
   return longest;
@@ -77,30 +75,31 @@ std::string of_motors(const CheckedRun& run) {
   return run.motor_source.empty() ? "" : fmt::format("; motors: {}", run.motor_source);
 }
 
-/// Share of the window in which a joint is at no limit, but its torque within `error` of this one: an upper bound, of whole
-/// rows.
-double near_limit(const CheckedRun& run, std::size_t joint, double error, MotorLimit limit) {
+/// s, of every row of ticks: how long a joint is at this limit. Of `error` above 0 an upper bound: a row in which the joint is
+/// at no limit, but its torque comes within that share of this one, counts whole.
+std::vector<double> parts_at_limit(const CheckedRun& run, std::size_t joint, double error, MotorLimit limit) {
   const Recording& r = run.record;
   const Series t(r.ticks, 0);
   const Series peak = r.tick(joint, kEnvelopePeak);
   const Series voltage = r.tick(joint, kVoltageLimited);
   const Series current = r.tick(joint, kCurrentLimited);
   const Series amperes = r.tick(joint, kCurrentPeak);
+  const Series& at = limit == MotorLimit::voltage ? voltage : current;
   const std::optional<double> most = run.motors.joint(joint).current;
-  double sum = 0;
-  const std::size_t first = run.summary.judged.first_row;
-  for (std::size_t k = first + 1; k < peak.size(); ++k) {
-    if (!(peak[k] >= 1 - error) || voltage[k] > voltage[k - 1] || current[k] > current[k - 1]) continue;
+  std::vector<double> parts(t.size(), 0);
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    parts[k] = at[k] - at[k - 1];
+    if (!(error > 0) || peak.empty() || !(peak[k] >= 1 - error) || voltage[k] > voltage[k - 1] || current[k] > current[k - 1])
+      continue;
     const bool by_current = !run.has_dc_motors || (most && amperes[k] >= (1 - error) * *most);
-    if (by_current == (limit == MotorLimit::current)) sum += t[k] - t[k - 1];
+    if (by_current == (limit == MotorLimit::current)) parts[k] = t[k] - t[k - 1];
   }
-  const double whole = t.back() - t[first];
-  return whole > 0 ? sum / whole : 0;
+  return parts;
 }
 
 double error_of(const CheckedRun& run, std::size_t joint);
 
-/// Sets Check::first to the start of the first row, behind the row `after`, in which any driven joint is `beyond`, and
+/// Sets Check::first to the end of the first row, behind the row `after`, in which any driven joint is `beyond`, and
 /// Check::first_part to the joint; leaves both where none is.
 template <class Beyond>
 void find_first(const CheckedRun& run, std::size_t after, TickColumn column, const Beyond& beyond, Check& made) {
@@ -108,9 +107,9 @@ void find_first(const CheckedRun& run, std::size_t after, TickColumn column, con
   for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
     const Series values = run.record.tick(j, column);
     if (values.empty() || !run.scenario.robot->joints[j].driven()) continue;
-    for (std::size_t k = after + 1; k < t.size() && !(t[k - 1] >= made.first); ++k) {
+    for (std::size_t k = after + 1; k < t.size() && !(t[k] >= made.first); ++k) {
       if (!beyond(j, values[k], values[k - 1])) continue;
-      made.first = t[k - 1];
+      made.first = t[k];
       made.first_part = run.joint(j);
       break;
     }
@@ -128,32 +127,44 @@ struct AtLimit {
   static double margin_of(const Criterion& one) { return one.margin(); }
 };
 
-AtLimit at_limit(const CheckedRun& run, std::size_t joint, TickColumn column, double share) {
+/// error: share by which the torque may be larger.
+AtLimit at_limit(const CheckedRun& run, std::size_t joint, double error, MotorLimit limit) {
   constexpr double kRounding = 1 + 1e-6;  // of a stretch that is a sum of rows
-  AtLimit made{joint, share, {}, {}};
-  if (share > 0) made.longest = longest_span(run.record, joint, column, run.summary.judged.first_row);
+  const Series t(run.record.ticks, 0);
+  const std::size_t first = run.summary.judged.first_row;
+  const std::vector<double> parts = parts_at_limit(run, joint, error, limit);
+  const double window = t.back() - t[first];
+  AtLimit made{joint, 0, longest_span(t, parts, first), {}};
+  if (window > 0)
+    made.share = std::accumulate(parts.begin() + static_cast<std::ptrdiff_t>(first) + 1, parts.end(), 0.0) / window;
   const double stretch = run.limits().saturated_periods * run.scenario.control_period * kRounding;
-  made.criteria = {{share, run.limits().saturated_share}, {made.longest.length(), stretch, "s"}};
+  made.criteria = {{made.share, run.limits().saturated_share}, {made.longest.length(), stretch, "s"}};
   return made;
 }
 
-void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn column, double JudgedJoint::*share) {
+/// Whether a joint that is at its limit a share `error` shorter still fails.
+bool fails_anyway(const AtLimit& at, double error) {
+  return std::ranges::any_of(at.criteria, [&](const Criterion& one) { return one.value * (1 - error) > one.limit; });
+}
+
+void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn column) {
   made.text = run.unknown(column);
   if (!made.text.empty()) return;
   const Judged& judged = run.summary.judged;
   std::optional<AtLimit> worst;
-  double bar = 0;  // largest share of the time near the limit, of joints that keep it
-  std::size_t barred = 0;
+  std::optional<AtLimit> widest;  // of joints that would fail if their torques were larger by their errors
+  const auto worse = [](const AtLimit& one, const std::optional<AtLimit>& other) {
+    return !other || std::pair(-one.margin(), one.share) > std::pair(-other->margin(), other->share);
+  };
   for (std::size_t j = 0; j < judged.joints.size(); ++j) {
     if (!run.scenario.robot->joints[j].driven()) continue;
-    const AtLimit one = at_limit(run, j, column, judged.joints[j].*share);
+    const AtLimit one = at_limit(run, j, 0, limit);
     if (one.share > 0) ++made.parts;
-    if (!worst || std::pair(-one.margin(), one.share) > std::pair(-worst->margin(), worst->share)) worst = one;
-    // A larger error is no evidence of anything.
-    if (const double error = error_of(run, j); error > 0 && error <= run.limits().torque_error) {
-      const double near = one.share + near_limit(run, j, error, limit);
-      if (near > bar) std::tie(bar, barred) = std::pair(near, j);
-    }
+    if (worse(one, worst)) worst = one;
+    const double error = error_of(run, j);
+    if (!(error > 0) || !(error <= run.limits().torque_error)) continue;  // a larger one is no evidence of anything
+    const AtLimit wide = at_limit(run, j, error, limit);
+    if (wide.margin() < 0 && worse(wide, widest)) widest = wide;
   }
   if (!worst) return;
   made.text = unstated(run, limit, worst->share);
@@ -178,22 +189,21 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
     made.to = worst->longest.to;
     find_first(
         run, judged.first_row, column, [](std::size_t, double now, double before) { return now > before; }, made);
+    const std::string on_end = fmt::format("{:.3g} s on end from {:.2f} s", worst->longest.length(), made.from);
     made.text = fmt::format("{} of {} reach{} the limit of {} {}; worst {}: ", made.parts,
                             counted(driven_joints(*run.scenario.robot), "joint"), made.parts == 1 ? "es" : "",
                             made.parts == 1 ? "its" : "their", name, made.worst);
-    made.text += by_share ? fmt::format("{} of the judged time, up to {:.3g} s on end", texts::percent(worst->share),
-                                        worst->longest.length())
-                          : fmt::format("{:.3g} s on end, {}{:g} control periods ({:.3g} s), in all {} of the judged time",
-                                        worst->longest.length(), made.margin < 0 ? "more than " : "of at most ",
-                                        run.limits().saturated_periods, made.limit, texts::percent(worst->share));
+    made.text += by_share ? fmt::format("{} of the judged time, up to {}", texts::percent(worst->share), on_end)
+                          : fmt::format("{}, {}{:g} control periods ({:.3g} s), in all {} of the judged time", on_end,
+                                        made.margin < 0 ? "more than " : "of at most ", run.limits().saturated_periods,
+                                        made.limit, texts::percent(worst->share));
   }
-  const double most = run.limits().saturated_share;
-  const bool fails_beyond = worst->criteria.back().margin() < 0 || worst->share * (1 - error_of(run, worst->joint)) > most;
-  if (fails_beyond || !(bar > most)) return;
-  made.error = error_of(run, barred);
+  if (!widest || fails_anyway(*worst, error_of(run, worst->joint))) return;
+  made.error = error_of(run, widest->joint);
   made.status = CheckStatus::too_close;
-  made.text += fmt::format("; joint {} is within the error of its torque, {}, of that limit for up to {} of the judged time",
-                           run.joint(barred), texts::rough_percent(made.error), texts::percent(bar));
+  made.text += fmt::format(
+      "; joint {} is within the error of its torque, {}, of that limit for up to {} of the judged time, {:.3g} s on end",
+      run.joint(widest->joint), texts::rough_percent(made.error), texts::percent(widest->share), widest->longest.length());
   made.remedy = "take " + torque_remedy(run.scenario, std::max(made.error, run.limits().torque_error));
 }
 
@@ -246,13 +256,9 @@ constexpr double kNoTime = std::numeric_limits<double>::quiet_NaN();
 
 namespace checks {
 
-void voltage(const CheckedRun& run, Check& made) {
-  saturation(run, made, MotorLimit::voltage, kVoltageLimited, &JudgedJoint::voltage_limited);
-}
+void voltage(const CheckedRun& run, Check& made) { saturation(run, made, MotorLimit::voltage, kVoltageLimited); }
 
-void current(const CheckedRun& run, Check& made) {
-  saturation(run, made, MotorLimit::current, kCurrentLimited, &JudgedJoint::current_limited);
-}
+void current(const CheckedRun& run, Check& made) { saturation(run, made, MotorLimit::current, kCurrentLimited); }
 
 void envelope(const CheckedRun& run, Check& made) {
   rated(run, made, kEnvelopePeak, "the actuator states no limit", run.limits().warn_share, kNever, [&](std::size_t j) {
@@ -282,8 +288,9 @@ void speed(const CheckedRun& run, Check& made) {
     return Rated{joint.speed_peak, no_load(j), joint.speed_peak_time};
   });
   const bool unreached = made.status != CheckStatus::not_judged;
-  const bool by_rating =
-      broken.status != CheckStatus::not_judged && (!unreached || broken.value / broken.limit >= made.value / made.limit);
+  const bool worse = broken.status == CheckStatus::fail ||  // more time cannot undo it
+                     (made.status != CheckStatus::fail && broken.value / broken.limit >= made.value / made.limit);
+  const bool by_rating = broken.status != CheckStatus::not_judged && (!unreached || worse);
   if (by_rating) made = broken;
   if (made.status == CheckStatus::not_judged) return;
   made.span = by_rating ? CheckSpan::whole_run : CheckSpan::window;

@@ -11,7 +11,6 @@
 #include "core/settings/wording.h"
 #include "report/analysis/motion.h"
 #include "report/analysis/motors.h"
-#include "report/analysis/settings_numbers.h"
 #include "report/verdict/number_texts.h"
 #include "report/verdict/trust.h"
 
@@ -20,21 +19,7 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kRelative = 1e-9;  // rounding
-
-/// Hz: the least frequency above 0 of a driven joint; 0: the settings have none.
-double least_frequency(const Scenario& s) {
-  double least = 0;
-  if (s.cpg.entry == nullptr) return least;
-  const SettingsNumbers settings(s.cpg);
-  for (const SettingsNumbers::Found& one : settings.all()) {
-    if (one.unit != "Hz") continue;
-    for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
-      const double frequency = one.value[j];
-      if (s.robot->joints[j].driven() && frequency > 0 && (least == 0 || frequency < least)) least = frequency;
-    }
-  }
-  return least;
-}
+constexpr double kEstimate = 1e-3;  // of a period, which is an estimate
 
 bool moves(const std::vector<Series>& set_points) {
   for (const Series& one : set_points) {
@@ -45,10 +30,9 @@ bool moves(const std::vector<Series>& set_points) {
   return false;
 }
 
-void judge_length(const Scenario& s, const Recording& r, const Summary& summary, Evidence& made) {
+void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
   const MotionCycle& cycle = summary.limit_cycle;
-  const double judged = summary.judged.to - summary.judged.from;
-  const double period = slowest_period(s, r);
+  const double period = summary.set_point_period;
   made.repeats = period > 0;
   if (cycle.found && cycle.error <= kSettled && summary.judged.periods > 0) {
     made.rests_on = fmt::format("{} of {:.4g} s", counted(summary.judged.periods, "period"), cycle.period);
@@ -57,20 +41,33 @@ void judge_length(const Scenario& s, const Recording& r, const Summary& summary,
   if (period > 0) {
     const double held = r.simulated / period;
     made.rests_on = fmt::format("{:.3g} periods of {:.4g} s; the motion does not settle", held, period);
-    if (held < kPeriodsNeeded * (1 - kRelative)) {
+    if (held < kPeriodsNeeded * (1 - kEstimate)) {
       made.too_short = fmt::format("{:.3g} s are {:.2g} of a gait's {:g} periods of {:.4g} s; take duration: {:.4g}",
                                    r.simulated, held, kPeriodsNeeded, period, kPeriodsNeeded * period);
     }
     return;
   }
-  made.rests_on = fmt::format("the last {:.3g} s; the set points do not repeat", judged);
+  made.rests_on = fmt::format("these {:.3g} s; the set points do not repeat", r.simulated);
   if (r.simulated < kLeastTime * (1 - kRelative))
     made.too_short = fmt::format("{:.3g} s are less than {:g} s; take a longer duration", r.simulated, kLeastTime);
 }
 
-void judge_support(const Scenario& s, const Summary& summary, Evidence& made) {
-  if (s.base != Base::floating || s.contact.solver()) return;  // a solver's impulses are not recorded
+/// unknown: gains a name where nobody can know it.
+void judge_support(const Scenario& s, const Summary& summary, Evidence& made, std::vector<std::string>& unknown) {
+  if (s.base != Base::floating) return;
+  if (!(s.physics.gravity.norm() > 0)) {
+    made.not_borne = "there is no gravity, so that no ground bears the robot; take physics.gravity, or base: fixed";
+    return;
+  }
+  if (s.ground.kind == Ground::Kind::none || (!s.contact.solver() && contact_elements(*s.robot, s.contact.on).empty())) {
+    made.not_borne =
+        fmt::format("the robot falls freely: {}; take base: fixed, or {}",
+                    s.ground.kind == Ground::Kind::none ? "there is no ground" : "no part of it touches the ground",
+                    s.ground.kind == Ground::Kind::none ? "a ground" : "contact.on: all");
+    return;
+  }
   const double share = summary.posture.borne_share;
+  if (std::isnan(share)) unknown.emplace_back("the ground's share of the weight");  // a solver's impulses are not recorded
   if (share >= kBorne || std::isnan(share)) return;
   made.not_borne = fmt::format("the ground carries {} of the weight on average, less than {}: the robot is not on it",
                                texts::percent(share), texts::percent(kBorne));
@@ -91,7 +88,7 @@ std::string makes_energy(const Scenario& s) {
   return "";
 }
 
-void judge_trust(const Scenario& s, const Recording& r, Evidence& made) {
+void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vector<std::string>& unknown) {
   const TorqueError error = torque_error(r);
   const double residual = r.joints.empty() ? 0 : std::abs(r.ledger.residual()) / energy_scale(s, r);
   const double coarse = s.physics.adapts() && r.simulated > 0 ? r.tally.coarse / r.simulated : 0;
@@ -101,6 +98,8 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made) {
   if (driven && made.too_short.empty() && s.cpg.entry != nullptr && !asked.empty() && !moves(asked)) {
     made.not_trusted = fmt::format("no set point changes: cpg {} moves no joint", s.cpg.entry->name);
     made.remedy = "look for its amplitudes, frames or equations";
+  } else if (error.estimated && !std::isfinite(error.share)) {
+    made.not_trusted = fmt::format("the error of the torque of joint {} is not a number", s.robot->joints[error.joint].name);
   } else if (error.estimated && error.share > s.limits.torque_error) {
     made.not_trusted = fmt::format("the torque of joint {} is off by about {} of its peak, more than {}; take {}",
                                    s.robot->joints[error.joint].name, texts::rough_percent(error.share),
@@ -113,23 +112,18 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made) {
     made.not_trusted = fmt::format("in {} of the time the shortest steps do not reach the accuracy {}",
                                    texts::rough_percent(coarse), texts::rough_percent(s.physics.accuracy));
   }
+  if (driven && !error.estimated) unknown.emplace_back("the error of the torques");
 }
 
 }  // namespace
 
-double slowest_period(const Scenario& s, const Recording& r) {
-  const double frequency = least_frequency(s);
-  // Two periods show a repetition, but not where the amplitude grows at the start.
-  if (frequency > 0 && r.simulated * frequency < kPeriodsNeeded * (1 - kRelative)) return 1 / frequency;
-  const MotionCycle cycle = set_point_cycle(s, r);
-  return cycle.found ? cycle.period : 0;
-}
-
 Evidence evidence(const Scenario& s, const Recording& r, const Summary& summary) {
   Evidence made;
-  judge_length(s, r, summary, made);
-  judge_support(s, summary, made);
-  judge_trust(s, r, made);
+  std::vector<std::string> unknown;
+  judge_length(r, summary, made);
+  judge_support(s, summary, made, unknown);
+  judge_trust(s, r, made, unknown);
+  if (!unknown.empty()) made.rests_on += fmt::format("; not known: {}", fmt::join(unknown, " and "));
   return made;
 }
 

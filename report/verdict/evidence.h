@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/scenario/scenario.h"
+#include "report/analysis/gait_period.h"
 #include "report/analysis/summary.h"
 
 namespace gaitlab::report {
@@ -12,8 +13,8 @@ namespace gaitlab::report {
 inline constexpr double kTrustedResidual = 0.05, kTrustedCoarse = 0.1;
 /// Least share of the weight that the ground carries on average, of a robot that stands on it.
 inline constexpr double kBorne = 0.5;
-/// Periods of the slowest set point, where no limit cycle repeats within kSettled.
-inline constexpr double kPeriodsNeeded = 3, kSettled = 0.01;
+/// Largest error of a limit cycle of which one period is enough; else kPeriodsNeeded (gait_period.h).
+inline constexpr double kSettled = 0.01;
 inline constexpr double kLeastTime = 2;  ///< s, where the set points do not repeat
 
 /// Each text is empty where nothing is missing, else a sentence with its remedy.
@@ -23,15 +24,11 @@ struct Evidence {
   std::string not_trusted;  ///< the numbers are wrong by more than the shares above, a motor makes energy, or nothing moves
   std::string remedy;       ///< of set points that never change
   bool repeats = false;     ///< the set points do
-  std::string rests_on;     ///< `3 periods of 4 s`, `the last 18 s; the set points do not repeat`
+  std::string rests_on;     ///< `3 periods of 4 s`, `these 18 s; the set points do not repeat`
   [[nodiscard]] bool complete() const { return too_short.empty() && not_borne.empty() && not_trusted.empty(); }
 };
 
 /// Throws PluginError.
 Evidence evidence(const Scenario& scenario, const Recording& record, const Summary& summary);
-
-/// s: period of the set points, as recorded; of a run too short to show one, by the least frequency (Hz) of the CPG's settings;
-/// 0: the set points do not repeat.
-double slowest_period(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

@@ -14,8 +14,6 @@ namespace gaitlab::report {
 namespace {
 
 constexpr std::size_t kColumns = 100, kTitle = 10;
-constexpr std::size_t kMostOfAKind = 4;
-constexpr double kInstant = 0.1;  // s: a stretch that is told by its start
 
 class Screen {
  public:
@@ -52,20 +50,14 @@ std::vector<const Check*> of_status(const Verdict& verdict, CheckStatus status) 
   return found;
 }
 
-/// The text without its advice.
-std::string brief(const Check& check) {
-  const std::string text = check.text + (check.missing.empty() ? "" : "; missing: " + check.missing);
-  const bool instant = check.part != Part::none && check.to - check.from < kInstant;
-  return instant ? text + fmt::format(", at {:.2f} s", check.from) : text;
-}
-
-void add_kind(Screen& screen, const std::vector<const Check*>& checks, std::size_t skip, const char* title, Tone tone) {
+void add_kind(Screen& screen, const std::vector<const Check*>& checks, std::size_t skip, std::size_t most, const char* title,
+              Tone tone) {
   for (std::size_t k = skip; k < checks.size(); ++k) {
-    if (k - skip == kMostOfAKind) {
+    if (k - skip == most) {
       screen.add("", "and " + names(checks, k) + " (--verbose)", tone);
       return;
     }
-    screen.add(k == skip ? title : "", brief(*checks[k]), tone);
+    screen.add(k == skip ? title : "", checks[k]->sentence(), tone);
   }
 }
 
@@ -92,7 +84,7 @@ std::string tightest_text(const Verdict& verdict) {
   return fmt::format("{}, margin {}", name, texts::percent(check->margin));
 }
 
-std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict) {
+std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict, std::size_t most) {
   Screen screen;
   std::string head = name_of(verdict.word);
   if (verdict.word == Word::feasible) {
@@ -102,12 +94,12 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict)
     head += ": " + why;
   }
   screen.add("verdict", head, tone_of(verdict.word));
-  const bool led = verdict.word == Word::infeasible || verdict.word == Word::failed;  // the first failure is told already
+  const bool led = verdict.word == Word::infeasible || verdict.word == Word::failed;  // the deciding check stands above
   if (const std::string tightest = tightest_text(verdict); !led && !tightest.empty()) screen.add("tightest", tightest);
   if (!verdict.demand_doubt.empty()) screen.add("demand", verdict.demand_doubt, Tone::doubtful);
-  add_kind(screen, of_status(verdict, CheckStatus::fail), led ? 1 : 0, "fails", Tone::bad);
-  add_kind(screen, of_status(verdict, CheckStatus::too_close), 0, "too close", Tone::doubtful);
-  add_kind(screen, of_status(verdict, CheckStatus::warn), 0, "warns", Tone::doubtful);
+  add_kind(screen, verdict.failures(), led ? 1 : 0, most, "fails", Tone::bad);
+  add_kind(screen, of_status(verdict, CheckStatus::too_close), 0, most, "too close", Tone::doubtful);
+  add_kind(screen, of_status(verdict, CheckStatus::warn), 0, most, "warns", Tone::doubtful);
   if (const auto open = of_status(verdict, CheckStatus::not_judged); !open.empty())
     screen.add("unknown", names(open) + " (gaitlab explain verdict)");
   if (const std::string text = gait(run); !text.empty()) screen.add("gait", text);

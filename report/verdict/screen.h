@@ -17,9 +17,9 @@ struct ScreenLine {
 };
 
 /// Lines of at most 100 columns: the word and its reason, the tightest limit; a line per check that fails, is too close or
-/// warns (of more than four of a kind the rest by name); the checks that were not judged, by name; the gait; the source of the
-/// limits.
-std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict);
+/// warns (of more than `most` of a kind the rest by name); the checks that were not judged, by name; the gait; the source of
+/// the limits.
+std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict, std::size_t most);
 
 /// `dock bending of m5, margin 6 %`; empty: no margin is known.
 std::string tightest_text(const Verdict& verdict);

@@ -59,9 +59,10 @@ TorqueError torque_error(const Recording& r) {
   TorqueError worst;
   const std::vector<double> shares = torque_errors(r);
   for (std::size_t j = 0; j < shares.size(); ++j) {
-    if (shares[j] > worst.share) worst = {true, shares[j], j};
+    if (!(shares[j] <= worst.share)) worst = {true, shares[j], j};  // also what is not a number
+    if (std::isnan(worst.share)) break;
   }
-  worst.estimated = worst.share > 0;  // else both took the same steps, which says nothing
+  worst.estimated = !(worst.share <= 0);  // else both took the same steps, which says nothing
   return worst;
 }
 

@@ -1,9 +1,12 @@
 #include "report/verdict/verdict.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "report/analysis/motion.h"
 #include "report/analysis/plugin_names.h"
@@ -22,23 +25,36 @@ void replace_end(std::string& text, std::string_view end, std::string_view by) {
   if (text.ends_with(end)) text.replace(text.size() - end.size(), end.size(), by);
 }
 
-/// The first check of that status, or nullptr.
-const Check* first_of(const std::vector<Check>& checks, CheckStatus status) {
-  const auto found = std::ranges::find(checks, status, &Check::status);
-  return found == checks.end() ? nullptr : &*found;
+/// What orders checks: the least margin first, and before it what has none.
+double urgency(const Check& check) {
+  return std::isnan(check.margin) ? -std::numeric_limits<double>::infinity() : check.margin;
 }
+
+/// Of the checks with that status the one with the least margin, or nullptr.
+template <class Counts>
+const Check* worst_of(const std::vector<Check>& checks, const Counts& counts) {
+  const Check* found = nullptr;
+  for (const Check& check : checks) {
+    if (counts(check) && (found == nullptr || urgency(check) < urgency(*found))) found = &check;
+  }
+  return found;
+}
+
+bool fails(const Check& check) { return check.status == CheckStatus::fail; }
+bool too_close(const Check& check) { return check.status == CheckStatus::too_close; }
+bool undone_by_no_time(const Check& check) { return fails(check) && check.span == CheckSpan::whole_run; }
 
 /// The reason why nothing that fails makes the gait infeasible, or why it is not feasible though nothing fails; empty: none.
 std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) {
   const Evidence& found = run.evidence;
   if (!found.not_trusted.empty()) return found.not_trusted;
   if (!found.too_short.empty()) {
-    const Check* const failing = first_of(checks, CheckStatus::fail);
-    return found.too_short + (failing == nullptr ? "" : "; so far: " + failing->text);
+    const Check* const failing = worst_of(checks, fails);
+    return found.too_short + (failing == nullptr ? "" : "; so far: " + failing->sentence());
   }
-  if (first_of(checks, CheckStatus::fail) != nullptr) return "";
+  if (std::ranges::any_of(checks, fails)) return "";
   if (!found.not_borne.empty()) return found.not_borne;
-  if (const Check* const close = first_of(checks, CheckStatus::too_close)) return close->text;
+  if (const Check* const close = worst_of(checks, too_close)) return close->text;
   const auto judged = [](const Check& c) { return c.status != CheckStatus::not_judged; };
   if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == CheckGroup::motor && judged(c); }))
     return run.driven() ? "no limit of the motors is known" : "nothing drives the joints";
@@ -50,8 +66,6 @@ std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) 
   return "";
 }
 
-bool undone_by_no_time(const Check& check) { return check.status == CheckStatus::fail && check.span == CheckSpan::whole_run; }
-
 void decide(const CheckedRun& run, Verdict& made) {
   made.rests_on = run.evidence.rests_on;
   if (made.checks.front().status == CheckStatus::fail) {
@@ -61,14 +75,26 @@ void decide(const CheckedRun& run, Verdict& made) {
   } else if (made.reason = not_judged(run, made.checks); !made.reason.empty()) {
     made.word = Word::not_judged;
   } else {
-    made.word = first_of(made.checks, CheckStatus::fail) != nullptr ? Word::infeasible : Word::feasible;
+    made.word = std::ranges::any_of(made.checks, fails) ? Word::infeasible : Word::feasible;
   }
+  if (made.word != Word::failed && made.word != Word::infeasible) return;
+  const bool short_run = made.word == Word::infeasible && !run.evidence.too_short.empty();
+  made.decided_by = worst_of(made.checks, short_run ? undone_by_no_time : fails)->id;
 }
 
 }  // namespace
 
 std::size_t Verdict::count(CheckStatus status) const {
   return static_cast<std::size_t>(std::ranges::count(checks, status, &Check::status));
+}
+
+std::vector<const Check*> Verdict::failures() const {
+  std::vector<const Check*> found;
+  for (const Check& check : checks) {
+    if (fails(check)) found.push_back(&check);
+  }
+  std::ranges::stable_sort(found, {}, [&](const Check* check) { return std::pair(check->id != decided_by, urgency(*check)); });
+  return found;
 }
 
 const Check* Verdict::tightest() const {
@@ -92,11 +118,17 @@ double Check::margin_of(double other) const {
   return smallest;
 }
 
+std::string Check::sentence() const {
+  constexpr double kInstant = 0.1;  // s
+  const bool instant = part != Part::none && status != CheckStatus::pass && to - from < kInstant;
+  return text + (instant ? fmt::format(", at {:.2f} s", from) : "") + (missing.empty() ? "" : "; missing: " + missing);
+}
+
 std::string Verdict::why() const {
   if (word == Word::not_judged) return reason;
-  const Check* const first = first_of(checks, CheckStatus::fail);
-  if (first == nullptr) return "";
-  return first->text + (first->missing.empty() ? "" : "; missing: " + first->missing);
+  const auto decisive = std::ranges::find(checks, decided_by, &Check::id);
+  if (decisive == checks.end()) return "";
+  return decisive->sentence();
 }
 
 Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps) {

@@ -24,6 +24,7 @@ std::string to_json(const Verdict& verdict) {
   json["verdict"] = name_of(verdict.word);
   json["reason"] = verdict.reason;
   const Check* const tightest = verdict.tightest();
+  json["decided_by"] = verdict.decided_by.empty() ? Json() : Json(verdict.decided_by);
   json["tightest"] = tightest == nullptr ? Json() : Json(tightest->id);
   json["rests_on"] = verdict.rests_on;
   json["chosen_motors"] = verdict.chosen_motors;

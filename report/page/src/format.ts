@@ -129,6 +129,7 @@ export interface Verdict {
   verdict: "feasible" | "infeasible" | "failed" | "not judged";
   reason: string; // of `not judged`
   why: string; // behind the word, as the terminal has it; "" of feasible
+  decided_by: string | null; // id of the check that `failed` and `infeasible` rest on
   tightest: string | null; // id of the check that can fail with the least margin
   rests_on: string; // `3 periods of 4 s`
   /** The joint that is at limits of its motor for the largest share of the judged time. */

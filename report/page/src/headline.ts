@@ -94,9 +94,13 @@ function judgement(desk: Run, meta: Meta): Judgement {
   return { mood: "good", said: "Feasible with these motors", why: [sentence(rests_on ? `over ${rests_on}: ${kept}` : kept), ...left], facts: facts() };
 }
 
-const failures = (meta: Meta): Check[] => meta.verdict.checks.filter((c) => c.status === "fail" && c.group !== "trust");
+/** What fails: first what the word rests on, then from the least margin on; what has no margin first. */
+function failures({ verdict: { checks, decided_by } }: Meta): Check[] {
+  const urgency = ({ id, margin }: Check) => (id === decided_by ? -Infinity : (margin ?? -1e300));
+  return checks.filter((c) => c.status === "fail").sort((a, b) => (urgency(a) < urgency(b) ? -1 : urgency(a) > urgency(b) ? 1 : 0));
+}
 
-/** The check that the page opens at: what fails first, what is too close, else the tightest one; null: none leads anywhere. */
+/** The check that the page opens at: what the word rests on, what is too close, else the tightest one; null: none leads anywhere. */
 export function leading(run: Run): Check | null {
   const { meta } = run.recording, { checks, tightest, verdict } = meta.verdict;
   const placed = (c: Check | undefined) => (c && (moment(run, c) !== null || jointAt(meta, c.part, c.worst) >= 0) ? c : null);

@@ -39,7 +39,7 @@ TEST(Judged, KnowsWhatAMotorGaveAndTook) {
   cell(r, 30, 1, kEnvelopePeak) = 0.9;
   cell(r, 40, 1, kSpeedPeak) = 7;
   cell(r, 2, 1, kSpeedPeak) = 9;  // before the window
-  const JudgedJoint j = judge(r, cycle(1, 2.5)).joints[1];
+  const JudgedJoint j = judge(r, cycle(1, 2.5), true).joints[1];
   EXPECT_EQ(j.envelope_peak, 0.9);
   EXPECT_DOUBLE_EQ(j.envelope_peak_time, 3);
   EXPECT_EQ(j.speed_peak, 7);
@@ -62,7 +62,7 @@ TEST(Judged, ReadsOlderTicks) {
   for (std::size_t i = 0; i < now.ticks.values.size(); ++i) {
     if (kept(i % now.ticks.columns.size())) old.ticks.values.push_back(now.ticks.values[i]);
   }
-  const JudgedJoint j = judge(old, cycle(1, 2.5)).joints[1];
+  const JudgedJoint j = judge(old, cycle(1, 2.5), true).joints[1];
   EXPECT_EQ(j.torque_peak, 2);
   EXPECT_NEAR(j.torque_rms, 2, 1e-12);
   EXPECT_EQ(j.error_peak, 0.02);
@@ -72,14 +72,14 @@ TEST(Judged, ReadsOlderTicks) {
 
 TEST(Judged, ForgivesAtMostOnePeriodOfAStart) {
   const Recording r = ticks_of_ten_seconds();
-  const Judged early = judge(r, cycle(1, 2.5));  // 9 s hold three periods
+  const Judged early = judge(r, cycle(1, 2.5), true);  // 9 s hold three periods
   EXPECT_DOUBLE_EQ(early.from, 2.5);
   EXPECT_DOUBLE_EQ(early.to, 10);
   EXPECT_EQ(early.periods, 3U);
-  const Judged late = judge(r, cycle(7, 2.5));  // the limit cycle begins late: the window does not
+  const Judged late = judge(r, cycle(7, 2.5), true);  // the limit cycle begins late: the window does not
   EXPECT_DOUBLE_EQ(late.from, 2.5);
   EXPECT_EQ(late.periods, 3U);
-  const Judged whole = judge(r, cycle(0, 2.5));
+  const Judged whole = judge(r, cycle(0, 2.5), true);
   EXPECT_DOUBLE_EQ(whole.from, 0);
   EXPECT_EQ(whole.periods, 4U);
 }
@@ -90,7 +90,7 @@ TEST(Judged, NeverLeavesOutMoreThanOnePeriod) {
   for (double end = 5; end < 10; end += 0.1) {
     for (const double from : {0.0, 0.3, 0.89, 1.9, 4.0}) {
       r.simulated = end;
-      const Judged j = judge(r, cycle(from, 2));
+      const Judged j = judge(r, cycle(from, 2), true);
       EXPECT_LE(j.from, 2 * 1.01) << end << " " << from;
       EXPECT_NEAR(j.to - j.from, 2.0 * static_cast<double>(j.periods), 1e-9) << end << " " << from;
     }
@@ -102,36 +102,45 @@ TEST(Judged, RoundingIsNoPeak) {
   Recording r = ticks_of_ten_seconds();
   for (int k = 0; k <= 100; ++k) cell(r, k, 0, kTorquePeak) = 3 * (1 + 1e-16 * k);
   for (int k = 0; k <= 100; ++k) cell(r, k, 1, kTorquePeak) = 3 * (1 + 4e-16);
-  const Judged j = judge(r, {});
+  const Judged j = judge(r, {}, true);
   EXPECT_EQ(Judged::strongest(j.joints), 0U);
   EXPECT_NEAR(j.joints[0].torque_peak_time, 2.1, 1e-9);
 }
 
 TEST(Judged, WithoutALimitCycleTheStartIsAFifthOrTwoSeconds) {
   Recording r = ticks_of_ten_seconds();
-  EXPECT_DOUBLE_EQ(judge(r, {}).from, 2);
-  EXPECT_EQ(judge(r, {}).periods, 0U);
+  EXPECT_DOUBLE_EQ(judge(r, {}, true).from, 2);
+  EXPECT_EQ(judge(r, {}, true).periods, 0U);
   r.simulated = 5;
-  EXPECT_DOUBLE_EQ(judge(r, {}).from, 1);
+  EXPECT_DOUBLE_EQ(judge(r, {}, true).from, 1);
   r.simulated = 100;
-  EXPECT_DOUBLE_EQ(judge(r, {}).from, 2);
+  EXPECT_DOUBLE_EQ(judge(r, {}, true).from, 2);
+}
+
+/// Frames that are played once at the start are the gait.
+TEST(Judged, WithoutSetPointsThatRepeatTheWholeRunCounts) {
+  const Recording r = ticks_of_ten_seconds();
+  const Judged whole = judge(r, {}, false);
+  EXPECT_DOUBLE_EQ(whole.from, 0);
+  EXPECT_EQ(whole.first_row, 0U);
+  EXPECT_EQ(whole.periods, 0U);
 }
 
 /// What the first edition said: among joints at their limit all peaks are equal, and the lowest number won.
 TEST(Judged, TheJointThatIsLongestAtALimitComesFirst) {
   Recording r = ticks_of_ten_seconds();
   for (int k = 0; k <= 100; ++k) cell(r, k, 0, 0) = cell(r, k, 1, kTorquePeak) = 2;
-  EXPECT_EQ(judge(r, {}).order.front(), 1U) << "without limits: by RMS";
-  EXPECT_EQ(Judged::limited(judge(r, {}).joints), 0U);
+  EXPECT_EQ(judge(r, {}, true).order.front(), 1U) << "without limits: by RMS";
+  EXPECT_EQ(Judged::limited(judge(r, {}, true).joints), 0U);
   limit(r, 0, kCurrentLimited, 50, 60);  // current, 1 s of 8
-  const Judged j = judge(r, {});
+  const Judged j = judge(r, {}, true);
   EXPECT_EQ(j.order.front(), 0U);
   EXPECT_EQ(Judged::limited(j.joints), 1U);
   EXPECT_NEAR(j.joints[0].current_limited, 1.0 / 8, 1e-12);
   EXPECT_EQ(j.joints[0].voltage_limited, 0);
   limit(r, 1, kVoltageLimited, 20, 100);  // voltage, all of it
-  EXPECT_EQ(judge(r, {}).order.front(), 1U);
-  EXPECT_NEAR(judge(r, {}).joints[1].limited(), 1, 1e-12);
+  EXPECT_EQ(judge(r, {}, true).order.front(), 1U);
+  EXPECT_NEAR(judge(r, {}, true).joints[1].limited(), 1, 1e-12);
 }
 
 TEST(Judged, NothingOfTheStartCounts) {
@@ -139,7 +148,7 @@ TEST(Judged, NothingOfTheStartCounts) {
   cell(r, 3, 0, 0) = 50;
   cell(r, 3, 0, 1) = 5;
   limit(r, 0, kVoltageLimited, 1, 15);
-  const Judged j = judge(r, {});
+  const Judged j = judge(r, {}, true);
   EXPECT_DOUBLE_EQ(j.joints[0].torque_peak, 1);
   EXPECT_DOUBLE_EQ(j.joints[0].error_peak, 0.01);
   EXPECT_EQ(Judged::limited(j.joints), 0U);
@@ -153,10 +162,10 @@ TEST(Judged, PeaksHaveTheirTimesAndSayWhetherTheyAreTheLimit) {
   Recording r = ticks_of_ten_seconds();
   cell(r, 40, 0, 0) = 3;
   cell(r, 70, 0, 1) = 0.5;
-  EXPECT_EQ(judge(r, {}).joints[0].peak_limit, MotorLimit::none);
+  EXPECT_EQ(judge(r, {}, true).joints[0].peak_limit, MotorLimit::none);
   cell(r, 40, 0, kPeakLimit) = 2;  // for an instant: no time passes
-  EXPECT_EQ(Judged::limited(judge(r, {}).joints), 1U);
-  const Judged j = judge(r, {});
+  EXPECT_EQ(Judged::limited(judge(r, {}, true).joints), 1U);
+  const Judged j = judge(r, {}, true);
   EXPECT_DOUBLE_EQ(j.joints[0].torque_peak, 3);
   EXPECT_NEAR(j.joints[0].torque_peak_time, 4, 1e-12);
   EXPECT_EQ(j.joints[0].peak_limit, MotorLimit::current);
@@ -172,10 +181,10 @@ TEST(Judged, PeaksHaveTheirTimesAndSayWhetherTheyAreTheLimit) {
 TEST(Judged, WithoutTicksThereAreJointsAllTheSame) {
   Recording r;
   r.joints.resize(3);
-  const Judged j = judge(r, {});
+  const Judged j = judge(r, {}, true);
   EXPECT_EQ(j.joints.size(), 3U);
   EXPECT_EQ(j.order.size(), 3U);
-  EXPECT_EQ(judge({}, {}).order.size(), 0U);
+  EXPECT_EQ(judge({}, {}, true).order.size(), 0U);
 }
 
 }  // namespace

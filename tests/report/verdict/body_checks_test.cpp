@@ -319,7 +319,7 @@ void expect_buried(const Known& buried, double level) {
     if (first < 0 && depth > buried.scenario.limits.sink) first = states.time(row);
   }
   EXPECT_NEAR(check.value, deepest, kPrism);
-  EXPECT_EQ(check.from, first);
+  EXPECT_EQ(check.first, first);
   EXPECT_EQ(buried.judged.word, Word::infeasible);
 }
 

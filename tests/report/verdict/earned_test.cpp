@@ -114,6 +114,98 @@ TEST(Earned, ADropAtTheStartIsNoSlide) {
   EXPECT_NE(dropped.check("progress").status, CheckStatus::fail) << dropped.check("progress").text;
 }
 
+/// A slide within the only period of the window is compared with the period before.
+TEST(Earned, SlidingWithinOnePeriod) {
+  const double g = 9.81;
+  const auto on_slope = [&](const char* duration) {
+    return Told(shipped("hexapod.yaml", {"physics.engine=articulated", duration, "ground.friction=0.3",
+                                         fmt::format("physics.gravity=[{}, 0, {}]", g / 2, -g * std::sqrt(3) / 2)}));
+  };
+  for (const char* const duration : {"duration=4", "duration=5", "duration=7"}) {
+    const Told slide = on_slope(duration);
+    EXPECT_EQ(slide.check("progress").status, CheckStatus::fail) << duration << ": " << slide.check("progress").text;
+  }
+}
+
+/// Nothing bears a robot without a ground, without contact elements that touch it, or without gravity.
+TEST(Earned, NothingBearsTheRobot) {
+  const auto with = [](const std::vector<std::string>& more) {
+    std::vector<std::string> all{"physics.engine=articulated", "duration=12"};
+    all.insert(all.end(), more.begin(), more.end());
+    return Told(shipped("caterpillar.yaml", all)).made;
+  };
+  const Verdict weightless = with({"physics.gravity=[0, 0, 0]"});
+  EXPECT_EQ(weightless.word, Word::not_judged);
+  EXPECT_TRUE(contains(weightless.why(), "there is no gravity")) << weightless.why();
+  const Verdict falling = with({"ground.type=none"});
+  EXPECT_EQ(falling.word, Word::not_judged);
+  EXPECT_TRUE(contains(falling.why(), "falls freely: there is no ground")) << falling.why();
+  const Verdict through = with({"contact.on=none"});
+  EXPECT_NE(through.word, Word::feasible) << through.why();
+  EXPECT_EQ(with({"ground.type=none", "robot.base=fixed", "physics.gravity=[0, 0, 0]", "cpg.amplitude=0.1"}).word,
+            Word::feasible)
+      << "of a fixed base nothing is asked";
+}
+
+/// Frames that are played once, at the start, are the whole gait, and a long rest behind them is no excuse.
+TEST(Earned, FramesPlayedOnce) {
+  const auto bend = [](double end) {
+    return Told(shipped("caterpillar.yaml",
+                        {"physics.engine=articulated", "duration=20", "cpg.type=keyframes", "cpg.model.repeat=false",
+                         fmt::format("cpg.model.frames=[{{time: 0, angles: 0}}, {{time: {}, angles: "
+                                     "{{default: 0, m0/active: 0.4}}}}]",
+                                     end)}));
+  };
+  const Told quick = bend(0.1);
+  EXPECT_EQ(quick.made.from, 0);
+  EXPECT_EQ(quick.check("voltage").status, CheckStatus::fail) << quick.check("voltage").text;
+  EXPECT_LT(quick.check("voltage").to, 1);
+  EXPECT_EQ(quick.made.word, Word::infeasible);
+  const Told slow = bend(2);
+  EXPECT_EQ(slow.made.word, Word::feasible) << slow.made.why();
+  EXPECT_EQ(slow.made.rests_on, "these 20 s; the set points do not repeat");
+}
+
+/// Wheels have no period, whatever frequency their cpg does not read.
+TEST(Earned, WheelsAreJudgedAfterTwoSeconds) {
+  const auto drive = [](const char* duration) { return Told(shipped("library/linkbot-drive.yaml", {duration})).made; };
+  EXPECT_EQ(drive("duration=6").word, Word::feasible) << drive("duration=6").why();
+  EXPECT_EQ(drive("duration=6").rests_on, "these 6 s; the set points do not repeat");
+  EXPECT_EQ(drive("duration=3").word, Word::feasible) << drive("duration=3").why();
+  EXPECT_EQ(drive("duration=1").word, Word::not_judged);
+}
+
+/// A period that the run does not show is that of the CPG, which goes on after the run.
+TEST(Earned, FramesThatRepeatHaveTheirPeriod) {
+  const Told brief(
+      shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=3", "cpg.type=keyframes",
+                                   "cpg.model.frames=[{time: 0, angles: 0}, {time: 0.8, angles: 0.2}, {time: 2, angles: 0}]"}));
+  EXPECT_EQ(brief.made.word, Word::not_judged);
+  EXPECT_TRUE(contains(brief.made.why(), "3 s are 1.5 of a gait's 3 periods of 2 s; take duration: 6")) << brief.made.why();
+}
+
+/// What hops and tips over at every hop does not roll.
+TEST(Earned, TippingOverIsNoRolling) {
+  const Told hops(shipped("hexapod.yaml", {"physics.engine=articulated", "contact.on=all", "duration=3",
+                                           "cpg={type: sine, frequency: 2.4, amplitude: 0.9, phase_lag: 0}",
+                                           "actuator.u_max=20", "actuator.i_max=6"}));
+  EXPECT_EQ(hops.check("upright").status, CheckStatus::fail) << hops.check("upright").text;
+}
+
+/// The word rests on what is farthest beyond its limit; a run that is too short, on what no time undoes.
+TEST(Earned, TheHeadlineIsTheLeastMargin) {
+  const Told wide(shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=12", "cpg.amplitude=1.7"}));
+  const std::vector<const Check*> failures = wide.made.failures();
+  ASSERT_GT(failures.size(), 1U);
+  for (const Check* const check : failures) EXPECT_GE(check->margin, failures.front()->margin) << check->id;
+  EXPECT_EQ(wide.made.decided_by, failures.front()->id);
+  EXPECT_EQ(wide.made.why(), failures.front()->sentence());
+  EXPECT_EQ(wide.made.tightest(), failures.front());
+  const Told brief(shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=3", "cpg.amplitude=1.7"}));
+  ASSERT_EQ(brief.made.word, Word::infeasible);
+  EXPECT_EQ(brief.check(brief.made.decided_by).span, CheckSpan::whole_run);
+}
+
 /// V14: the worst joint of a check is that of the terminal, and its message names no other.
 TEST(Earned, TheTerminalNamesTheJointOfTheCheck) {
   const Told wide(shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=12", "cpg.amplitude=1.7"}));
@@ -128,7 +220,8 @@ TEST(Earned, TheTerminalNamesTheJointOfTheCheck) {
   EXPECT_EQ(stops.worst, wide.scenario.robot->joints[worst].name);
   EXPECT_TRUE(contains(stops.text, "worst " + stops.worst + ": ")) << stops.text;
   std::string screen;
-  for (const ScreenLine& line : first_screen({wide.scenario, wide.record, wide.summary}, wide.made)) screen += line.text + " ";
+  for (const ScreenLine& line : first_screen({wide.scenario, wide.record, wide.summary}, wide.made, 4))
+    screen += line.text + " ";
   for (const Check& check : wide.made.checks) {
     if (check.status != CheckStatus::fail || check.worst.empty()) continue;
     EXPECT_TRUE(contains(screen, check.worst)) << check.id << ": " << screen;
@@ -142,7 +235,7 @@ TEST(Earned, TheFirstScreenIsShort) {
     std::vector<std::string> all{"physics.engine=articulated", "duration=12"};
     all.insert(all.end(), sets.begin(), sets.end());
     const Told run(shipped("caterpillar.yaml", all));
-    const std::vector<ScreenLine> lines = first_screen({run.scenario, run.record, run.summary}, run.made);
+    const std::vector<ScreenLine> lines = first_screen({run.scenario, run.record, run.summary}, run.made, 4);
     EXPECT_LE(lines.size(), sets.empty() ? 9U : 26U);
     for (const ScreenLine& line : lines) EXPECT_LE(line.text.size(), 88U) << line.text;
   }

@@ -65,9 +65,9 @@ TEST(Verdict, TellsTheNumberThatDecided) {
       << made.check("current").text;
   made.scenario.limits.saturated_share = 0.05;
   EXPECT_EQ(made.status("current"), CheckStatus::fail);
-  EXPECT_TRUE(
-      contains(made.check("current").text,
-               "worst m1/passive: 0.055 s on end, more than 3 control periods (0.045 s), in all 1.72 % of the judged time"))
+  EXPECT_TRUE(contains(
+      made.check("current").text,
+      "worst m1/passive: 0.055 s on end from 3.95 s, more than 3 control periods (0.045 s), in all 1.72 % of the judged time"))
       << made.check("current").text;
 }
 

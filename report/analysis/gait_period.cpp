@@ -1,0 +1,111 @@
+#include "report/analysis/gait_period.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/plugin/plugin_instance.h"
+#include "core/plugin/robot_info.h"
+#include "core/simulation/cpg_integrator.h"
+#include "core/simulation/simulation.h"
+#include "report/analysis/motion.h"
+#include "report/analysis/settings_numbers.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+constexpr double kFarEnough = 120;          // s: two periods of a slow gait, and its start
+constexpr double kLongerThanTheRun = 5;     // times
+constexpr std::int64_t kMostTicks = 20000;  // of the CPG alone: some 0.1 s
+constexpr std::int64_t kMostRows = 4000;    // of the search for a period
+constexpr double kSameSetPoint = 1e-5;      // rad: poses are single precision
+
+/// Hz: the least frequency above 0 of a driven joint; 0: the settings have none.
+double least_frequency(const Scenario& s) {
+  double least = 0;
+  const SettingsNumbers settings(s.cpg);
+  for (const SettingsNumbers::Found& one : settings.all()) {
+    if (one.unit != "Hz") continue;
+    for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
+      const double frequency = one.value[j];
+      if (s.robot->joints[j].driven() && frequency > 0 && (least == 0 || frequency < least)) least = frequency;
+    }
+  }
+  return least;
+}
+
+/// Set points of the driven joints at every control tick, row-major: what the CPG does without feedback.
+std::vector<double> set_points_alone(const Scenario& s, std::int64_t ticks) {
+  const std::unique_ptr<Cpg> cpg = make_cpg(s.cpg, info(*s.robot));
+  const std::size_t joints = s.robot->joints.size();
+  std::vector<double> angle;
+  for (std::size_t j = 0; j < joints; ++j) angle.push_back(s.initial.angles[j]);
+  const std::vector<double> none(joints, 0.0);
+  const std::vector<double> lifted(s.robot->modules.size(), 0.0);
+  const auto measured = [&](double t) { return Measured{t, s.control_period, angle, none, none, lifted}; };
+  std::vector<double> state(cpg->states());
+  std::vector<double> setpoint(joints);
+  CpgIntegrator integrator(state.size());
+  cpg->start(state);
+  std::vector<double> all;
+  for (std::int64_t k = 0; k < ticks; ++k) {
+    const double t = static_cast<double>(k) * s.control_period;
+    cpg->event(measured(t), state);
+    cpg->output(t, state, setpoint);
+    for (std::size_t j = 0; j < joints; ++j) {
+      if (s.robot->joints[j].driven()) all.push_back(setpoint[j]);
+    }
+    integrator.advance(*cpg, state, t, whole(s.control_period, s.cpg_step), s.cpg_step, measured);
+  }
+  return all;
+}
+
+/// Whether the recorded set points are those of the CPG alone. Those of a row were in force just before it.
+bool recorded_so(const Scenario& s, const Recording& r, const std::vector<double>& alone, const std::vector<Series>& recorded) {
+  const Series t = motion(r).t;
+  for (std::size_t row = 1; row < t.size(); ++row) {
+    const auto tick = static_cast<std::size_t>(std::max(0.0, std::ceil(t[row] / s.control_period - 1e-6) - 1));
+    for (std::size_t c = 0; c < recorded.size(); ++c) {
+      const std::size_t at = tick * recorded.size() + c;
+      if (at >= alone.size() || !(std::abs(recorded[c][row] - alone[at]) <= kSameSetPoint)) return false;
+    }
+  }
+  return true;
+}
+
+/// The cycle of the CPG without its robot, over longer than the run; none where feedback changes the set points, or nobody can
+/// tell.
+std::optional<MotionCycle> cycle_alone(const Scenario& s, const Recording& r) try {
+  const std::vector<Series> recorded = set_points(s, r);
+  const double seconds = std::max(kFarEnough, kLongerThanTheRun * r.simulated);
+  const auto ticks = std::min(kMostTicks, static_cast<std::int64_t>(seconds / s.control_period));
+  if (recorded.empty() || static_cast<double>(ticks) * s.control_period < kLongerThanTheRun * r.simulated) return {};
+  const std::vector<double> alone = set_points_alone(s, ticks);
+  if (!recorded_so(s, r, alone, recorded)) return {};
+  const auto every = static_cast<std::size_t>((ticks + kMostRows - 1) / kMostRows);
+  const std::size_t columns = recorded.size();
+  std::vector<double> rows;
+  for (std::size_t k = 0; k * columns < alone.size(); k += every) {
+    const auto from = alone.begin() + static_cast<std::ptrdiff_t>(k * columns);
+    rows.insert(rows.end(), from, from + static_cast<std::ptrdiff_t>(columns));
+  }
+  return find_limit_cycle(rows, columns, static_cast<double>(every) * s.control_period);
+} catch (const PluginError&) {  // what it would do after the run is not asked of it
+  return {};
+}
+
+}  // namespace
+
+double set_point_period(const Scenario& s, const Recording& r) {
+  if (s.cpg.entry == nullptr) return 0;
+  if (const MotionCycle seen = set_point_cycle(s, r); seen.found) return seen.period;
+  if (const std::optional<MotionCycle> alone = cycle_alone(s, r)) return alone->found ? alone->period : 0;
+  const double frequency = least_frequency(s);
+  return frequency > 0 && r.simulated * frequency < kPeriodsNeeded ? 1 / frequency : 0;
+}
+
+}  // namespace gaitlab::report
