@@ -173,6 +173,8 @@ def progress(record, window, borne, long_enough):
     if not record.floating or record.ground == "none":
         return Told()
     t, com = record.poses["t"], record.com()
+    if len(t) < 3:
+        return Told()
     rows = np.flatnonzero(t >= window.start)
     a, b, per = rows[0], len(t) - 1, max(window.periods, 1)
     value = np.linalg.norm((com[b] - com[a])[:2]) / per

@@ -1,4 +1,6 @@
 """What a check must say: status, number, limit, part and times, recomputed."""
+import copy
+
 import numpy as np
 
 SAME = 1e-9  # two parts whose numbers differ by less are equal: the worst is then either of them
@@ -14,6 +16,16 @@ class Told:
         self.first_part, self.span, self.can_fail, self.error, self.also = None, None, None, 0.0, {}
         self.undecided = ()  # other statuses that rounding allows
         self.__dict__.update(more)
+
+    def of(self, part):
+        """The same with the numbers of another part that is as bad."""
+        other = self.__dict__.get("others", {}).get(part)
+        if other is None:
+            return self
+        out = copy.copy(self)
+        out.__dict__.update(other)
+        out.also = self.also | other.get("also", {})
+        return out
 
     def plateau(self, start, end):
         """Whether another row is as bad as the worst, but for rounding: where motors keep a steady state, many are."""

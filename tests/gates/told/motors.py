@@ -49,23 +49,28 @@ def at_limit(record, window, kind):
     both = np.where(record.driven, np.minimum(by_share, by_time), np.inf)
     least = both.min()
     ties = [j for j in range(record.count) if both[j] <= least + SAME * max(1, abs(least))]
-    largest = max(share[j] for j in ties)
-    ties = [j for j in ties if share[j] >= largest * (1 - SAME)]
-    j, parts = ties[0], int((share > 0).sum())
+    j, parts = max(ties, key=lambda k: share[k]), int((share > 0).sum())
     told = Told("fail" if least < 0 else "warn" if parts else "pass", margin=least, parts=parts)
-    if share[j] > 0 and by_time[j] < by_share[j]:
-        told.value, told.limit, told.unit = longest[j][0], most, "s"
-    else:
-        told.value, told.limit, told.unit = share[j], limits["saturated_share"], ""
-    told.also = {"driven": int(record.driven.sum()), "share": share[j], "stretch": longest[j][0], "most": limits["saturated_periods"]}
+
+    def numbers(k):
+        by = share[k] > 0 and by_time[k] < by_share[k]
+        out = {"value": longest[k][0] if by else share[k], "limit": most if by else limits["saturated_share"], "unit": "s" if by else "",
+               "worst": record.names[k], "also": {"share": share[k], "stretch": longest[k][0]}}
+        if longest[k][1]:
+            out["rows"] = {one[1:] for one in longest[k][1]}
+            out["start"], out["end"] = longest[k][1][0][1:]
+        return out
+
+    told.__dict__.update(numbers(j))
+    told.others = {record.names[k]: numbers(k) for k in ties if share[k] > 0}
+    told.also |= {"driven": int(record.driven.sum()), "most": limits["saturated_periods"]}
     if abs(by_share[j] - by_time[j]) < 1e-6:
         told.unit = None
     if abs(least) < 1e-5:
         told.undecided = ("fail", "warn")
+    told.ties = [record.names[k] for k in ties] if parts else ()
+    told.worst = told.worst if parts else None
     if parts:
-        told.worst, told.ties = record.names[j], [record.names[k] for k in ties]
-        told.rows = {one[1:] for one in longest[j][1]}
-        told.start, told.end = longest[j][1][0][1:]
         first_in(told, record, window.first, np.diff(table, axis=0) > 0)
     # Within the error of the torques: rows at no limit whose torque, as the motor has it there, comes that near.
     errors, near = record.torque_errors(), np.zeros(record.count)
@@ -209,13 +214,16 @@ def stops(record, window):
     if not parts:
         return Told("pass", 0.0, most, margin=least)
     ties = [j for j in range(record.count) if both[j] <= least + SAME * max(1, abs(least))]
-    far = max(angle[j] for j in ties)
-    ties = [j for j in ties if angle[j] >= far * (1 - SAME)]
-    j = ties[0]
-    angular = by_angle[j] <= by_share[j]
-    return Told("fail" if least < 0 else "warn", angle[j] if angular else share[j], most if angular else longest, margin=least,
-                unit="rad" if angular else "", worst=record.names[j], ties=[record.names[k] for k in ties], parts=parts,
-                also={"angle": angle[j], "share": share[j], "most": longest})
+
+    def numbers(j):
+        angular = by_angle[j] <= by_share[j]
+        return {"value": angle[j] if angular else share[j], "limit": most if angular else longest, "unit": "rad" if angular else "",
+                "worst": record.names[j], "also": {"angle": angle[j], "share": share[j], "most": longest}}
+
+    told = Told("fail" if least < 0 else "warn", margin=least, ties=[record.names[k] for k in ties], parts=parts,
+                **numbers(max(ties, key=lambda k: angle[k])))
+    told.others = {record.names[k]: numbers(k) for k in ties}
+    return told
 
 
 def setpoints(record, window):

@@ -65,7 +65,8 @@ def numbers(judged):
     n, run = {}, r.run
     n |= {"modules": r.robot.count, "bodies": len(r.robot.bodies), "joints": r.count, "mass": r.mass, "simulated": r.end,
           "dof": r.count + {"floating": 6, "planar": 3}.get(r.scenario["robot"]["base"], 0), "from": w.start, "to": w.end,
-          "periods": w.periods, "period": w.cycle.period, "cycle_from": w.cycle.start, "repeats": w.cycle.error}
+          "periods": w.periods, "period": w.cycle.period, "cycle_from": w.cycle.start, "repeats": w.cycle.error,
+          "doubt": w.cycle.doubt()}
     if r.driven.any():
         motor_numbers(r, w, n)
     if r.count:
@@ -148,7 +149,11 @@ def motor_numbers(r, w, n):
               f"{prefix}error_time": times(r, "error_peak", j, values[j])}
 
 
-LOOSE = {"repeats": 2e-5, "period": 3e-5, "cycle_from": 0.04, "from": 1e-4, "per_period": 1e-5}  # what follows from the period
+def loose(name, known):
+    """By how much a number may differ for the period from which it follows."""
+    doubt = known["doubt"]
+    return {"repeats": 2 * np.pi * doubt, "cycle_from": 0.04, "from": doubt * known["period"] * max(1, known["periods"]),
+            "period": doubt * known["period"], "per_period": doubt * known.get("per_period", 0)}.get(name, 0)
 
 
 def hear(expression, text, known, who):
@@ -162,7 +167,7 @@ def hear(expression, text, known, who):
             ok = expected is not None and (said in expected if isinstance(expected, set) else said == expected)
         else:
             times = expected if isinstance(expected, tuple) else (expected,)
-            ok = expected is not None and any(same(kind, said, one, LOOSE.get(name, 0)) for one in times)
+            ok = expected is not None and any(same(kind, said, one, loose(name, known)) for one in times)
         if not ok:
             wrong.append(f"{who}: {name} is {said} in {text!r}, recomputed {expected}")
     return wrong

@@ -24,10 +24,10 @@ def frequencies(record):
 
 
 def slowest_period(record):
-    """s, of the slowest set point; 0: they do not repeat."""
+    """s, of the slowest set point: as they show it, else as the CPG states it; 0: they do not repeat."""
     cpg = record.scenario.get("cpg") or {}
     f = frequencies(record)
-    if f and record.end * min(f) < PERIODS * (1 - 1e-9):
+    if f and record.end * min(f) < PERIODS * (1 - 1e-9):  # two periods show a repetition, but not where the amplitude grows
         return 1 / min(f)
     model = cpg.get("model") or {}
     if cpg.get("type") == "keyframes" and model.get("repeat", True) and model.get("frames"):
@@ -35,7 +35,10 @@ def slowest_period(record):
         if record.end < PERIODS * last * (1 - 1e-9):
             return float(last)
     found = set_point_cycle(record)
-    return found.period if found.found else 0.0
+    if found.found:
+        return found.period
+    asked = record.pose("setpoint")[:, record.driven] if record.driven.any() else np.zeros((1, 0))
+    return 1 / min(f) if f and np.ptp(asked, axis=0).max() > 0 else 0.0
 
 
 class Evidence:
@@ -80,9 +83,9 @@ def periodic(record, window, evidence):
     if not found.found and (not evidence.repeats or not evidence.long_enough):
         return Told()
     told = Told("pass" if found.found else "warn", found.error, 0.02, margin=margin(found.error, 0.02), also={"period": found.period})
-    # The error changes with the period at which it is taken, by up to 2 pi of its share, and two searches for the period agree to
-    # 3e-6 of it. Of a motion that does not repeat no period is sharp.
-    told.loose = 2e-5 / found.error if found.found else 0.05
+    # The error changes with the period at which it is taken, by up to 2 pi of the share by which that is off. Of a motion that does
+    # not repeat no period is sharp.
+    told.loose = 2 * np.pi * found.doubt() / found.error if found.found else 0.05
     return told
 
 
@@ -126,7 +129,10 @@ def step(record):
     if not ticks:
         return Told()
     value = record.run["control_ticks_above_1"] / ticks
-    return Told(graded(value, 0.01, np.inf), value, 0.01, margin=margin(value, 0.01))
+    told = Told(graded(value, 0.01, np.inf), value, 0.01, margin=margin(value, 0.01))
+    if told.status == "warn":
+        told.start = told.end = record.run["stability.time"]
+    return told
 
 
 def coarse(record):

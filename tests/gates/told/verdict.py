@@ -16,9 +16,6 @@ WHOLE = {"outcome", "fall", "upright", "gear_peak", "stops", "setpoints", "start
 CAN_FAIL = {"outcome", "fall", "progress", "upright", "voltage", "current", "speed", "heat", "gear_peak", "gear_continuous",
             "tracking", "stops", "collision", "dock_tension", "dock_shear", "dock_bending", "dock_torsion", "in_ground"}
 
-PERIOD = 3e-5  # of a period: how far two searches for it differ; its minimum is flat
-
-
 def outcome(record):
     done = record.run["ended"] == 0
     duration = record.scenario["duration"]
@@ -100,6 +97,7 @@ class Judged:
                 continue
             told.span = told.span or ("whole run" if check in WHOLE else "window")
             told.can_fail = check in CAN_FAIL if told.can_fail is None else told.can_fail
+            told.doubt = w.cycle.doubt()
             if told.status == "not judged" or check == "outcome":
                 told.margin = np.nan
 
@@ -152,7 +150,7 @@ def close(a, b, loose=1e-9):
 
 def compare(told, check):
     """What verdict.json has otherwise, as texts."""
-    wrong = []
+    told, wrong = told.of(check["worst"]), []
 
     def must(ok, what, expected, found):
         if not ok:
@@ -193,6 +191,7 @@ def hear(told, check, text, who):
         return []
     if check["id"] == "outcome" and check["status"] == "fail" and text != told.outcome:
         return [f"{who}: outcome: {text!r}, recorded {told.outcome!r}"]
+    told = told.of(check["worst"])
     numbers, wrong = told.numbers(), []
     for name, kind, said in found:
         expected = numbers.get(name)
@@ -203,7 +202,7 @@ def hear(told, check, text, who):
             if not ok and name in ("value", "mm") and hasattr(told, "loose"):
                 ok = same(kind, said, expected, told.loose * abs(expected))
             if not ok and name == "period" and expected:
-                ok = same(kind, said, expected, PERIOD * expected)
+                ok = same(kind, said, expected, told.doubt * expected)
         if not ok:
             wrong.append(f"{who}: {check['id']}: {name} is {said} in {text!r}, recomputed {expected}")
     return wrong
@@ -215,7 +214,7 @@ def hear_evidence(judged, verdict):
 
     def numbers(found, text):
         for name, kind, said in found:
-            loose = PERIOD * lacks[name] if name in ("period", "held", "take") and name in lacks else 0
+            loose = judged.window.cycle.doubt() * lacks[name] if name in ("period", "held", "take") and name in lacks else 0
             if name not in lacks or not (same(kind, said, lacks[name], loose) if kind else said == lacks[name]):
                 wrong.append(f"evidence: {name} is {said} in {text!r}, recomputed {lacks.get(name)}")
 
@@ -223,6 +222,9 @@ def hear_evidence(judged, verdict):
     if found is None:
         return [f"evidence: no expression reads {verdict['rests_on']!r}"]
     numbers(found, verdict["rests_on"])
+    says = "time" if "do not repeat" in verdict["rests_on"] else "set points" if "does not settle" in verdict["rests_on"] else "cycle"
+    if says != judged.evidence.kind:
+        wrong.append(f"rests_on is of the {says}, {verdict['rests_on']!r}, recomputed the {judged.evidence.kind}")
     if verdict["verdict"] != "not judged":
         return wrong + ([f"reason is {verdict['reason']!r}"] if verdict["reason"] else [])
     reason, _, so_far = verdict["reason"].partition("; so far: ")

@@ -7,6 +7,10 @@ REPEATS, STILL, SHORTEST = 0.02, 1e-3, 5
 class Cycle:
     found, start, period, error = False, 0.0, 0.0, 1.0
 
+    def doubt(self):
+        """Share of a period by which two searches for it may differ: its minimum is flat, the flatter the less a motion repeats."""
+        return max(3e-5, 0.01 * self.error)
+
 
 def shifted(x, lag):
     """x at i + lag, lag of any size, by the cubic through four neighbours (Lagrange); as long as the data reach."""
