@@ -14,6 +14,8 @@ namespace gaitlab::report {
 
 namespace {
 
+constexpr double kTouching = 1e-9;  // m: faces that touch overlap by rounding
+
 /// One shape of a body, in its link's frame, and a ball around it.
 struct Piece {
   std::size_t body = 0, link = 0;
@@ -143,7 +145,7 @@ class Search {
     const bool first = met_.empty();
     row.pairs(can_, [&](std::size_t a, std::size_t b) {
       const double depth = row.depth(a, b, limits_.touch);
-      if (!(depth > 0)) return;
+      if (!(depth > kTouching)) return;
       const Pair pair = std::minmax(pieces_[a].body, pieces_[b].body);
       met_.insert(pair);
       if (first && depth > deepest) {
@@ -161,8 +163,11 @@ class Search {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       if (row.lowest(i) > highest_ - limits_.sink) continue;
       const double depth = depth_of(row.piece(i), ground_);
-      if (depth <= (sunk_ ? sunk_->depth : limits_.sink)) continue;
+      if (depth <= limits_.sink) continue;
+      buried_.insert(pieces_[i].body);
       if (!sunk_) sunk_ = Sunk{.time = time};
+      sunk_->bodies = buried_.size();
+      if (depth <= sunk_->depth) continue;
       sunk_->body = pieces_[i].body;
       sunk_->depth = depth;
       sunk_->deepest_time = time;
@@ -184,6 +189,7 @@ class Search {
   const Ground& ground_;
   double highest_;  ///< m
   std::set<Pair> met_ = {};
+  std::set<std::size_t> buried_ = {};
   Collision collision_ = {};
   std::optional<Sunk> sunk_ = {};
 };

@@ -22,6 +22,7 @@ struct Collision {
 struct Sunk {
   std::size_t body = 0;                ///< Robot::bodies: the deepest one
   double time = 0;                     ///< s, of the first tick at which any was
+  std::size_t bodies = 0;              ///< how many were
   std::size_t first = 0;               ///< the deepest one of that tick
   double depth = 0, deepest_time = 0;  ///< m, the largest of all ticks; s
 };

@@ -86,14 +86,17 @@ std::optional<MotionCycle> cycle_alone(const Scenario& s, const Recording& r) tr
   if (recorded.empty() || static_cast<double>(ticks) * s.control_period < kLongerThanTheRun * r.simulated) return {};
   const std::vector<double> alone = set_points_alone(s, ticks);
   if (!recorded_so(s, r, alone, recorded)) return {};
-  const auto every = static_cast<std::size_t>((ticks + kMostRows - 1) / kMostRows);
-  const std::size_t columns = recorded.size();
-  std::vector<double> rows;
-  for (std::size_t k = 0; k * columns < alone.size(); k += every) {
-    const auto from = alone.begin() + static_cast<std::ptrdiff_t>(k * columns);
-    rows.insert(rows.end(), from, from + static_cast<std::ptrdiff_t>(columns));
+  // Quick gaits need every tick, slow ones all the time.
+  for (const std::int64_t every : {std::int64_t{1}, (ticks + kMostRows - 1) / kMostRows}) {
+    std::vector<double> rows;
+    for (std::int64_t k = std::max<std::int64_t>(0, ticks - kMostRows * every); k < ticks; k += every) {
+      const auto from = alone.begin() + k * static_cast<std::ptrdiff_t>(recorded.size());
+      rows.insert(rows.end(), from, from + static_cast<std::ptrdiff_t>(recorded.size()));
+    }
+    const MotionCycle found = find_limit_cycle(rows, recorded.size(), static_cast<double>(every) * s.control_period);
+    if (found.found) return found;
   }
-  return find_limit_cycle(rows, columns, static_cast<double>(every) * s.control_period);
+  return MotionCycle();
 } catch (const PluginError&) {  // what it would do after the run is not asked of it
   return {};
 }

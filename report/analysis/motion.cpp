@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "report/analysis/states.h"
 
@@ -62,6 +63,16 @@ bool motion_of_ticks(const Recording& r) { return !r.pose("com.x").empty(); }
 Motion motion(const Recording& r) {
   const auto of = [&](const char* column) { return of_motion(r, column); };
   return {of("t"), of("com.x"), of("com.y"), of("com.z"), of("base.qw"), of("base.qx"), of("base.qy"), of("base.qz")};
+}
+
+double heading_change(const Motion& m, std::size_t from, std::size_t to) {
+  const auto turn = [&](std::size_t k) { return Quat(m.qw[k], m.qx[k], m.qy[k], m.qz[k]); };
+  double sum = 0;
+  for (std::size_t k = from + 1; k <= to; ++k) {
+    const Quat between = turn(k) * turn(k - 1).conjugate();
+    sum += std::remainder(2 * math::atan2(between.z(), between.w()), 2 * std::numbers::pi);
+  }
+  return sum;
 }
 
 std::string motion_sentence(const Recording& r) {

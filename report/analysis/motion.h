@@ -18,6 +18,10 @@ struct Motion {
 
 Motion motion(const Recording& record);
 
+/// rad, turn of the base about world z from one row of the motion to another: the sum of the twists from row to row, which is
+/// defined however far the base is pitched.
+double heading_change(const Motion& motion, std::size_t from, std::size_t to);
+
 /// Whether all this is of control ticks: the recording has set points, centre of mass and load there.
 bool motion_of_ticks(const Recording& record);
 

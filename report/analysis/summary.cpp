@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "core/build_id.h"
 #include "core/settings/wording.h"
@@ -18,13 +17,6 @@ namespace gaitlab::report {
 
 namespace {
 
-/// Turn about world z from one tick to the next: the twist of the rotation between them. Defined however far the base is
-/// pitched.
-double twist(const Quat& before, const Quat& now) {
-  const Quat turn = now * before.conjugate();
-  return std::remainder(2 * math::atan2(turn.z(), turn.w()), 2 * std::numbers::pi);
-}
-
 void travel(const Recording& r, Summary& s) {
   const Motion m = motion(r);
   const Series& x = m.x;
@@ -35,8 +27,7 @@ void travel(const Recording& r, Summary& s) {
   s.distance = std::hypot(s.displacement_x, s.displacement_y);
   s.speed = s.simulated > 0 ? s.distance / s.simulated : 0;
   for (std::size_t k = 1; k < x.size(); ++k) s.path_length += std::hypot(x[k] - x[k - 1], y[k] - y[k - 1]);
-  const auto turn = [&](std::size_t k) { return Quat(m.qw[k], m.qx[k], m.qy[k], m.qz[k]); };
-  for (std::size_t k = 1; k < m.qw.size(); ++k) s.heading_change += twist(turn(k - 1), turn(k));
+  if (!m.qw.empty()) s.heading_change = heading_change(m, 0, m.qw.size() - 1);
 }
 
 void transport(const Scenario& scenario, const Recording& r, Summary& s) {

@@ -2,10 +2,13 @@
 import { build } from "esbuild";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 
-// The shaders of three are strings with tabs at the beginning of their lines, which esbuild leaves.
+// The shaders of three are strings, which esbuild leaves as they are: with tabs, comments, and blanks inside of parentheses.
+const shader = (text) => text.replace(/(?:\\n|\n)(?:\\t|[\t ])+/g, (s) => (s[0] === "\n" ? "\n" : "\\n")).replace(/(?<=\\n)(?:\/\/[^"\\]*)?\\n/g, "").replace(/(?<=\n)(?:\/\/[^`\n]*)?\n/g, "").replace(/\( +| +\)/g, (s) => s.trim());
 const untabbed = {
   name: "untabbed",
-  setup: ({ onLoad }) => onLoad({ filter: /three\/build\/three\.\w+\.js$/ }, async ({ path }) => ({ contents: (await readFile(path, "utf8")).replaceAll(/\\n(?:\\t)+/g, "\\n"), loader: "js" })),
+  setup: ({ onLoad }) => onLoad({ filter: /three\/build\/three\.\w+\.js$/ }, async ({ path }) => ({
+    contents: (await readFile(path, "utf8")).replace(/"(?:[^"\\\n]|\\.)*\\n(?:[^"\\\n]|\\.)*"|\/\* glsl \*\/`[^`]*`/g, shader), loader: "js",
+  })),
 };
 const here = (path) => new URL(path, import.meta.url);
 const bundle = async (entry) => {

@@ -4,14 +4,19 @@
 
 #include <algorithm>
 
+#include "report/figures/run/run_views.h"
+#include "report/figures/run/views.h"
 #include "report/page/heat_image.h"
+#include "report/page/packing.h"
 #include "report/plot/svg.h"
+#include "report/verdict/number_texts.h"
 
 namespace gaitlab::report {
 
 namespace {
 
-constexpr std::size_t kPictureColumns = 240;  // px of a picture
+constexpr std::size_t kPictureColumns = 240;  // px of a picture: as it is shown, so that no pixel is divided
+constexpr double kRobotWidth = 560;           // px
 
 constexpr const char* kStyle = R"(
 :root { --ink: #1b2127; --muted: #5f6a74; --rule: #e1e6ea; --bg: #f3f5f7; --panel: #fff; --pass: #00694c; --fail: #b3261e; --open: #4a5661; color-scheme: light dark; }
@@ -19,16 +24,21 @@ constexpr const char* kStyle = R"(
 body { margin: 0; padding: 24px; background: var(--bg); color: var(--ink); font: 14px/1.45 Inter, ui-sans-serif, system-ui, "Segoe UI", Roboto, "Liberation Sans", Arial, sans-serif; font-variant-numeric: tabular-nums; }
 h1 { font-size: 20px; margin: 0 0 4px; }
 p { margin: 0 0 16px; color: var(--muted); }
-main { background: var(--panel); border-radius: 10px; padding: 4px 16px 12px; overflow-x: auto; }
+main { background: var(--panel); border-radius: 10px; padding: 4px 0 12px; overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; }
-th, td { padding: 10px 8px; border-bottom: 1px solid var(--rule); text-align: right; vertical-align: middle; white-space: nowrap; }
+th, td { padding: 10px 6px; border-bottom: 1px solid var(--rule); text-align: right; vertical-align: middle; white-space: nowrap; }
 th { font-weight: 500; color: var(--muted); vertical-align: bottom; }
 th:first-child, td:first-child, th.l, td.l { text-align: left; }
+th:first-child, td:first-child { padding-left: 16px; }
+th:last-child, td:last-child { padding-right: 16px; }
 td.l { white-space: normal; min-width: 150px; max-width: 340px; }
 a { color: inherit; font-weight: 650; text-underline-offset: 3px; }
 b.pass { color: var(--pass); } b.fail { color: var(--fail); } b.open { color: var(--open); }
 small { display: block; color: var(--muted); font-size: 12.5px; }
-img { display: block; width: 200px; height: 64px; image-rendering: pixelated; border-radius: 3px; }
+img { display: block; border-radius: 3px; }
+td img { image-rendering: pixelated; }
+td:last-child small { white-space: normal; min-width: 86px; }
+.robot { max-width: 100%; margin: 0 0 16px; border-radius: 10px; }
 )";
 
 /// A minus sign where a number begins with a hyphen.
@@ -40,6 +50,76 @@ std::string typeset(const std::string& text) {
     set += minus ? "−" : std::string(1, text[i]);
   }
   return xml_escaped(set);
+}
+
+/// px: a whole number for each joint, in all about 64.
+std::size_t picture_height(std::size_t joints) { return joints * std::max<std::size_t>(1, (64 + joints / 2) / joints); }
+
+using Run = const RunData&;
+
+/// A number of the table of the terminal; of a cell with two numbers each has a column here.
+struct Shown {
+  const char *head, *under;
+  std::string (*text)(Run run);
+  std::string (*small)(Run run) = nullptr;  ///< below it
+};
+
+/// No sign of a zero.
+std::string fixed(double value, int digits, bool sign = false) {
+  std::string text = sign ? fmt::format("{:+.{}f}", value, digits) : fmt::format("{:.{}f}", value, digits);
+  return text.find_first_not_of("+-0.") == std::string::npos ? text.substr(text.find('0')) : text;
+}
+
+const JudgedJoint& most_loaded(Run run) { return run.summary.judged.joints[run.summary.most_loaded()]; }
+
+std::string peak_text(Run run) { return has_motors(run) ? texts::thousandths(most_loaded(run).torque_peak) : "-"; }
+std::string peak_joint(Run run) { return has_motors(run) ? run.scenario.robot->joints[run.summary.most_loaded()].name : ""; }
+
+std::string cycle_text(Run run) {
+  return run.summary.limit_cycle.found ? fmt::format("{:.4g} s", run.summary.limit_cycle.period) : "none found";
+}
+std::string cycle_small(Run run) {
+  const MotionCycle& cycle = run.summary.limit_cycle;
+  return cycle.found ? fmt::format("from {:.3g} s, to {}", cycle.from, texts::percent(cycle.error)) : "";
+}
+
+constexpr Shown kShown[] = {
+    {"speed", "m/s", [](Run run) { return fixed(run.summary.speed, 4); }},
+    {"travel x", "m", [](Run run) { return fixed(run.summary.displacement_x, 4, true); }},
+    {"travel y", "m", [](Run run) { return fixed(run.summary.displacement_y, 4, true); }},
+    {"cost of transport", "electrical", [](Run run) { return fmt::format("{:.3g}", run.summary.cost_electrical); }},
+    {"", "mechanical", [](Run run) { return fmt::format("{:.3g}", run.summary.cost_mechanical); }},
+    {"peak torque", "N m", peak_text, peak_joint},
+    {"at a limit", "share", texts::saturated_cell},
+    {"tracking error", "rad", texts::tracking_cell},
+    {"limit cycle", "", cycle_text, cycle_small},
+};
+
+/// The robot at the end of the first run that came to its end, from the side of its way; empty: none did.
+std::string robot_picture(const std::vector<SwapEntry>& entries) {
+  for (const SwapEntry& entry : entries) {
+    const RunData& run = entry.named.run;
+    if (run.scenario.robot->joints.empty() || !run.summary.outcome.done() || run.record.rows() == 0 ||
+        !run.record.has_states(*run.scenario.robot))
+      continue;
+    const Sight from = sight(run.scenario, run.record);
+    FigureInput input = views_input(run.scenario, run.record, from);
+    input.views_title = from.view;
+    input.views_legend = false;
+    input.minus = true;
+    View view = view_at(run.scenario, run.record, from, run.record.rows() - 1, 0);
+    view.joint.reset();
+    input.views.push_back(std::move(view));
+    const Edges edges{60, kRobotWidth - 16};
+    const double height = views_height(input, edges) + 8;
+    Svg picture(kRobotWidth, height);
+    draw_views(picture, input, edges, 4);
+    return fmt::format(
+        "<img class=\"robot\" width=\"{:.0f}\" height=\"{:.0f}\" src=\"data:image/svg+xml;base64,{}\" "
+        "alt=\"the robot at the end of the run under {}\">\n",
+        kRobotWidth, height, base64(picture.finish()), xml_escaped(entry.named.name));
+  }
+  return "";
 }
 
 std::string verdict_cell(const Verdict& verdict) {
@@ -56,24 +136,25 @@ std::string verdict_cell(const Verdict& verdict) {
 }  // namespace
 
 std::string swap_page(const std::string& name, const std::vector<SwapEntry>& entries) {
-  const auto columns = placed(&SummaryNumber::swap);
   std::string head =
       "<th scope=\"col\">CPG</th><th scope=\"col\" class=\"l\">verdict</th>"
       "<th scope=\"col\" class=\"l\">every joint over time<small>of its motor: pale 0, dark red all</small></th>";
-  for (const SummaryNumber* number : columns)
-    head += fmt::format("<th scope=\"col\">{}<small>{}</small></th>", xml_escaped(number->swap.head),
-                        xml_escaped(number->swap.under));
+  for (const Shown& one : kShown) head += fmt::format("<th scope=\"col\">{}<small>{}</small></th>", one.head, one.under);
   std::string rows;
   for (const SwapEntry& entry : entries) {
     const std::string picture = heat_image(entry.named.run.record, kPictureColumns);
     rows += fmt::format("<tr><td><a href=\"{}\">{}</a></td><td class=\"l\">{}</td><td class=\"l\">{}</td>",
                         xml_escaped(entry.page), xml_escaped(entry.named.name), verdict_cell(entry.verdict),
                         picture.empty() ? ""
-                                        : fmt::format("<img src=\"{}\" alt=\"load of every joint over time under {}\">",
+                                        : fmt::format("<img width=\"{}\" height=\"{}\" src=\"{}\" alt=\"load of every "
+                                                      "joint over time under {}\">",
+                                                      kPictureColumns, picture_height(entry.named.run.record.joints.size()),
                                                       picture, xml_escaped(entry.named.name)));
-    for (const SummaryNumber* number : columns) {
-      const bool known = entry.named.run.summary.outcome.done();
-      rows += fmt::format("<td>{}</td>", known ? typeset(number->swap.cell(entry.named.run)) : "");
+    const bool known = entry.named.run.summary.outcome.done();
+    for (const Shown& one : kShown) {
+      const std::string small = known && one.small != nullptr ? one.small(entry.named.run) : "";
+      rows += fmt::format("<td>{}{}</td>", known ? typeset(one.text(entry.named.run)) : "",
+                          small.empty() ? "" : "<small>" + typeset(small) + "</small>");
     }
     rows += "</tr>\n";
   }
@@ -81,9 +162,10 @@ std::string swap_page(const std::string& name, const std::vector<SwapEntry>& ent
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}: CPGs side by side</title>\n"
-      "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p>under {2} CPGs; a name leads to the page of its run</p>\n<main>\n"
+      "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p>under {2} CPGs; a name leads to the page of its "
+      "run</p>\n{5}<main>\n"
       "<table>\n<thead><tr>{3}</tr></thead>\n<tbody>\n{4}</tbody>\n</table>\n</main>\n</body>\n</html>\n",
-      xml_escaped(name), kStyle, entries.size(), head, rows);
+      xml_escaped(name), kStyle, entries.size(), head, rows, robot_picture(entries));
 }
 
 }  // namespace gaitlab::report

@@ -23,7 +23,8 @@ constexpr Meaning kWords[] = {
      "No check fails, and none is too close to its limit. At least one limit of the motors was judged; of a floating base on a "
      "ground, fall and in_ground, too. The run is evidence: long enough, borne by the ground, and accurate."},
     {Word::infeasible,
-     "A check fails. In a run that is too short only a check of the whole run counts (docks, gears, collision, stops, fall "
+     "A check fails, in a run that is accurate. In one that is too short only a check of the whole run counts (docks, gears, "
+     "collision, stops, fall "
      "...), because more time cannot undo it."},
     {Word::not_judged, "Anything else. The sentence says what is missing and what to set."},
     {Word::failed, "The run ended early."},

@@ -232,6 +232,7 @@ void in_ground(const CheckedRun& run, Check& made) {
   if (!found) return;
   made.from = made.to = found->deepest_time;
   made.first_part = run.scenario.robot->bodies[found->first].name;
+  made.parts = found->bodies;
   made.text =
       fmt::format("body {} goes {} into the ground", run.scenario.robot->bodies[found->body].name, texts::length(found->depth));
   made.first = found->time;

@@ -126,7 +126,7 @@ void progress(const CheckedRun& run, Check& made) {
   made.source = threshold("progress", asked, 0);
   made.from = m.t[rows.first];
   made.to = m.t[rows.last];
-  const double turn = std::abs(run.summary.heading_change) * (made.to - made.from) / std::max(r.simulated, 1e-9) / per;
+  const double turn = m.qw.empty() ? 0 : std::abs(heading_change(m, rows.first, rows.last)) / per;
   const char* const each = periods > 0 ? "per period" : "in the judged time";
   const bool goes = made.value >= made.limit || (asked == 0 && turn >= factor * kLeastTurn);
   made.status = goes                             ? CheckStatus::pass

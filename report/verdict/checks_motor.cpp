@@ -154,7 +154,9 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
   std::optional<AtLimit> worst;
   std::optional<AtLimit> widest;  // of joints that would fail if their torques were larger by their errors
   const auto worse = [](const AtLimit& one, const std::optional<AtLimit>& other) {
-    return !other || std::pair(-one.margin(), one.share) > std::pair(-other->margin(), other->share);
+    constexpr double kEqual = 1e-9;  // margins of sums of the same ticks
+    const double nearer = other ? other->margin() - one.margin() : 1;
+    return std::abs(nearer) > kEqual ? nearer > 0 : one.share > kLarger * other->share;
   };
   for (std::size_t j = 0; j < judged.joints.size(); ++j) {
     if (!run.scenario.robot->joints[j].driven()) continue;

@@ -1,5 +1,6 @@
 // `gaitlab swap`: the table, the figure, and what it refuses.
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "core/settings/wording.h"
@@ -137,6 +138,11 @@ TEST_F(Swap, PagesAreWrittenWhereTheyAreAskedFor) {
        {"<a href=\"sine.html\">sine</a>", "<a href=\"phase_oscillator.html\">", "? not judged", "data:image/png;base64,"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("<script"), std::string::npos);
+  // A number a cell, no sign of a zero, the robot, and pictures of joints whose pixels are whole.
+  EXPECT_FALSE(std::regex_search(page, std::regex("<td>[^<]*[0-9] +[0-9][^<]*</td>"))) << page;
+  EXPECT_FALSE(std::regex_search(page, std::regex("[−+-]0\\.0+<"))) << page;
+  EXPECT_NE(page.find("<img class=\"robot\""), std::string::npos);
+  EXPECT_NE(page.find("<img width=\"240\" height=\"64\""), std::string::npos) << page;
   EXPECT_NE(read(folder / "one/sine.html").find("id=\"meta\""), std::string::npos);
   EXPECT_EQ(call("--cpg phase_oscillator,sine --report --out two -j 2").code, 0);
   for (const char* file : {"swap.html", "sine.html", "phase_oscillator.html"})

@@ -109,7 +109,7 @@ for (const name of ["feasible", "infeasible"]) {
     assert.equal((await state(page)).joint, joint);
     await page.keyboard.press("d");
     assert.equal(await page.getAttribute("html", "data-theme"), "dark");
-    for (const [key, button] of [["f", "#follow"], ["n", "#faces"], ["a", "#axes"]]) {
+    for (const [key, button] of [["f", "#follow"], ["n", "#faces"], ["a", "#axes"], ...(meta.docks.length ? [["k", "#rings"]] : [])]) {
       const before = await page.getAttribute(button, "aria-pressed");
       await page.keyboard.press(key);
       assert.notEqual(await page.getAttribute(button, "aria-pressed"), before, key);
@@ -352,6 +352,22 @@ on("built: shows hinges, faces and axes, and no time", pages.built, {}, async (p
   for (const id of ["#transport", "#checks", "#motion", "#heat", "#path"]) assert.equal(await page.isVisible(id), false, id);
   const rows = await page.$$eval("#parts tbody tr", (all) => all.map((r) => r.firstChild.textContent));
   assert.deepEqual(rows, [...meta.docks.map((d) => meta.modules[d.module].name), ...meta.joints.map((j) => j.name)]);
+  // A dock that is clicked has a ring, which lies where the two faces meet.
+  assert.equal(await page.isVisible("#legend-rings"), false);
+  await page.click("#parts tbody tr:nth-child(2) button");
+  assert.equal(await page.textContent("#ring-words"), `ring: ${meta.docks[1].name}'s dock`);
+  assert.ok(await page.isVisible("#legend-rings"));
+  const [chosen, off] = await page.evaluate(() => {
+    const { stage: { view: { rings, robot } }, recording: { meta: { docks, bodies, faces } } } = window.gaitlab.page;
+    return [rings.chosen, Math.max(...docks.map((d, n) => {
+      const { body, local } = rings.places[n], ring = robot.matrix(body).clone().multiply(local).elements;
+      const parent = bodies.findIndex((b) => b.module === d.parent && faces[b.type].some((f) => f.id === d.parent_face));
+      const f = faces[bodies[parent].type].find((one) => one.id === d.parent_face).origin, e = robot.matrix(parent).elements;
+      return Math.hypot(...[0, 1, 2].map((i) => e[i] * f[0] + e[4 + i] * f[1] + e[8 + i] * f[2] + e[12 + i] - ring[12 + i]));
+    }))];
+  });
+  assert.equal(chosen, 1);
+  near(off, 0, 1e-6, "a ring from the parent's face, m"); // poses are rounded to a micrometre
 });
 
 on("failed: why it ended, and what there is until then", pages.failed, {}, async (page, meta) => {

@@ -3,7 +3,7 @@ import { element, icon, make } from "./dom";
 import type { Check, Status } from "./format";
 import { plural, quantity, sentence, span } from "./numbers";
 import type { Desk } from "./panel";
-import { moment, partName, show, textOf } from "./places";
+import { moment, partName, show } from "./places";
 
 const marks: Record<Status, string> = {
   pass: "M3 8.5l3.4 3.4L13 4.6", warn: "M8 2.6L14.4 13.4H1.6zM8 7v2.6M8 11.5v.1", fail: "M4 4l8 8M12 4l-8 8", "too close": "M2.6 6.6c1.8-2 3.6-2 5.4 0s3.6 2 5.4 0M2.6 11c1.8-2 3.6-2 5.4 0s3.6 2 5.4 0", "not judged": "M5.6 6a2.5 2.5 0 1 1 3.6 2.3c-.8.4-1.2.9-1.2 1.7M8 12.6v.1",
@@ -92,13 +92,12 @@ function limitOf(check: Check): string {
 
 function drawn(desk: Desk, row: Row, tried: Set<string>): HTMLTableRowElement[] {
   const two = desk.ghost?.overlay.labels, label = (n: number) => (two ? `${two[n]}: ` : ""), first = row.find((c) => c)!, status = worst(row), mark = (c: Check) => (noted(c) ? [make("span.sr", "a note")] : [icon(marks[c.status]), make("span.sr", words[c.status])]);
-  const said = (c: Check, n: number) => textOf(desk.runs[n].recording.meta, c);
   const called = (c: Check, n: number) => (c.worst === null ? "" : partName(desk.runs[n].recording.meta, c.part, c.worst));
   const open = make("button.link", first.title || first.id), added = make("div.more"), limits = [...new Set(row.flatMap((c) => (c ? [limitOf(c)] : [])))];
   open.type = "button";
   open.setAttribute("aria-expanded", "false");
   // Of two runs the definition stands once.
-  row.forEach((c, n) => { if (c) added.append(...more(n > 0 && row[0] ? { ...c, definition: "", source: c.source === row[0].source ? "" : c.source } : c, label(n), called(c, n), said(c, n))); });
+  row.forEach((c, n) => { if (c) added.append(...more(n > 0 && row[0] ? { ...c, definition: "", source: c.source === row[0].source ? "" : c.source } : c, label(n), called(c, n), c.text)); });
   added.hidden = true;
   const values = row.map((c) => {
     const cell = make("td.value", ...(two && c ? [...mark(c), " "] : []), !c ? "–" : c.value === null ? "not judged" : quantity(c.value, c.unit));
@@ -111,7 +110,7 @@ function drawn(desk: Desk, row: Row, tried: Set<string>): HTMLTableRowElement[] 
     tried.add(advice);
     return make("p.try", advice);
   };
-  const told = row.flatMap((c, n) => (c ? [...(aloud(c) ? [make("p.why", label(n) + sentence(said(c, n)))] : []), ...(c.missing ? [make("p.short", `${label(n)}Missing: ${c.missing}`)] : []), ...(remedy(c) && !tried.has(label(n) + remedy(c)) ? [advised(label(n) + remedy(c))] : [])] : []));
+  const told = row.flatMap((c, n) => (c ? [...(aloud(c) ? [make("p.why", label(n) + sentence(c.text))] : []), ...(c.missing ? [make("p.short", `${label(n)}Missing: ${c.missing}`)] : []), ...(remedy(c) && !tried.has(label(n) + remedy(c)) ? [advised(label(n) + remedy(c))] : [])] : []));
   const text = make("td", ...told, added), detail = make("tr", make("td"), text);
   text.colSpan = 2 + values.length;
   detail.hidden = !told.length;

@@ -13,7 +13,7 @@ export function docks(desk: Desk): void {
   const shown = kinds.filter(([k]) => recording.has(`dock.0.${k}`));
   if (!shown.length) {
     element("docks-note").textContent = "The recording has no loads of docks.";
-    table.append(...joins(recording));
+    table.append(...joins(desk));
     shorten(table);
     return;
   }
@@ -28,7 +28,7 @@ export function docks(desk: Desk): void {
     fill.style.width = `${(100 * value / most).toFixed(1)}%`;
     return make("span.bar", fill, ...text);
   };
-  const body = make("tbody", ...order.map((n) => make("tr", head(recording, n), ...shown.map((_, k) => {
+  const body = make("tbody", ...order.map((n) => make("tr", head(desk, n), ...shown.map((_, k) => {
       const theirs = second[n]?.[k], cell = make("td", bar(peaks[n][k], largest[k], make("span", load(peaks[n][k], k) + (theirs === undefined ? "" : ` · ${load(theirs, k)}`))));
       if (theirs !== undefined) cell.append(bar(theirs, largest[k]));
       return cell;
@@ -58,20 +58,31 @@ function shorten(table: HTMLTableElement): void {
   table.after(all);
 }
 
-function head(recording: Recording, n: number): HTMLTableCellElement {
-  const { name, module, parent, face, parent_face } = recording.meta.docks[n], cell = make("th", dockName(name)), { modules } = recording.meta;
+function head(desk: Desk, n: number): HTMLTableCellElement {
+  const { docks: all, modules } = desk.recording.meta, { name, module, parent, face, parent_face } = all[n], cell = make("th", marker(desk, n, dockName(name)));
   cell.scope = "row";
   cell.title = `face ${face} of ${modules[module]?.name ?? name} on face ${parent_face} of ${modules[parent]?.name ?? "?"}`;
   return cell;
 }
 
+/** A button that marks a dock in 3D. */
+function marker(desk: Desk, n: number, text: string): HTMLElement {
+  const button = make("button.link", text);
+  button.type = "button";
+  button.addEventListener("click", () => {
+    desk.mark(n);
+    element("stage").scrollIntoView({ block: "nearest" });
+  });
+  return button;
+}
+
 /** Rows that say which face sits on which. */
-export function joins(recording: Recording): HTMLElement[] {
-  const { docks: all, modules } = recording.meta;
+export function joins(desk: Desk): HTMLElement[] {
+  const { docks: all, modules } = desk.recording.meta;
   return [
     make("thead", make("tr", make("th", "module"), make("th", "its face"), make("th", "on face"), make("th", "of"))),
-    make("tbody", ...all.map((d) => {
-      const name = make("th", modules[d.module]?.name ?? d.name);
+    make("tbody", ...all.map((d, n) => {
+      const name = make("th", marker(desk, n, modules[d.module]?.name ?? d.name));
       name.scope = "row";
       return make("tr", name, make("td", String(d.face)), make("td", String(d.parent_face)), make("td", modules[d.parent]?.name ?? "–"));
     })),

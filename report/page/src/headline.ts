@@ -5,7 +5,7 @@ import type { Check, Meta, Overlay, Part } from "./format";
 import { folder } from "./folder";
 import { capital, fixed, number, percent, plural, quantity, sentence, span, time } from "./numbers";
 import type { Desk, Run } from "./panel";
-import { firstMoment, jointAt, longestMoment, moment, partName, show, textOf } from "./places";
+import { firstMoment, jointAt, longestMoment, moment, partName, show } from "./places";
 import { signalLink } from "./strays";
 
 type Mood = "good" | "bad" | "open" | "plan";
@@ -82,13 +82,13 @@ function judgement(desk: Run, meta: Meta): Judgement {
     return { mood: "plan", said: "Built, not run", why: ["The robot as the scenario describes it: its modules, the axes of its hinges, its faces. A verdict needs a run."], facts: built(meta) };
   }
   if (verdict === "failed") {
-    return { mood: "bad", said: `The run ended early, at ${quantity(meta.duration, "s")}`, why: [sentence(why || meta.outcome), ...others(meta, failed.filter((c) => c.id !== "outcome"))], facts: facts() };
+    return { mood: "bad", said: `The run ended early, at ${quantity(meta.duration, "s")}`, why: [sentence(why || meta.outcome), ...others(failed.filter((c) => c.id !== "outcome"))], facts: facts() };
   }
   if (verdict === "infeasible") {
     const [first, ...rest] = failed;
-    return { mood: "bad", said: first?.group === "motor" ? "Not feasible with these motors" : "Not feasible", why: [sentence(why), ...others(meta, rest)], facts: first ? shortfall(desk, first, failed) : facts() };
+    return { mood: "bad", said: first?.group === "motor" ? "Not feasible with these motors" : "Not feasible", why: [sentence(why), ...others(rest)], facts: first ? shortfall(desk, first, failed) : facts() };
   }
-  if (verdict === "not judged") return { mood: "open", said: "Not judged", why: [sentence(why || reason), ...(reason.includes("so far:") ? [] : others(meta, failed))], facts: facts() };
+  if (verdict === "not judged") return { mood: "open", said: "Not judged", why: [sentence(why || reason), ...(reason.includes("so far:") ? [] : others(failed))], facts: facts() };
   const most = hardest(meta), left = most && most.value! < 1 ? [`The motors have at least ${percent(1 - most.value!, 2)} of their torque left, at the speeds that they reach.`] : [];
   const kept = meta.verdict.checks.some((c) => c.group !== "trust" && c.status === "warn") ? "no check fails" : "every limit that is known is kept";
   return { mood: "good", said: "Feasible with these motors", why: [sentence(rests_on ? `over ${rests_on}: ${kept}` : kept), ...left], facts: facts() };
@@ -107,13 +107,13 @@ export function leading(run: Run): Check | null {
   return failures(meta)[0] ?? placed(checks.find((c) => c.status === "too close")) ?? (verdict === "feasible" ? placed(checks.find((c) => c.id === tightest)) : null) ?? hardest(meta);
 }
 
-function others(meta: Meta, failed: Check[]): string[] {
+function others(failed: Check[]): string[] {
   const rest = failed.length - few;
-  return failed.length ? [`Also: ${briefly(meta, failed.slice(0, few))}${rest > 0 ? `; ${plural(rest, "more check")} fail${rest > 1 ? "" : "s"}` : ""}.`] : [];
+  return failed.length ? [`Also: ${briefly(failed.slice(0, few))}${rest > 0 ? `; ${plural(rest, "more check")} fail${rest > 1 ? "" : "s"}` : ""}.`] : [];
 }
 
 /** What the checks found, without advice. */
-const briefly = (meta: Meta, found: Check[]): string => found.map((c) => textOf(meta, c).split("; ")[0].replace(/[.]$/, "")).join("; ");
+const briefly = (found: Check[]): string => found.map((c) => c.text.split("; ")[0].replace(/[.]$/, "")).join("; ");
 
 // What limits the answer: warnings, what makes the numbers doubtful, what nobody judged.
 function aside(meta: Meta, own = true): (string | Node)[] {
@@ -122,10 +122,10 @@ function aside(meta: Meta, own = true): (string | Node)[] {
   const of = (trust: boolean, ...status: Check["status"][]) => meta.verdict.checks.filter((c) => status.includes(c.status) && (c.group === "trust") === trust);
   const warned = of(false, "warn"), doubtful = of(true, "warn"), open = of(false, "not judged"), gait = of(false, "fail"), limited = gait.some((c) => c.id === "voltage" || c.id === "current");
   return [
-    ...(warned.length ? [verdict === "feasible" ? `Warned of: ${briefly(meta, warned)}.` : `${capital(plural(counts.warn, "warning"))}.`] : []),
+    ...(warned.length ? [verdict === "feasible" ? `Warned of: ${briefly(warned)}.` : `${capital(plural(counts.warn, "warning"))}.`] : []),
     ...(chosen_motors ? ["Figures of the motors are chosen, not a maker's."] : []), ...(chosen_docks ? ["Figures of what docks hold are chosen."] : []),
     ...(limited && !gait.some((c) => c.missing) ? ["How much is missing was not computed. To compute it:", make("code", make("span.whole", "gaitlab report --demand"), ` ${own ? folder() : "FOLDER"}`)] : []),
-    ...(doubtful.length ? [`Doubtful: ${briefly(meta, doubtful)}.`] : []),
+    ...(doubtful.length ? [`Doubtful: ${briefly(doubtful)}.`] : []),
     ...(demand?.doubt ? [sentence(demand.doubt)] : []),
     ...(open.length > 6 ? [`${open.length} checks were not judged.`] : open.length ? [`Not judged: ${open.map((c) => inSentence(c.title)).join(", ")}.`] : []),
   ];

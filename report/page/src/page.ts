@@ -19,7 +19,7 @@ import { number } from "./numbers";
 import { Overview } from "./overview";
 import type { Desk, Panel, Run, Span, State } from "./panel";
 import { parts } from "./parts";
-import { jointAt, moment } from "./places";
+import { dockAt, jointAt, moment } from "./places";
 import { Path } from "./path";
 import { Phases } from "./phases";
 import type { Recording, Second } from "./recording";
@@ -73,6 +73,7 @@ export class Page implements Desk {
     this.panels.forEach((p) => p.paint());
     this.choose(this.state.joint);
     this.stage.view?.look((this.link.get("look") as Look | null) ?? "iso");
+    if (check) shown.mark(dockAt(shown.recording.meta, check.part, check.worst));
     for (const marks of ["faces", "axes"] as const) if (meta.outcome === "not run" || this.link.has(marks)) this.press(marks);
   }
 
@@ -92,6 +93,8 @@ export class Page implements Desk {
     this.seek(this.state.t);
   }
 
+  mark(dock: number): void { this.stage.mark(dock); }
+
   zoom(span: Span | null): void {
     this.width = span ? 0 : this.stretches.all;
     this.show(span ?? [0, this.recording.end]);
@@ -107,7 +110,7 @@ export class Page implements Desk {
 
   private asRun(ghost: Ghost): Run {
     const { recording, loads } = ghost;
-    return { recording, loads, goTo: (t) => this.goTo(ghost.back(t)), choose: (joint) => { if (ghost.jointBack(joint) >= 0) this.choose(ghost.jointBack(joint)); } };
+    return { recording, loads, goTo: (t) => this.goTo(ghost.back(t)), choose: (joint) => { if (ghost.jointBack(joint) >= 0) this.choose(ghost.jointBack(joint)); }, mark: (dock) => this.mark(dock < 0 ? -1 : this.recording.meta.docks.findIndex((_, n) => ghost.number("dock", n) === dock)) };
   }
 
   // --- time
@@ -278,7 +281,7 @@ export class Page implements Desk {
     const acts: Record<string, () => void> = {
       " ": () => this.play(!state.playing), ArrowLeft: () => this.goTo(state.t - step), ArrowRight: () => this.goTo(state.t + step), Home: () => this.goTo(0), End: () => this.goTo(recording.end),
       "[": () => this.choose(state.joint - 1), "]": () => this.choose(state.joint + 1), 1: look("iso"), 2: look("side"), 3: look("top"), 4: look("front"), j: () => this.stage.frame(state.joint),
-      f: press("follow"), c: press("forces"), n: press("faces"), a: press("axes"), d: press("theme"), z: () => this.zoom(null), p: press("align"), "?": press("keys"),
+      f: press("follow"), c: press("forces"), n: press("faces"), a: press("axes"), k: press("rings"), d: press("theme"), z: () => this.zoom(null), p: press("align"), "?": press("keys"),
     };
     const act = acts[e.key.length === 1 ? e.key.toLowerCase() : e.key];
     if (!act || (e.key === " " && target.matches("button, summary"))) return;

@@ -22,6 +22,8 @@ export interface Run {
   goTo(t: number): void;
   /** The number of one of this run's joints. */
   choose(joint: number): void;
+  /** The number of one of this run's docks, which the 3D picture marks; -1: none. */
+  mark(dock: number): void;
 }
 
 /** The page, as its panels see it: of its own run. */

@@ -11,7 +11,7 @@ export function parts(desk: Desk): void {
   const kinds = new Map<string, number>();
   for (const { type } of modules) kinds.set(type, (kinds.get(type) ?? 0) + 1);
   host.append(make("p.note", [...kinds].map(([type, n]) => `${n} × ${type}`).join(", ")));
-  if (docks.length) host.append(make("h4", "Docks"), make("div.scroll", make("table.plain", ...joins(recording))));
+  if (docks.length) host.append(make("h4", "Docks"), make("div.scroll", make("table.plain", ...joins(desk))));
   if (!joints.length) {
     host.append(make("p.empty", "The robot has no joints."));
     return;

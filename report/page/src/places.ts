@@ -10,9 +10,6 @@ export function partName(meta: Meta, part: Part, name: string): string {
   return part === "foot" ? meta.feet.find((f) => f.name === name)?.title ?? name : name;
 }
 
-/** The sentence of a check, which names a foot by its body. */
-export const textOf = (meta: Meta, { part, worst, text }: Check): string => (part === "foot" && worst !== null ? text.replace(worst, partName(meta, part, worst)) : text);
-
 /** The number of a joint, or of the one next to a body, a foot or a dock; -1: there is none. */
 export function jointAt({ joints, bodies, modules }: Meta, part: Part, name: string | null): number {
   if (name === null) return -1;
@@ -22,13 +19,16 @@ export function jointAt({ joints, bodies, modules }: Meta, part: Part, name: str
   return own >= 0 ? own : joints.findIndex((j) => j.module === module);
 }
 
+/** The number of a dock; -1: the part is none. */
+export const dockAt = ({ docks }: Meta, part: Part, name: string | null): number => (part === "dock" ? docks.findIndex((d) => d.name === name) : -1);
+
 type Measure = (row: number) => number;
 
 /** What a check is of, row by row, largest where it is to be seen; null: no channel of the page shows it. */
 function measure({ recording, loads }: Run, { id, part }: Check, name: string | null): Measure | null {
-  const { joints, docks } = recording.meta;
+  const { joints } = recording.meta;
   if (part === "dock") {
-    const kind = id.slice("dock_".length), loaded = recording.find(`dock.${docks.findIndex((d) => d.name === name)}.${kind}`);
+    const kind = id.slice("dock_".length), loaded = recording.find(`dock.${dockAt(recording.meta, part, name)}.${kind}`);
     return loaded && ((i) => (kind === "tension" ? loaded[i] : Math.abs(loaded[i])));
   }
   const j = part === "joint" ? jointAt(recording.meta, part, name) : -1;
@@ -89,9 +89,10 @@ export function longestMoment({ recording }: Run, joint: number): number | null 
   return middle;
 }
 
-/** Chooses the joint of a part, and goes to a time, where there are such. */
+/** Chooses the joint of a part, marks the dock that it is, and goes to a time, where there are such. */
 export function show(run: Run, part: Part, name: string | null, t: number | null): void {
   const joint = jointAt(run.recording.meta, part, name);
   if (joint >= 0) run.choose(joint);
+  run.mark(dockAt(run.recording.meta, part, name));
   if (t !== null) run.goTo(t);
 }

@@ -4,6 +4,7 @@ import { element, make } from "./dom";
 import { Labels } from "./labels";
 import { decimalsOf, fixed, number, percent } from "./numbers";
 import type { Desk, Panel } from "./panel";
+import { dockName } from "./places";
 import { View, type Look } from "./view";
 
 export class Stage implements Panel {
@@ -30,6 +31,7 @@ export class Stage implements Panel {
     this.toggle("faces", view.marks.anyFaces, () => view.marks.faces, (on) => { view.marks.faces = on; });
     for (const words of document.querySelectorAll<HTMLElement>("[data-gender]")) words.hidden = !view.marks.hasFaces(words.dataset.gender!);
     this.toggle("axes", meta.joints.length > 0, () => view.marks.axes, (on) => { view.marks.axes = on; });
+    this.toggle("rings", view.rings.any, () => view.rings.all, (on) => { view.rings.all = on; });
     const { ghost } = desk;
     this.toggle("align", !!ghost?.periodic, () => !!ghost?.aligned, align);
     this.pointer(canvas, view);
@@ -41,6 +43,12 @@ export class Stage implements Panel {
     element("legend-load").hidden = !element("ramp-words").textContent;
     this.view?.resize();
     this.view?.paint(this.desk.ink.theme as Theme);
+  }
+
+  /** Marks a dock; -1: none. */
+  mark(dock: number): void {
+    this.view?.mark(dock);
+    this.ringWords();
   }
 
   seek(t: number): void { this.view?.set(t); }
@@ -78,8 +86,15 @@ export class Stage implements Panel {
       button.setAttribute("aria-pressed", String(get()));
       if (id === "faces") element("legend-faces").hidden = !get();
       if (id === "axes") element("legend-axes").hidden = !get();
+      if (id === "rings") this.ringWords();
       this.view?.set(this.desk.state.t);
     });
+  }
+
+  private ringWords(): void {
+    const { rings } = this.view ?? {}, { docks } = this.desk.recording.meta, chosen = docks[rings?.chosen ?? -1];
+    element("legend-rings").hidden = !rings?.any || !(rings.all || chosen);
+    element("ring-words").textContent = chosen ? `ring: ${dockName(chosen.name)}` : "ring: a dock";
   }
 
   private annotate(view: View): void {

@@ -1,4 +1,4 @@
-// The robot in 3D, its ground, arrows and marks; camera, picking, framing.
+// The robot in 3D, its ground, arrows, marks and rings; camera, picking, framing.
 import { Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, Fog, HemisphereLight, Line, LineBasicMaterial, PerspectiveCamera, Raycaster, Scene,
   Vector2, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -10,6 +10,7 @@ import { Kinematics } from "./kinematics";
 import { Marks } from "./marks";
 import type { Desk } from "./panel";
 import type { Recording } from "./recording";
+import { Rings } from "./rings";
 import { Robot } from "./robot";
 
 export type Look = "iso" | "side" | "top" | "front";
@@ -29,6 +30,7 @@ export class View {
   readonly kinematics: Kinematics;
   readonly robot: Robot;
   readonly marks: Marks;
+  readonly rings: Rings;
   readonly arrows: Forces;
   readonly ground: Ground;
   private readonly renderer: WebGLRenderer;
@@ -62,6 +64,7 @@ export class View {
     this.ground = new Ground(recording, this.scene, this.area(), this.size);
     this.arrows = new Forces(recording, this.scene, this.robot.unit, this.size);
     this.marks = new Marks(recording.meta, this.kinematics, this.robot, this.scene);
+    this.rings = new Rings(recording.meta, this.robot, this.scene);
     this.trail = this.path();
     this.scene.add(this.trail);
     this.camera.up.set(0, 0, 1);
@@ -80,7 +83,7 @@ export class View {
     this.scene.background = new Color(look.sky);
     this.scene.fog = new Fog(look.sky, 4.5 * this.size, 14 * this.size);
     (this.trail.material as LineBasicMaterial).color.set(look.trail);
-    for (const part of [this.robot, this.ground, this.arrows, this.marks]) part.paint(theme);
+    for (const part of [this.robot, this.ground, this.arrows, this.marks, this.rings]) part.paint(theme);
     this.second?.robot.paint(theme);
     this.set(this.time);
   }
@@ -121,6 +124,7 @@ export class View {
       robot.set([], -1, -1);
     }
     this.marks.set();
+    this.rings.set();
     this.ground.set(t);
     this.arrows.set(t, this.forces);
     this.trail.geometry.setDrawRange(0, Math.max(2, Math.floor(this.recording.row(t) / trailStep)));
@@ -129,6 +133,12 @@ export class View {
 
   select(joint: number): void {
     this.selected = joint;
+    this.set(this.time);
+  }
+
+  /** A wide ring around a dock; -1: around none. */
+  mark(dock: number): void {
+    this.rings.chosen = dock;
     this.set(this.time);
   }
 

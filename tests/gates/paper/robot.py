@@ -50,11 +50,12 @@ class Robot:
 
     def __init__(self, scenario):
         section = scenario["robot"]
-        self.types, self.bodies, self.by_name, self.joint_names, self.ranges = section["types"], [], {}, [], []
+        self.types, self.bodies, self.by_name = section["types"], [], {}
+        self.joint_names, self.ranges, self.driven = [], [], []
         docks = {int(row[1]): row for row in section.get("docks", [])}
         self.count = len(docks) + 1
         chosen = section["modules"]
-        self.type_of = [self.types[chosen if isinstance(chosen, str) else chosen.get(str(k), chosen.get("default"))]
+        self.type_of = [self.types[chosen if isinstance(chosen, str) else chosen.get(k, chosen.get("default"))]
                         for k in range(self.count)]
         self.childless = set(range(self.count)) - {int(row[3]) for row in docks.values()}
         self.reference = {}
@@ -103,7 +104,8 @@ class Robot:
                 body.axis, body.backwards = axis / np.linalg.norm(axis), backwards
                 body.origin = np.array(hinge.get("origin", [0, 0, 0]), float)
                 body.rest = rpy(hinge.get("rpy", [0, 0, 0]))
-                low, high = map(float, hinge["range"])
+                low, high = (-np.inf, np.inf) if hinge["range"] == "free" else map(float, hinge["range"])
+                self.driven.append(hinge.get("drive") != "none")
                 self.joint_names.append(f"m{k}/{hinge['name']}")
                 self.ranges.append((-high, -low) if backwards else (low, high))
 
@@ -118,7 +120,9 @@ class Robot:
         n_p, r_p = np.array(other["normal"], float), np.array(other["reference"], float)
         body = self.by_name[f"m{k}/{own['body']}"]
         body.parent = self.by_name[f"m{parent}/{other['body']}"]
-        body.rest = np.rint(turn(-n_p, orientation * np.pi / 2)) @ frame(-n_p, r_p) @ frame(n_c, r_c).T
+        quarter = turn(-n_p, orientation * np.pi / 2)
+        quarter = np.where(abs(quarter - np.rint(quarter)) < 1e-12, np.rint(quarter), quarter)
+        body.rest = quarter @ frame(-n_p, r_p) @ frame(n_c, r_c).T
         body.origin = np.array(other["origin"], float) - body.rest @ np.array(own["origin"], float)
 
     def move(self, p, rotation, v, w, q, qd):

@@ -1,0 +1,326 @@
+"""Checks of the base, of bodies, docks and the ground: docs/reference/verdict.md, docs/conventions.md (verdict.json, loads)."""
+import numpy as np
+
+from paper.robot import rpy
+from told.check import SAME, Told, graded, margin, widen
+
+LEAST_WAY = 0.01  # m: who goes less does not walk
+QUARTER = np.pi / 2
+
+
+# ---- ground
+def field_height(ground, x, y):
+    """The surface of a heightfield: Catmull and Rom in both directions, the border's heights beyond it."""
+    field = ground["heightfield"]
+    values, (x0, y0, z0), d = np.array(field["values"], float), field.get("origin", [0, 0, 0]), field["spacing"]
+
+    def axis(u, count):
+        """The four nodes around a coordinate and their weights. A node beyond the border is on the line through the two before it
+        (that much stands in core/laws/heightfield.h alone)."""
+        u = np.clip(u, 0, count - 1)
+        cell = np.minimum(np.floor(u), count - 2).astype(int)
+        f = u - cell
+        w = list(np.stack([-f + 2 * f**2 - f**3, 2 - 5 * f**2 + 3 * f**3, f + 4 * f**2 - 3 * f**3, -f**2 + f**3]) / 2)
+        before, behind = np.where(cell == 0, w[0], 0), np.where(cell + 2 == count, w[3], 0)
+        w = [w[0] - before, w[1] + 2 * before - behind, w[2] - before + 2 * behind, w[3] - behind]
+        return w, [np.clip(cell + k, 0, count - 1) for k in (-1, 0, 1, 2)]
+
+    wx, columns = axis((np.asarray(x) - x0) / d, values.shape[1])
+    wy, rows = axis((np.asarray(y) - y0) / d, values.shape[0])
+    return z0 + sum(wy[r] * wx[c] * values[rows[r], columns[c]] for r in range(4) for c in range(4))
+
+
+def carried(record, at):
+    """Heights of what carries points (rows, 3): the highest surface on the vertical that is at most limits.sink above them."""
+    ground, kind = record.scenario["ground"], record.ground
+    if kind == "heightfield":
+        return field_height(ground, at[:, 0], at[:, 1])
+    surface = np.zeros(len(at))
+    for box in ground.get("boxes", []) if kind == "boxes" else []:
+        r, half = rpy(box.get("rpy", [0, 0, 0])), np.array(box["size"], float) / 2
+        # The vertical in the box's frame, cut by its three pairs of faces.
+        origin = (np.concatenate([at[:, :2], np.zeros((len(at), 1))], 1) - np.array(box["center"], float)) @ r
+        up = r[2]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            a, b = (-half - origin) / up, (half - origin) / up
+        parallel, inside = np.abs(up) < 1e-12, np.abs(origin) <= half
+        low = np.where(parallel, np.where(inside, -np.inf, np.inf), np.minimum(a, b)).max(1)
+        high = np.where(parallel, np.where(inside, np.inf, -np.inf), np.maximum(a, b)).min(1)
+        counts = (high >= low) & (high <= at[:, 2] + record.limits["sink"])
+        surface = np.where(counts & (high > surface), high, surface)
+    return surface
+
+
+def elements(record):
+    """Contact elements that touch: all, or those of the free blocks of modules without children (docs/conventions.md)."""
+    on, robot = record.scenario["contact"]["on"], record.robot
+    found = robot.contacts(on) if on != "none" else {}
+    docked = {f"m{k}/{robot.reference[k]}" for k in range(1, robot.count)}
+    free = lambda body: int(body[1:].split("/")[0]) in robot.childless and body not in docked
+    return found if on == "all" else {name: e for name, e in found.items() if free(e[0])}
+
+
+def heights(record):
+    """Of the centre of mass above the mean height of what carries the contact elements."""
+    com, motion = record.com(), record.motion()
+    points = [motion[body][0] + motion[body][1] @ centre for body, centre, _ in elements(record).values()]
+    return com[:, 2] - np.mean([carried(record, at) for at in points or [com]], axis=0)
+
+
+def standing(record):
+    """Height at the start, lowered onto the ground; not a number where that is not recomputed here."""
+    height = heights(record)[0]
+    if record.scenario["robot"].get("on_ground", True) and len(record.scenario["robot"].get("position", [0, 0])) < 3:
+        return height
+    if record.ground != "plane" or not elements(record):
+        return np.nan
+    motion = record.motion()
+    return height - min((motion[body][0] + motion[body][1] @ centre)[0, 2] - radius for body, centre, radius in elements(record).values())
+
+
+def fall(record, window):
+    if not record.floating or record.ground == "none":
+        return Told()
+    height, above, limit, t = heights(record), standing(record), record.limits["height"], record.poses["t"]
+    if not np.isfinite(above):
+        return None
+    low = int(np.argmin(height))
+    value = height[low] / above
+    told = Told("fail" if value < limit else "pass", value, limit, least=True, margin=margin(value, limit, True))
+    below = np.flatnonzero(height < limit * above)
+    told.start, told.end = t[below[0]] if len(below) else t[low], t[low]
+    told.first = told.start if len(below) else np.nan
+    told.also = {"depth": -1000 * height[low], "below": -height[low]}
+    return told
+
+
+# ---- the base
+def turned(record):
+    """Angles of the axis that pointed upwards from the vertical, at control ticks."""
+    r = record.rotation()
+    axis = r[0].T @ np.array([0, 0, 1.0])
+    return np.arccos(np.clip((r @ axis)[:, 2], -1, 1))
+
+
+def steps_of_turn(record):
+    """Rotation vectors from tick to tick, world axes."""
+    r = record.rotation()
+    d = r[1:] @ np.swapaxes(r[:-1], -1, -2)
+    axis = np.stack([d[:, 2, 1] - d[:, 1, 2], d[:, 0, 2] - d[:, 2, 0], d[:, 1, 0] - d[:, 0, 1]], -1) / 2
+    sine = np.linalg.norm(axis, axis=1)
+    angle = np.arctan2(sine, (np.trace(d, axis1=1, axis2=2) - 1) / 2)
+    return axis * np.where(sine > 1e-12, angle / np.maximum(sine, 1e-300), 1)[:, None]
+
+
+def heading(record):
+    """Turn about world z from tick to tick: the twist of the rotation."""
+    r = record.rotation()
+    d = r[1:] @ np.swapaxes(r[:-1], -1, -2)
+    # Of a quaternion the twist is 2 atan2(z, w); 4 w z = d10 - d01 and 4 w w = 1 + trace.
+    wz, ww = d[:, 1, 0] - d[:, 0, 1], 1 + np.trace(d, axis1=1, axis2=2)
+    return 2 * np.arctan2(wz, ww)
+
+
+def rolls(record, window, period):
+    """Whether the base makes at least one whole turn about level axes, to the nearest number, in every period."""
+    t, turn = record.poses["t"], steps_of_turn(record)[:, :2]
+    if window.periods:
+        edges = window.end - window.cycle.period * np.arange(window.periods, -1, -1)
+    elif period:
+        edges = np.array([record.end - period, record.end])
+    else:
+        edges = np.linspace(window.start, window.end, 3)
+    # Level axes turn with the base: a roll that comes about is a roll all the same.
+    yaw = np.concatenate([[0], np.cumsum(heading(record))])[:-1]
+    c, s = np.cos(yaw), np.sin(yaw)
+    own = np.stack([c * turn[:, 0] + s * turn[:, 1], -s * turn[:, 0] + c * turn[:, 1]], -1)
+    sums = []
+    for a, b in zip(edges[:-1], edges[1:]):
+        rows = (t[1:] > a + 1e-9) & (t[1:] <= b + 1e-9)
+        sums.append(np.linalg.norm(own[rows].sum(0)) / (2 * np.pi))
+    return bool(sums) and min(sums) >= 0.5, sums
+
+
+def upright(record, window, period):
+    if not record.floating:
+        return Told()
+    tilt, t, limits = turned(record), record.poses["t"], record.limits
+    k = int(np.argmax(tilt))
+    over = np.flatnonzero(tilt > QUARTER)
+    told = Told("pass", tilt[k], QUARTER, margin=margin(tilt[k], QUARTER), start=t[k], end=t[k], also={"tilt": limits["tilt"]})
+    told.status = "warn" if tilt[k] > limits["tilt"] else "pass"
+    if not len(over):
+        return told
+    told.start = told.first = t[over[0]]
+    told.status = "fail"
+    does, told.turns = rolls(record, window, period)
+    if does:
+        return Told(also={"rolls": True})
+    if not window.periods and period and record.end < 3 * period and record.end - t[over[0]] < period:
+        return Told(also={"over": t[over[0]]})
+    return told
+
+
+def extent(record):
+    """Diagonal of the box around the robot at the start: its bodies' origins and all contact elements."""
+    motion = record.motion()
+    at = [motion[body][0][0] for body in record.robot.order]
+    at += [(motion[body][0] + motion[body][1] @ centre)[0] for body, centre, _ in record.robot.contacts("all").values()]
+    return float(np.linalg.norm(np.max(at, 0) - np.min(at, 0)))
+
+
+def progress(record, window, borne, long_enough):
+    if not record.floating or record.ground == "none":
+        return Told()
+    t, com = record.poses["t"], record.com()
+    if len(t) < 3:
+        return Told()
+    rows = np.flatnonzero(t >= window.start)
+    a, b, per = rows[0], len(t) - 1, max(window.periods, 1)
+    value = np.linalg.norm((com[b] - com[a])[:2]) / per
+    asked, factor, size = record.limits["progress"], 1 if window.periods else 10, extent(record)
+    limit = (asked or 0.01 * factor) * size
+    turn = abs(heading(record)[a:].sum()) / per
+    goes = value >= limit or (not asked and turn >= 0.01 * factor)
+    status = "pass" if goes else "fail" if asked else "warn" if long_enough else "not judged"
+    told = Told(status, value, limit, least=True, start=t[a], end=t[b], can_fail=asked > 0)
+    told.margin = margin(value, limit, True) if asked else np.nan
+    fallen = record.mass * (record.gravity @ (com[b] - com[a]))
+    driven = record.joints["shaft"].sum() if record.count else 0.0
+    if borne and fallen > max(driven, record.least_energy()):
+        whole = window.end - window.start
+        half = whole * np.ceil(window.periods / 2) / window.periods if window.periods > 1 else whole / 2
+        step = np.linalg.norm(np.diff(com[:, :2], axis=0), axis=1)
+        inside = np.arange(1, len(t)) > a
+
+        def way(low, high):
+            return step[inside & (t[1:] > low) & (t[1:] <= high)].sum()
+
+        before = way(window.start, window.start + half)
+        faster = way(window.end - half, window.end) / before if before > 0 else 1.0
+        if faster > 1.2:
+            told.status, told.value, told.limit, told.least, told.unit = "fail", faster, 1.2, False, ""
+            told.margin, told.can_fail = margin(faster, 1.2), True
+            told.also = {"fallen": fallen, "driven": driven}
+    return told
+
+
+# ---- docks
+def dock_limits(record, quantity):
+    """What docks hold, by module: the smaller limit of the connectors of both faces; not a number where neither states it."""
+    out, sources = {}, {}
+    for row in record.scenario["robot"].get("docks", []):
+        own, child, theirs, parent, _ = row
+        found = []
+        for module, face in ((child, own), (parent, theirs)):
+            name = record.robot.face(int(module), face).get("connector")
+            connectors = record.robot.type_of[int(module)].get("connectors", {})
+            if name in connectors and quantity in connectors[name]:
+                found.append(float(connectors[name][quantity]))
+        out[int(child)] = min(found, default=np.nan)
+    return out
+
+
+UNITS = {"tension": "N", "shear": "N", "bending": "N m", "torsion": "N m"}
+
+
+def dock(record, quantity):
+    if record.robot.count < 2 or record.solver or record.loads is None or len(record.loads) < 2:
+        return Told()
+    limits, t, warn = dock_limits(record, quantity), record.loads["t"], record.limits["warn_share"]
+    peaks = {}
+    for m, limit in limits.items():
+        load = record.loads[f"dock.{m}.{quantity}"]
+        load = load if quantity == "tension" else np.abs(load)
+        if np.isnan(load).all():
+            return None
+        k = int(np.nanargmax(load))  # the last row of a run that ended early has no accelerations
+        beyond = np.flatnonzero(load > limit)
+        peaks[m] = (max(load[k], 0) if abs(load[k]) < 1e-9 else load[k], t[k], t[beyond[0]] if len(beyond) else np.nan)
+    stated = {m: peaks[m][0] / limits[m] for m in peaks if limits[m] > 0}
+    by = stated or {m: peaks[m][0] for m in peaks}
+    most = max(by.values())
+    ties = [m for m in sorted(by) if by[m] >= most - SAME * abs(most)]
+    m = ties[0]
+    value, when, _ = peaks[m]
+    told = Told("not judged", value, np.nan, worst=f"m{m}", ties=[f"m{k}" for k in ties], start=when, end=when)
+    told.also = {"docks": len(peaks), "open": len(peaks) - len(stated)}
+    if not stated:
+        return told
+    told.limit, told.margin, told.parts = limits[m], margin(value, limits[m]), sum(s > 1 for s in stated.values())
+    told.status = graded(stated[m], warn, 1)
+    told.also["share"] = max(0.0, stated[m])
+    firsts = [(peaks[k][2], k) for k in stated if np.isfinite(peaks[k][2])]
+    if firsts:
+        told.first = min(firsts)[0]
+        told.first_parts = [f"m{k}" for when, k in firsts if when == told.first]
+        told.first_part = told.first_parts[0]
+    return widen(told, record.torque_errors().max() if record.count else 0)
+
+
+# ---- feet and ground
+def on_ground(record):
+    return record.floating and record.ground != "none" and not record.solver and record.loads is not None and len(record.loads) > 1
+
+
+def slip(record, window):
+    if not on_ground(record):
+        return Told()
+    first = window.first
+    grown = {name: record.loads[name][-1] - record.loads[name][first] for name in record.loads.columns}
+    feet = {name[5:-5]: grown[name] for name in grown if name.startswith("foot.") and name.endswith(".slid")}
+    worst = max(feet, key=feet.get) if feet and max(feet.values()) > 0 else None
+    way = grown["path"]
+    told = Told(worst=worst, also={"way": way, "mm": 1000 * way, "slid": feet.get(worst, 0), "least_mm": 1000 * LEAST_WAY})
+    told.ties = [name for name in feet if worst and feet[name] >= feet[worst] * (1 - SAME)]
+    if way < LEAST_WAY:
+        return told
+    told.value, told.limit = grown["slip"] / way, record.limits["slip"]
+    told.status, told.margin = graded(told.value, told.limit, np.inf), margin(told.value, told.limit)
+    told.start, told.end = record.loads["t"][first], record.loads["t"][-1]
+    return told
+
+
+def borne(record, window):
+    """Shares of the weight on the ground at the control ticks in the window; none where that is not asked."""
+    if not record.floating or not record.weight > 0 or not elements(record) or record.ground == "none":
+        return None
+    t = record.poses["t"]
+    return record.poses["load"][t > window.start + 1e-12] / record.weight
+
+
+def airborne(record, window):
+    shares = borne(record, window)
+    if shares is None:
+        return Told()
+    value = float(np.mean(shares < 0.05))
+    return Told("warn" if value > 0 else "pass", value, 0.0, margin=-value, start=window.start, end=window.end, also={"weight": 0.05})
+
+
+def stability(record, window):
+    if not on_ground(record) or record.ground != "plane":
+        return Told()
+    inside = record.loads["stability"][window.first + 1:]
+    seen = inside[~np.isnan(inside)]
+    if not len(seen):
+        return Told()
+    k = int(np.nanargmin(inside))
+    return Told("pass", inside[k], start=record.loads["t"][window.first + 1 + k], end=record.loads["t"][window.first + 1 + k],
+                also={"mm": 1000 * abs(inside[k]), "outside": np.mean(seen < 0), "aloft": 1 - len(seen) / len(inside)})
+
+
+def field(record, window):
+    if record.ground != "heightfield":
+        return Told()
+    form = record.scenario["ground"]["heightfield"]
+    rows, columns = np.shape(form["values"])
+    x0, y0, _ = form.get("origin", [0, 0, 0])
+    u, v = (record.com()[:, :2] - [x0, y0]).T / form["spacing"]
+    beside = (u < 0) | (v < 0) | (u > columns - 1) | (v > rows - 1)
+    if beside[0]:
+        return Told()
+    if not beside.any():
+        return Told("pass")
+    k = int(np.argmax(beside))
+    t = record.poses["t"][k]
+    return Told("warn", t, start=t, end=t, first=t, also={"x": record.com()[k, 0], "y": record.com()[k, 1], "t": t})

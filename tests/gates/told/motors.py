@@ -1,0 +1,249 @@
+"""Checks of motors, gears and motion: docs/reference/verdict.md. Every function takes the record and the judged window."""
+import numpy as np
+
+from told.check import SAME, Told, graded, margin, worst_of, widen
+
+
+def grown(record, what, window):
+    """What sums from t = 0 have grown by in the window, by joint."""
+    sums = record.tick(what)
+    return sums[-1] - sums[window.first]
+
+
+def stretches(limited, t, first):
+    """The longest stretch at a limit: whole rows, and what the rows next to them were at it for; all that are as long.
+
+    A row knows for how long it was at the limit, not when: it may be the end of one stretch and the start of another."""
+    part = np.diff(limited)[first:]
+    left, right = t[first:-1], t[first + 1:]
+    begun, seen = None, []
+    for p, a, b in zip(part, left, right):
+        whole = p > 0.999 * (b - a)
+        begun = a if begun is None else begun
+        stop = b if whole else a + p
+        seen.append((stop - begun, begun, stop))
+        if not whole:
+            begun = b - p
+            seen.append((p, begun, b))
+    longest = max(one[0] for one in seen)
+    equal = [one for one in seen if one[0] >= longest * (1 - SAME) - SAME]
+    return longest, equal
+
+
+def at_limit(record, window, kind):
+    """`voltage` and `current` (of other actuators: their limit)."""
+    if not record.driven.any():
+        return Told()
+    column = f"{kind}_limited"
+    share = np.where(record.driven, grown(record, column, window) / window.length, 0)
+    if not record.voltages and not (share > 0).any() and (kind == "voltage" or not record.all_limited):
+        return Told()
+    limits, period = record.limits, record.scenario["controller"]["period"]
+    most = limits["saturated_periods"] * period
+    table = record.tick(column)
+    longest = [stretches(table[:, j], record.t, window.first) if share[j] > 0 else (0.0, [])
+               for j in range(record.count)]
+    by_share = np.array([margin(s, limits["saturated_share"]) for s in share])
+    # A stretch is a sum of rows: a whole number of control periods is kept.
+    by_time = np.array([margin(one[0], most * (1 + 1e-6)) for one in longest])
+    both = np.where(record.driven, np.minimum(by_share, by_time), np.inf)
+    least = both.min()
+    ties = [j for j in range(record.count) if both[j] <= least + SAME * max(1, abs(least))]
+    j, parts = max(ties, key=lambda k: share[k]), int((share > 0).sum())
+    told = Told("fail" if least < 0 else "warn" if parts else "pass", margin=least, parts=parts)
+
+    def numbers(k):
+        by = share[k] > 0 and by_time[k] < by_share[k]
+        out = {"value": longest[k][0] if by else share[k], "limit": most if by else limits["saturated_share"], "unit": "s" if by else "",
+               "worst": record.names[k], "also": {"share": share[k], "stretch": longest[k][0]}}
+        if longest[k][1]:
+            out["rows"] = {one[1:] for one in longest[k][1]}
+            out["start"], out["end"] = longest[k][1][0][1:]
+        return out
+
+    told.__dict__.update(numbers(j))
+    told.others = {record.names[k]: numbers(k) for k in ties if share[k] > 0}
+    told.also |= {"driven": int(record.driven.sum()), "most": limits["saturated_periods"]}
+    if abs(by_share[j] - by_time[j]) < 1e-6:
+        told.unit = None
+    if abs(least) < 1e-5:
+        told.undecided = ("fail", "warn")
+    told.ties = [record.names[k] for k in ties] if parts else ()
+    told.worst = told.worst if parts else None
+    if parts:
+        first_in(told, record, window.first, np.diff(table, axis=0) > 0)
+    # Within the error of the torques: rows at no limit whose torque, as the motor has it there, comes that near.
+    errors, near = record.torque_errors(), np.zeros(record.count)
+    peak, amperes = record.tick("envelope_peak"), record.tick("current_peak")
+    busy = (np.diff(record.tick("voltage_limited"), axis=0) > 0) | (np.diff(record.tick("current_limited"), axis=0) > 0)
+    for k in np.flatnonzero(record.driven & (errors > 0) & (errors <= limits["torque_error"])):
+        rows = (peak[1:, k] >= 1 - errors[k]) & ~busy[:, k]
+        rows[:window.first] = False
+        by_current = np.full(len(rows), True) if not record.voltages else amperes[1:, k] >= (1 - errors[k]) * record.i_max[k]
+        rows &= by_current == (kind == "current")
+        near[k] = share[k] + np.diff(record.t)[rows].sum() / window.length
+    k = int(np.argmax(near))
+    surely = by_time[j] < 0 or share[j] * (1 - errors[j]) > limits["saturated_share"]
+    if not surely and near[k] > limits["saturated_share"]:
+        told.status, told.error = "too close", errors[k]
+        told.also |= {"near": near[k], "near_joint": record.names[k]}
+    return told
+
+
+def first_in(told, record, row, beyond):
+    """When, and which, joint was beyond first, behind a row of ticks: the start of that row."""
+    beyond = beyond & record.driven[None, :]
+    rows = np.flatnonzero(beyond[row:].any(axis=1))
+    if len(rows):
+        told.first = record.t[row + rows[0]]
+        told.first_parts = [record.names[j] for j in np.flatnonzero(beyond[row + rows[0]])]
+        told.first_part = told.first_parts[0]
+
+
+def peaks(record, what, first):
+    """Largest magnitude behind a row, and the row of ticks in which it was."""
+    table = record.tick(what)[first + 1:]
+    at = np.argmax(table >= table.max(axis=0) * (1 - SAME), axis=0)  # the first of those that rounding makes largest
+    return table[at, np.arange(record.count)], first + 1 + at
+
+
+def at_row(told, record, row):
+    told.end, told.start = record.t[row], record.t[row - 1]
+
+
+def alike(record, what, joint, most):
+    """Starts and ends of the rows in which a peak is reached, but for rounding."""
+    rows = np.flatnonzero(record.tick(what)[1:, joint] >= most * (1 - 1e-7))
+    return {(record.t[k], record.t[k + 1]) for k in rows}
+
+
+def rated(record, values, limits, warns, fails, rows=None):
+    """The joint that is nearest to its limit, or farthest beyond it."""
+    limits = np.where(record.driven & (limits > 0), limits, np.nan)
+    if not np.isfinite(limits).any():
+        return Told(), None
+    share = values / limits
+    j, near = worst_of(share)
+    status = graded(share[j], warns, fails)
+    beyond = share > (fails if np.isfinite(fails) else warns)
+    told = Told(status, values[j], limits[j], margin=margin(values[j], limits[j]), worst=record.names[j],
+                ties=[record.names[k] for k in near], parts=int(np.nansum(beyond)), also={"share": share[j]})
+    if rows is not None:
+        at_row(told, record, rows[j])
+    return told, j
+
+
+def envelope(record, window):
+    if not record.driven.any():
+        return Told()
+    values, rows = peaks(record, "envelope_peak", window.first)
+    warn = record.limits["warn_share"]
+    told, j = rated(record, values, np.where(record.limited, 1.0, np.nan), warn, np.inf, rows)
+    if told.status != "not judged":
+        told.rows = alike(record, "envelope_peak", j, values[j])
+        told.limit, told.margin = warn, margin(told.value, warn)
+    return told
+
+
+def speed(record, window):
+    if not record.driven.any():
+        return Told()
+    warn = record.limits["warn_share"]
+    within, rows = peaks(record, "speed_peak", window.first)
+    ever, all_rows = peaks(record, "speed_peak", 0)
+    free, _ = rated(record, within, record.no_load, warn, 1, rows)
+    broken, _ = rated(record, ever, record.ratings["speed_max"], warn, 1, all_rows)
+    told, limits, row, span = free, record.no_load, window.first, "window"
+    if broken.status != "not judged" and (free.status == "not judged" or broken.value / broken.limit >= free.value / free.limit):
+        told, limits, row, span = broken, record.ratings["speed_max"], 0, "whole run"
+    if told.status != "not judged":
+        told.span = span
+        first_in(told, record, row, record.tick("speed_peak")[1:] > limits)
+    return told
+
+
+def of_rating(record, values, key, rows=None, first=None):
+    told, j = rated(record, values, record.ratings[key], record.limits["warn_share"], 1, rows)
+    if told.status == "not judged":
+        return told
+    if first is not None:
+        first_in(told, record, 0, record.tick(first)[1:] > record.ratings[key])
+    return widen(told, record.torque_errors()[j])
+
+
+def rms(record, what, window):
+    return np.sqrt(np.maximum(grown(record, what, window), 0) / window.length)
+
+
+def heat(record, window):
+    return of_rating(record, rms(record, "current_square", window), "i_continuous") if record.driven.any() else Told()
+
+
+def gear_peak(record, window):
+    if not record.driven.any():
+        return Told()
+    values, rows = peaks(record, "torque_peak", 0)
+    return of_rating(record, values, "gear_torque_peak", rows, "torque_peak")
+
+
+def gear_continuous(record, window):
+    return of_rating(record, rms(record, "torque_square", window), "gear_torque_continuous") if record.driven.any() else Told()
+
+
+def tracking(record, window):
+    if not record.driven.any():
+        return Told()
+    values, rows = peaks(record, "error_peak", window.first)
+    j, near = worst_of(values)
+    warns = record.limits["tracking_error"]
+    return Told(graded(values[j], warns, 2 * warns), values[j], 2 * warns, margin=margin(values[j], 2 * warns),
+                worst=record.names[j], ties=[record.names[k] for k in near], parts=int((values > warns).sum()),
+                rows=alike(record, "error_peak", j, values[j]),
+                start=record.t[rows[j] - 1], end=record.t[rows[j]])
+
+
+def stops(record, window):
+    if not record.count:
+        return Told("pass", 0.0, record.limits["beyond_range"], margin=1.0)
+    angle, share = record.joints["range_worst"], record.joints["range_share"]
+    most, longest = record.limits["beyond_range"], record.limits["beyond_range_share"]
+    by_angle, by_share = [margin(a, most) for a in angle], [margin(s, longest) for s in share]
+    both = np.minimum(by_angle, by_share)
+    least = both.min()
+    parts = int((angle > 0).sum())
+    if not parts:
+        return Told("pass", 0.0, most, margin=least)
+    ties = [j for j in range(record.count) if both[j] <= least + SAME * max(1, abs(least))]
+
+    def numbers(j):
+        angular = by_angle[j] <= by_share[j]
+        return {"value": angle[j] if angular else share[j], "limit": most if angular else longest, "unit": "rad" if angular else "",
+                "worst": record.names[j], "also": {"angle": angle[j], "share": share[j], "most": longest}}
+
+    told = Told("fail" if least < 0 else "warn", margin=least, ties=[record.names[k] for k in ties], parts=parts,
+                **numbers(max(ties, key=lambda k: angle[k])))
+    told.others = {record.names[k]: numbers(k) for k in ties}
+    return told
+
+
+def setpoints(record, window):
+    if not record.driven.any():
+        return Told()
+    share = record.joints["setpoint_outside"]
+    j, near = worst_of(share)
+    if not share[j] > 0:
+        return Told("pass", share[j], 0.0, margin=0.0)
+    return Told("warn", share[j], 0.0, margin=-share[j], worst=record.names[j], ties=[record.names[k] for k in near])
+
+
+def start(record, window):
+    if not record.driven.any():
+        return Told()
+    jump = record.joints["start_jump"]
+    j, near = worst_of(jump)
+    limit = record.limits["start_jump"]
+    told = Told("warn" if jump[j] > limit else "pass", jump[j], limit, margin=margin(jump[j], limit),
+                worst=record.names[j], ties=[record.names[k] for k in near])
+    if told.status == "warn":
+        told.start = told.end = told.first = 0.0
+    return told

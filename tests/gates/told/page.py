@@ -1,0 +1,245 @@
+"""The facts of report.html: its JSON, and what Chromium shows of it. Definitions: docs/report.md."""
+import html
+import json
+import math
+import re
+import shutil
+import subprocess
+
+import numpy as np
+
+from told.motors import grown
+
+SPACE = "\u00a0"
+FLOORS = {"": 1e-6, "m": 1e-7, "rad": 1e-4, "rad/s": 1e-5, "N m": 1e-6, "N": 1e-5, "A": 1e-6, "J": 1e-7}
+
+
+def meta(file):
+    return json.loads(re.search(r'<script type="application/json" id="meta">(.*?)</script>', file.read_text(), re.S)[1])
+
+
+def rendered(file, home):
+    """The page in a browser without a network: {headline, why, facts}; none without a browser."""
+    chromium = shutil.which("chromium")
+    if chromium is None:
+        return None
+    made = subprocess.run(
+        [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-3d-apis", "--virtual-time-budget=10000",
+         f"--user-data-dir={home}", "--dump-dom", f"file://{file}#paused"], capture_output=True, text=True, timeout=600, check=False)
+    text = lambda s: html.unescape(re.sub(r"<[^>]*>", "", s))
+    dom = made.stdout
+    facts = re.search(r'<dl id="facts".*?</dl>', dom, re.S)
+    if not facts or not re.search(r"<html[^>]* data-ready", dom):
+        raise RuntimeError(f"{file}: the browser shows no facts: {made.stderr[-500:]}")
+    rows = re.findall(r"<dt>(.*?)</dt><dd>(.*?)</dd>", facts[0], re.S)
+    return {"headline": text(re.search(r'id="said"[^>]*>(.*?)</h2>', dom, re.S)[1]),
+            "why": text(re.search(r'id="why"[^>]*>(.*?)</p>', dom, re.S)[1]), "facts": {name: text(value) for name, value in rows}}
+
+
+# ---- numbers as the page writes them
+def number(x, digits=3, unit=None):
+    if unit is not None and abs(x) < FLOORS.get(unit, 0):
+        x = 0
+    return "0" if x == 0 else f"{x:.{digits}g}"
+
+
+NUMBER = re.compile(r"^([−-]?[\d.]+(?:e[−-]?\d+)?)")
+
+
+def agrees(text, value, digits):
+    """The number that a text begins with is that value to so many digits."""
+    match = NUMBER.match(text)
+    if not match:
+        return False
+    said = float(match[1].replace("−", "-"))
+    if said == value:
+        return True
+    unit = 10.0 ** (math.floor(math.log10(max(abs(value), 1e-300))) - digits + 1)
+    return abs(said - value) <= 0.5 * unit * (1 + 1e-6) + 1e-9 or value != value
+
+
+def quantity(text, value, unit):
+    """`17.2 mm`, `98 %`, `1.02 N m`: of a value in its unit."""
+    if unit == "":
+        return agrees(text, 100 * value, 3) and text.endswith("%")
+    if unit == "m" and abs(value) < 0.1:
+        return agrees(text, 1000 * value, 3) and text.endswith("mm")
+    return agrees(text, value if abs(value) >= FLOORS.get(unit, 0) else 0.0, 3) and text.replace(SPACE, " ").endswith(unit)
+
+
+def moment(text, at):
+    """`3.99 s`: hundredths, thousandths where these do not say it."""
+    return abs(float(text.split(SPACE)[0].replace("−", "-")) - at) <= 0.5005e-2 and text.endswith("s")
+
+
+def stretch(text, start, end):
+    if not end - start > 1e-6:
+        return moment(text, start)
+    a, b = text.replace(SPACE + "s", "").split(" to ")
+    room = 0.5005e-3 if end - start < 0.1 else 0.5005e-2
+    return abs(float(a) - start) <= room and abs(float(b) - end) <= room
+
+
+def part(meta_, told, names):
+    """Names as people call them."""
+    out = set()
+    for name in names:
+        if told["part"] == "dock":
+            out.add(f"{name}'s dock")
+        elif told["part"] == "foot":
+            out |= {f["title"] for f in meta_["feet"] if f["name"] == name} or {name}
+        else:
+            out.add(name)
+    return out
+
+
+def longest(judged):
+    """The joint that is at any limit for most of the judged time: names that tie, shares of voltage and current; none: no joint."""
+    r, w = judged.record, judged.window
+    if not r.driven.any():
+        return None
+    v, c = (grown(r, f"{kind}_limited", w) / w.length for kind in ("voltage", "current"))
+    most = (v + c).max()
+    if not most > 0:
+        return None
+    near = [j for j in range(r.count) if (v + c)[j] >= most * (1 - 1e-9)]
+    return {r.names[j] for j in near}, v[near[0]], c[near[0]]
+
+
+def hear(shown, meta_, verdict, judged, known):
+    """What the page's headline and facts say otherwise. Numbers of the record where a check is recomputed, else of verdict.json."""
+    facts, wrong, checks = dict(shown["facts"]), [], {c["id"]: c for c in verdict["checks"]}
+
+    def must(ok, name, expected, of=""):
+        if not ok:
+            wrong.append(f"page: {name}{of} is {shown['facts'].get(name)!r}, recomputed {expected}")
+
+    word = verdict["verdict"]
+    failing = [c for c in verdict["checks"] if c["status"] == "fail" and c["id"] not in ("ledger",)]
+    first = failing[0] if failing else None
+    said = shown["headline"].replace(SPACE, " ")
+    expected = {"feasible": "Feasible with these motors", "not judged": "Not judged"}.get(word)
+    if word == "infeasible":
+        expected = "Not feasible with these motors" if first["group"] == "motor" else "Not feasible"
+    if word == "failed":
+        if not re.fullmatch(r"The run ended early, at [\d.]+ s", said) or not agrees(said.rsplit("at ", 1)[1], judged.record.end, 3):
+            wrong.append(f"page: headline {said!r}, the run ended at {judged.record.end} s")
+    elif said != expected:
+        wrong.append(f"page: headline {said!r}, recomputed {expected!r}")
+    if word == "infeasible":
+        shortfall(facts, first, judged, meta_, must, failing)
+    else:
+        walked(facts, verdict, checks, judged, meta_, must, known)
+    for name in facts:
+        wrong.append(f"page: nothing recomputes the fact {name}: {facts[name]!r}")
+    return wrong
+
+
+def names_of(told, check, which):
+    if told is None:
+        return {check[which]}
+    if which == "worst":
+        return set(told.ties or [told.worst])
+    return set(getattr(told, "first_parts", [told.first_part]))
+
+
+def shortfall(facts, first, judged, meta_, must, failing):
+    told, of = judged.checks[first["id"]], f" of {first['id']}"
+    value, limit = (told.value, told.limit) if told else (first["value"], first["limit"])
+    start, end = (told.start, told.end) if told else (first["from"], first["to"])
+    at = told.first if told else first["first"]
+    unit = first["unit"]
+    text = facts.pop("First over the limit", None)
+    expects = at is not None and at == at and (told.first_part if told else first["first_part"]) is not None
+    if expects or text is not None:
+        names = part(meta_, first, names_of(told, first, "first_part"))
+        ok = expects and text is not None and any(text.startswith(name + " at ") for name in names)
+        must(ok and moment(text.rsplit(" at ", 1)[1], at), "First over the limit", (names_of(told, first, "first_part"), at), of)
+    text = facts.pop("Worst", None)
+    worst = names_of(told, first, "worst") - {None}
+    if text is not None:
+        body = text
+        if worst:
+            lead = [p for p in part(meta_, first, worst) if text.startswith(p + " ")]
+            must(bool(lead), "Worst", worst, of)
+            body = text[len(lead[0]) + 1:] if lead else text
+        match = re.fullmatch(r"(.*?),? limit (≥ )?(.*)", body)
+        room = getattr(told, "loose", 0) if told else 0
+        near = quantity(match[1], value, unit) or room and quantity(match[1], first["value"], unit) if match else False
+        ok = match and bool(match[2]) == first["least"] and near and quantity(match[3], limit, unit)
+        must(ok, "Worst", (value, limit, unit), of)
+    else:
+        must(value != value, "Worst", value, of)
+    text = facts.pop("Longest at a limit", None)
+    long = longest(judged)
+    if first["id"] in ("voltage", "current") and long:
+        joints, v, c = long
+        kinds = ", ".join(f"{kind} {number(100 * s)}{SPACE}%" for kind, s in (("voltage", v), ("current", c)) if s > 0)
+        ok = text is not None and any(text.startswith(j + " ") for j in joints)
+        must(ok and same_numbers(text.split(" ", 1)[1], kinds + " of the time"), "Longest at a limit", (joints, kinds))
+    elif text is not None:
+        must(False, "Longest at a limit", None)
+    text = facts.pop("When", None)
+    if start is None or start != start:
+        must(text is None, "When", None, of)
+    else:
+        body = text or ""
+        for p in part(meta_, first, worst):
+            body = body.removesuffix(" " + p)
+        near = told is not None and any(stretch(body, a, b) for a, b in getattr(told, "rows", ()) if text is not None)
+        must(text is not None and (
+            near or stretch(body, start, end if end is not None and end == end else start)), "When", (start, end, worst), of)
+    text = facts.pop("Off its set point", None)
+    strays = next((c for c in failing if c["id"] == "tracking"), None)
+    if text is not None:
+        own = judged.checks["tracking"]
+        value, limit = text.split(" limit ")
+        must(strays is not None and quantity(value, own.value, "rad") and quantity(limit, own.limit, "rad"),
+             "Off its set point", (own.value, own.limit))
+
+
+def same_numbers(a, b):
+    """Two texts that differ by the last digit of a number at most."""
+    split = lambda s: re.split(r"([\d.]+)", s)
+    one, two = split(a), split(b)
+    return len(one) == len(two) and all(x == y or re.fullmatch(r"[\d.]+", x) and agrees(x, float(y), 3) for x, y in zip(one, two))
+
+
+def walked(facts, verdict, checks, judged, meta_, must, known):
+    c = checks.get(verdict["tightest"])
+    name = "Worst" if c and c["margin"] is not None and c["margin"] < 0 else "Tightest"
+    text = facts.pop(name, None)
+    if c and c["margin"] is not None and c["limit"]:
+        told = judged.checks[c["id"]]
+        value, limit, margin = (told.value, told.limit, told.margin) if told else (c["value"], c["limit"], c["margin"])
+        body, worst = text or "", names_of(told, c, "worst") - {None}
+        if worst:
+            lead = [p for p in part(meta_, c, worst) if body.startswith(p + " ")]
+            title = c["title"][0].lower() + c["title"][1:]
+            must(bool(lead) and f" {title}: " in body, name, (worst, title))
+            body = body.partition(f" {title}: ")[2]
+        else:
+            body = body.removeprefix(c["title"] + " ")
+        if 0 <= margin <= 1:
+            share = 100 * (1 + margin if c["least"] else 1 - margin)
+            ok = body.replace(SPACE, " ").endswith("% of the limit") and (agrees(body, share, 2) or share < 1e-4)
+        else:
+            match = re.fullmatch(r"(.*), limit (≥ )?(.*)", body)
+            ok = match and quantity(match[1], value, c["unit"]) and quantity(match[3], limit, c["unit"])
+        must(ok, name, (value, limit, margin))
+    elif text is not None:
+        must(False, name, None)
+    hardest, largest = facts.pop("Hardest worked", None), facts.pop("Largest torque", None)
+    if hardest is not None:
+        own = judged.checks["envelope"]
+        match = re.fullmatch(r"(\S+) (\S+)" + SPACE + r"% of its motor at (.*)", hardest)
+        must(match and match[1] in own.ties and agrees(match[2], 100 * own.value, 2), "Hardest worked", (own.ties, own.value))
+    if largest is not None:  # of the rows of the page
+        rows = max(np.abs(judged.record.trace[f"joint.{j}.torque"]).max() for j in range(judged.record.count))
+        must(abs(float(largest.split(" ")[0]) - rows) <= 2e-3 + 5e-3 * rows, "Largest torque", rows)
+    for name, key, scale, digits in (
+            ("Speed", "speed", 100, 3), ("Cost of transport", "electrical_cost", 1, 3), ("Period", "period", 1, 4)):
+        text = facts.pop(name, None)
+        if text is not None:
+            near = name == "Period" and abs(float(text.split(" ")[0]) - known[key]) < 1e-3  # known to 3e-5 of itself
+            must(near or agrees(text, scale * known[key], digits), name, scale * known[key])

@@ -1,0 +1,153 @@
+"""A trace.h5 and nothing else: its tables by the names of their columns, the scenario that is stored in it, and its motors.
+
+Written from docs/conventions.md (the trace, its tables) and docs/reference/plugins.md (motors); shares no code with the program."""
+import h5py
+import numpy as np
+import yaml
+
+from paper.robot import Robot, from_quaternion
+from yaml12 import Loader
+
+# docs/reference/scenario.md: what a scenario that states no limit has.
+LIMITS = {"warn_share": 0.8, "tracking_error": 0.1, "saturated_share": 0.01, "saturated_periods": 3, "height": 0.5,
+          "tilt": 1.0471975511965976, "beyond_range": 0.01, "beyond_range_share": 0.01, "start_jump": 0.05, "touch": 0.0005,
+          "collision": 0.002, "sink": 0.005, "energy_residual": 0.01, "energy_created": 0.05, "slip": 0.2, "torque_error": 0.05,
+          "progress": 0}
+
+
+class Table:
+    """Columns by name; a column that the table does not have is none."""
+
+    def __init__(self, dataset):
+        self.rows = dataset[:]
+        self.columns = [name.decode() for name in dataset.attrs["columns"]]
+        self.index = {name: k for k, name in enumerate(self.columns)}
+
+    def __contains__(self, name):
+        return name in self.index
+
+    def __getitem__(self, name):
+        return self.rows[:, self.index[name]]
+
+    def __len__(self):
+        return len(self.rows)
+
+    def vector(self, prefix, names):
+        return np.stack([self[prefix + name] for name in names], -1)
+
+
+class Record:
+    def __init__(self, file):
+        with h5py.File(file) as h5:
+            self.trace = Table(h5["trace"])
+            tables = h5["recording"]
+            self.ticks, self.poses, self.joints, run = (Table(tables[name]) for name in ("ticks", "poses", "joints", "run"))
+            self.loads = Table(tables["loads"]) if "loads" in tables else None
+            self.scenario = yaml.load(h5.attrs["scenario"].decode(), Loader)
+            self.outcome = h5.attrs["outcome"].decode()
+        self.run = {name: run[name][0] for name in run.columns}
+        self.robot = Robot(self.scenario)
+        self.names, self.count = self.robot.joint_names, len(self.robot.joint_names)
+        self.limits = LIMITS | self.scenario.get("limits", {})
+        self.actuator = self.scenario["actuator"]
+        has_motors = self.actuator["type"] != "none"
+        self.driven = np.array([has_motors and driven for driven in self.robot.driven], bool)
+        self.t, self.end = self.ticks["t"], self.run["simulated"]
+        self.floating = self.scenario["robot"]["base"] == "floating"
+        self.ground = self.scenario["ground"]["type"]
+        self.mass = sum(body.mass for body in self.robot.bodies)
+        self.gravity = np.array(self.scenario["physics"]["gravity"], float)
+        self.weight = self.mass * np.linalg.norm(self.gravity)
+        self.solver = self.scenario["contact"].get("law") == "bullet"  # Bullet's own solver holds bodies apart
+        self.adaptive = self.scenario["physics"]["integrator"] == "adaptive"
+        self.motors()
+        self.motion_ = None
+
+    # ---- columns
+    def tick(self, what):
+        """(rows, joints), of all steps."""
+        return np.stack([self.ticks[f"joint.{j}.{what}"] for j in range(self.count)], -1)
+
+    def pose(self, what):
+        return np.stack([self.poses[f"joint.{j}.{what}"] for j in range(self.count)], -1)
+
+    def com(self):
+        return self.poses.vector("com.", "xyz")
+
+    def rotation(self):
+        return from_quaternion(self.poses.vector("base.q", "wxyz"))
+
+    def motion(self):
+        """Poses of all bodies at control ticks."""
+        if self.motion_ is None:
+            still = np.zeros((len(self.poses), 3))
+            angles = self.pose("angle") if self.count else np.zeros((len(self.poses), 0))
+            self.motion_ = self.robot.move(self.poses.vector("base.", "xyz"), self.rotation(), still, still, angles, 0 * angles)
+        return self.motion_
+
+    def per_joint(self, section, key, missing=np.nan):
+        """A number of every joint; what is not stated, and 0 where that means so, is `missing`."""
+        value = section.get(key)
+        if value is None:
+            return np.full(self.count, missing)
+        if isinstance(value, dict):
+            return np.array([float(value.get(name, value.get("default", missing))) for name in self.names])
+        return np.broadcast_to(np.array(value, float), (self.count,)).copy()
+
+    # ---- motors
+    def motors(self):
+        """Speed without load and torque at rest at the largest command, and whether there is a limit of it at all."""
+        a, kind, of = self.actuator, self.actuator["type"], lambda key: self.per_joint(self.actuator, key)
+        self.voltages = kind in ("dc_motor", "servo")
+        nothing = np.full(self.count, np.nan)
+        self.torque_constant = self.speed_constant = nothing  # efficiency Kt and Ks, of what could make energy
+        self.no_load, self.at_rest, self.limited, self.i_max = nothing, nothing, np.zeros(self.count, bool), nothing
+        with np.errstate(divide="ignore", invalid="ignore"):
+            if kind == "dc_motor":
+                self.no_load = of("u_max") / (of("Ks") * of("gear"))
+                current = np.minimum(of("u_max") / of("R"), of("i_max"))
+                self.at_rest = of("gear") * of("efficiency") * of("Kt") * current
+                self.limited, self.i_max = self.driven.copy(), of("i_max")
+                self.torque_constant, self.speed_constant = of("efficiency") * of("Kt"), of("Ks")
+                self.makes_energy = self.driven & (self.torque_constant > self.speed_constant * (1 + 1e-9))
+            elif kind == "servo":
+                v, t0, w0 = of("voltage"), of("stall_torque"), of("no_load_speed")
+                k = v / w0
+                u = np.where(of("u_max") > 0, of("u_max"), v)
+                efficiency = np.nan_to_num(of("efficiency"))
+                stall = np.nan_to_num(of("stall_current"))
+                stall = np.where(stall > 0, stall, t0 / (np.where(efficiency > 0, efficiency, 0.7) * k))
+                eta = t0 / (stall * k)
+                self.i_max = np.where(of("i_max") > 0, of("i_max"), stall * u / v)
+                self.no_load = w0 * u / v
+                self.at_rest = k * eta * np.minimum(stall * u / v, self.i_max)
+                self.limited = self.driven.copy()
+                self.makes_energy = self.driven & (eta > 1 + 1e-9)
+            else:
+                limit = np.nan_to_num(of("limit")) if kind == "torque" else np.zeros(self.count)
+                self.at_rest, self.limited = np.where(limit > 0, limit, np.nan), limit > 0
+                self.makes_energy = np.zeros(self.count, bool)
+        self.no_load[~np.isfinite(self.no_load)] = np.nan
+        self.ratings = {key: of(key) for key in ("i_continuous", "gear_torque_peak", "gear_torque_continuous", "speed_max")}
+        self.all_limited = bool(np.all(self.limited[self.driven]))
+
+    def torque_errors(self):
+        """Share by which the torque of every joint may be off, of its peak (at least 2 % of the largest of all); 0: no estimate."""
+        if not self.run["torque_error.estimated"] or not self.count:
+            return np.zeros(self.count)
+        peak, error = self.joints["torque_error_peak"], self.joints["torque_error"]
+        largest = max(peak.max(), 0)
+        return error / np.maximum(peak, 0.02 * largest) if largest > 0 else np.zeros(self.count)
+
+    # ---- energies
+    def residual(self):
+        """Of the ledger (docs/equations.md, 8): drawn, less where it went."""
+        e = self.run
+        return e["energy.electrical"] - sum(e["energy." + name] for name in (
+            "copper", "gear", "stored", "contact", "friction", "stops", "hinges"))
+
+    def least_energy(self):
+        return max(self.weight * 1e-3, np.finfo(float).tiny)
+
+    def energy_scale(self):
+        return max(abs(self.run["energy.electrical"]), abs(self.run["energy.stored"]), self.least_energy())

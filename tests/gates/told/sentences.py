@@ -1,0 +1,164 @@
+"""The sentences: one expression per check, and what a printed number allows.
+
+In an expression {name:format} is a number, {name} a part or a word. Formats are those of printf, and pct (percent, three digits),
+rough (percent, two digits below 10 %, else three), th (three decimals; of a thousand and more three digits), d (a whole number)."""
+import re
+
+NUMBER = r"[-+]?(?:\d+\.?\d*(?:e[-+]?\d+)?|nan|inf)"
+
+
+def printed(kind, value):
+    """As the sentence must have it."""
+    if kind == "pct":
+        return "%.3g" % (100 * value)
+    if kind == "rough":
+        return "%.*g" % (2 if value < 0.1 else 3, 100 * value)
+    if kind == "th":
+        return "%.3f" % value if value < 1000 else "%.3g" % value
+    return "%d" % value if kind == "d" else "%" + kind % value if "%" in kind else ("%" + kind) % value
+
+
+def same(kind, text, value, loose=0.0):
+    """A printed number is the recomputed one rounded, which is known to `loose`, and to 1e-9 of itself (sums of doubles)."""
+    value = float(value)
+    if value != value:
+        return text == "nan"
+    slack = 1e-9 * abs(value) + 1e-15 + loose
+    low, high = (float(printed(kind, end)) for end in (value - slack, value + slack))
+    return low <= float(text) <= high  # rounding keeps the order
+
+
+class Expression:
+    def __init__(self, text):
+        self.kinds, self.count = {}, 0
+
+        def place(match):
+            name, _, kind = match[1].partition(":")
+            self.count += 1
+            group = f"{name}__{self.count}"
+            self.kinds[group] = kind
+            if not kind:
+                return rf"(?P<{group}>[^\s;,:]+?)"
+            return rf"(?P<{group}>{NUMBER})" + (" %" if kind in ("pct", "rough") else "")
+
+        self.expression = re.compile(re.sub(r"\{([a-z_]+(?::[^}]*)?)\}", place, text))
+
+    def read(self, text):
+        """[(name, kind, printed)], or nothing where the sentence is another one."""
+        match = self.expression.fullmatch(text)
+        if not match:
+            return None
+        return [(group.rpartition("__")[0], kind, match[group]) for group, kind in self.kinds.items() if match[group] is not None]
+
+
+WITHIN = r"(?:; with the error of the torques {low:pct} to {high:pct} of the limit)?"
+LIMITED = (r"no joint is at the limit of its (?:voltage|current|actuator)"
+           r"|{parts:d} of {driven:d} joints? reach(?:es)? the limit of (?:its|their) (?:voltage|current|actuator); worst {worst}: "
+           r"(?:{share:pct} of the judged time, up to {stretch:.3g} s on end|{stretch:.3g} s on end, (?:more than |of at most )"
+           r"{most:g} control periods \({limit:.3g} s\), in all {share:pct} of the judged time)")
+NEAR = (r"(?:; joint {near_joint} is within the error of its torque, {error:rough}, of that limit for up to {near:pct} of the "
+        r"judged time)?")
+SHAPED = r"(?: \(\d+ of \d+ bodies have a shape\))?"
+
+
+def dock_sentence(does, unit):
+    return (rf"(?:{{worst}}'s dock is {does} by up to {{value:.3g}} {unit}|no dock is {does})"
+            r"(?:; the module types do not state what a dock holds|, {share:pct} of what it holds(?: by a chosen figure)?"
+            r"(?:; {open:d} of {docks:d} docks are not judged: what they hold is not stated)?)" + WITHIN)
+
+
+JUDGED = {
+    "outcome": r"the run came to its end|(?s:.+)",
+    "fall": r"the centre of mass (?:keeps at least|comes down to) {value:pct} of its height above the ground at the start"
+            r"|the centre of mass comes {below:.3g} m below the ground",
+    "progress": r"the robot goes {value:.3g} m (?:per period|in the judged time)(?:, less than {limit:.3g} m)?"
+                r"|the robot slides down: gravity does {fallen:.3g} J of work, the motors {driven:.3g} J, and its speed grows "
+                r"{value:.3g} times from the first half of the judged time to the second",
+    "upright": r"the base (?:turns over: it )?tilts by up to {value:.3g} rad from its start(?:, more than {tilt:.3g} rad "
+               r"\(limits\.tilt\))?",
+    "voltage": f"(?:{LIMITED})" + NEAR,
+    "current": f"(?:{LIMITED})" + NEAR,
+    "envelope": r"the torque of joint {worst} takes {value:pct} of what its (?:motor|actuator) has at that speed",
+    "speed": r"joint {worst} turns at up to {value:.3g} rad/s of {limit:.3g} rad/s(?:, more than it is rated for|, faster than its "
+             r"motor can drive it: the load does)?",
+    "heat": r"the motor of joint {worst} takes {value:.3g} A RMS, {share:pct} of its continuous rating" + WITHIN,
+    "gear_peak": r"the gear of joint {worst} takes up to {value:.3g} N m of {limit:.3g} N m" + WITHIN,
+    "gear_continuous": r"the gear of joint {worst} takes {value:.3g} N m RMS of {limit:.3g} N m" + WITHIN,
+    "tracking": r"joint {worst} is up to {value:th} rad from its set point",
+    "stops": r"no joint leaves its range|{parts:d} joints? leaves? the range of the hinge; worst {worst}: (?:by {angle:.3g} rad, "
+             r"for {share:pct} of the run|for {share:pct} of the run, more than {most:pct}, by up to {angle:.3g} rad)",
+    "setpoints": r"no set point leaves the range of its hinge|the set point of joint {worst} is beyond the range of its hinge for "
+                 r"{value:pct} of the run",
+    "start": r"the set point of joint {worst} is {value:.3g} rad from its angle at t = 0(?:, and its motor answers at once: peaks "
+             r"of the whole run may be of that)?",
+    "collision": r"no two bodies are in one another \(those on one hinge are not compared\)" + SHAPED +
+                 r"|{parts:d} pairs? of bodies pass(?:es)? through one another, deepest {worst} and {other}, by {mm:.3g} mm",
+    "dock_tension": dock_sentence("pulled apart", "N"),
+    "dock_shear": dock_sentence("sheared", "N"),
+    "dock_bending": dock_sentence("bent", "N m"),
+    "dock_torsion": dock_sentence("twisted", "N m"),
+    "in_ground": r"no body goes through the ground" + SHAPED + r"|body {worst} goes {mm:.3g} mm into the ground",
+    "slip": r"no foot slides under load|feet slide {value:pct} of the way under load, farthest {worst}, by {slid:.3g} of {way:.3g} m",
+    "airborne": r"the ground carries less than {weight:pct} of the weight for {value:pct} of the judged time",
+    "stability": r"a note: no foot bears a load for {aloft:pct} of the time; else the centre of mass stays {mm:.3g} mm within the "
+                 r"support polygon|statically stable: the centre of mass stays {mm:.3g} mm within the support polygon"
+                 r"|a note: the centre of mass comes {mm:.3g} mm out of the support polygon, and is out of it {outside:pct} of the "
+                 r"time on the ground, as it may be in a dynamic gait",
+    "field": r"the robot stays on its heightfield|the robot leaves its heightfield at t = {t:.2f} s, x {x:.3g} m, y {y:.3g} m: "
+             r"beyond it the heights of the border continue",
+    "periodic": r"the motion repeats every {period:.4g} s|the set points repeat, and the motion does not settle to a period",
+    "evidence": r"judged over (?:{periods:d} periods? of {period:.4g} s|{held:.3g} periods of {period:.4g} s; the motion does not "
+                r"settle|the last {judged:.3g} s; the set points do not repeat)",
+    "torque_error": r"the torque of joint {worst} is off by about {value:rough} of its peak, estimated from other steps",
+    "ledger": r"{value:pct} of the energy is unaccounted for(?:: {missing:.3g} J, of {drawn:.3g} J drawn)?",
+    "created": r"gears that are driven backwards give {value:pct} of the energy too much \(eq\. 2\)"
+               r"(?:; actuator\.efficiency_model: directional does not)?",
+    "supply": r"the motors draw {value:.3g} J|the motors gave {gave:.3g} J back to their supply instead of drawing any, so that the "
+              r"cost of transport is negative: the robot went down, or a motor makes energy",
+    "step": r"the step is too long in {value:pct} of the control ticks|in {value:pct} of the control ticks",
+    "coarse": r"in {value:rough} of the time the shortest steps of the integrator did not reach the accuracy {accuracy:rough}"
+              r"(?:: the result depends on the steps and may not be reproducible at any)?",
+    "law": r"every joint-step ends on the law of its motor and stop|{value:.0f} joint-steps ended off the law of their motor or "
+           r"stop: the torques there are wrong",
+}
+# What is missing: of the check `evidence`, and of a verdict that is not judged.
+MISSING = (r"{simulated:.3g} s are {held:.2g} of a gait's 3 periods of {period:.4g} s; take duration: {take:.4g}"
+           r"|{simulated:.3g} s are less than {least:g} s; take a longer duration"
+           r"|the ground carries {borne:pct} of the weight on average, less than {half:pct}: the robot is not on it"
+           r"|the motor of joint {creator} makes energy: efficiency x Kt {x:.4g} N m/A exceeds Ks {y:.4g} V s/rad; take Kt = Ks"
+           r"|no set point changes: cpg {cpg} moves no joint"
+           r"|the torque of joint {inaccurate} is off by about {off:rough} of its peak, more than {most:pct}; take .*"
+           r"|{residual:pct} of the energy is unaccounted for, more than {kept:pct}; take .*"
+           r"|in {coarse:rough} of the time the shortest steps do not reach the accuracy {accuracy:rough}")
+# A check that is not judged says why; a number in such a sentence is recomputed, too.
+NOT_JUDGED = (
+    r"judged of a floating base(?: above a ground| on a ground| that gravity holds on a ground, where the ground's forces are recorded)?"
+    r"|the base rolls: it makes a whole turn in every period"
+    r"|the base turns over at {over:.2f} s, and the run is too short to show whether it rolls"
+    r"|nothing drives the joints(?:, or statistics of all steps were not recorded)?"
+    r"|the actuator (?:is not made of DC motors, and has no voltage|states no limit|has torque at any speed, and states no largest one)"
+    r"|no (?:continuous current of the motors|(?:largest|continuous) torque of the gears) is stated \(actuator\.\w+\)"
+    r"|the solver of contact\.law bullet keeps bodies apart and above the ground|no body has a shape, or the run has no poses"
+    r"|judged (?:above a ground|on a heightfield|on a plane without boxes)|the robot starts beside its heightfield"
+    r"|the module types state no battery|the robot has no dock|no foot bears a load"
+    r"|not available with contact\.law: bullet, which yields impulses that do not all act at contact elements"
+    r"|the robot goes {mm:.3g} mm: less than {least_mm:.3g} mm is not walking"
+    r"|the robot goes {value:.3g} m (?:per period|in the judged time), less than {limit:.3g} m"
+    r"|the set points do not repeat|the run is too short|the error of the torques was not estimated in this run"
+    r"|the steps do not follow an accuracy|no rate was recorded"
+    r"|loads were not recorded: .*|what all steps did was not recorded: .*|the robot has no size, or the run has no control ticks")
+EXPRESSIONS = {check: Expression(text) for check, text in JUDGED.items()}
+WHY_NOT = Expression(NOT_JUDGED)
+LACKS = Expression(MISSING)
+RESTS_ON = Expression(JUDGED["evidence"].removeprefix("judged over "))
+NO_MOTORS = Expression(r"no limit of the motors is known|nothing drives the joints|(?:fall|in_ground) was not judged: .*")
+OPEN_DOCK = {check: Expression(JUDGED[check]) for check in JUDGED if check.startswith("dock_")}
+
+
+def read(check, status, text):
+    if check == "evidence" and status != "pass":
+        return LACKS.read(text)
+    if status == "not judged":
+        found = WHY_NOT.read(text)
+        return OPEN_DOCK[check].read(text) if found is None and check in OPEN_DOCK else found
+    return EXPRESSIONS[check].read(text)

@@ -1,0 +1,149 @@
+"""Evidence, accuracy, and the word: docs/reference/verdict.md."""
+import re
+
+import numpy as np
+
+from told.bodies import borne
+from told.check import Told, graded, margin
+from told.window import set_point_cycle
+
+SETTLED, PERIODS, LEAST_TIME, BORNE, RESIDUAL, COARSE = 0.01, 3, 2.0, 0.5, 0.05, 0.10
+
+
+def frequencies(record):
+    """Hz, of driven joints, where the CPG makes its set points repeat by it."""
+    cpg = record.scenario.get("cpg") or {}
+    if "frequency" not in cpg:
+        return []
+    if cpg["type"] == "equations" and "model" in cpg:
+        text = str(cpg["model"])
+        if "states" in cpg["model"] and not re.search(r"\b(frequency|omega)\b", text):
+            return []
+    f = record.per_joint(cpg, "frequency")
+    return [x for x in f[record.driven] if x > 0]
+
+
+def slowest_period(record):
+    """s, of the slowest set point: as they show it, else as the CPG states it; 0: they do not repeat."""
+    cpg = record.scenario.get("cpg") or {}
+    f = frequencies(record)
+    if f and record.end * min(f) < PERIODS * (1 - 1e-9):  # two periods show a repetition, but not where the amplitude grows
+        return 1 / min(f)
+    model = cpg.get("model") or {}
+    if cpg.get("type") == "keyframes" and model.get("repeat", True) and model.get("frames"):
+        last = model["frames"][-1]["time"]
+        if record.end < PERIODS * last * (1 - 1e-9):
+            return float(last)
+    found = set_point_cycle(record)
+    if found.found:
+        return found.period
+    asked = record.pose("setpoint")[:, record.driven] if record.driven.any() else np.zeros((1, 0))
+    return 1 / min(f) if f and np.ptp(asked, axis=0).max() > 0 else 0.0
+
+
+class Evidence:
+    def __init__(self, record, window):
+        found = window.cycle
+        self.period = slowest_period(record)
+        self.repeats, self.also = self.period > 0, {}
+        self.kind, self.long_enough = "time", record.end >= LEAST_TIME * (1 - 1e-9)
+        self.also = {"judged": window.end - window.start, "simulated": record.end, "least": LEAST_TIME}
+        if found.found and found.error <= SETTLED and window.periods:
+            self.kind, self.long_enough = "cycle", True
+            self.also |= {"periods": window.periods, "period": found.period}
+        elif self.period:
+            self.kind, held = "set points", record.end / self.period
+            self.long_enough = held >= PERIODS * (1 - 1e-9)
+            self.also |= {"held": held, "period": self.period, "take": PERIODS * self.period}
+        shares = borne(record, window)
+        self.share = float(shares.mean()) if shares is not None and len(shares) else np.nan
+        self.borne = record.solver or not self.share < BORNE  # a solver's impulses are not all recorded
+        self.untrusted = self.distrust(record)
+
+    def distrust(self, record):
+        """Which of the accuracies is missing; empty: none."""
+        if record.driven.any() and record.makes_energy.any():
+            return "makes energy"
+        asked = record.pose("setpoint")[:, record.driven] if record.driven.any() else np.zeros((1, 0))
+        cpg = record.scenario.get("cpg")
+        if record.driven.any() and self.long_enough and cpg and not (asked != asked[0]).any():
+            return "moves nothing"
+        error = record.torque_errors()
+        if len(error) and error.max() > record.limits["torque_error"]:
+            return "torque error"
+        if record.driven.any() and not abs(record.residual()) / record.energy_scale() <= RESIDUAL:
+            return "energy"
+        if record.adaptive and record.run["coarse_time"] / record.end > COARSE:
+            return "coarse"
+        return ""
+
+
+def periodic(record, window, evidence):
+    found = window.cycle
+    if not found.found and (not evidence.repeats or not evidence.long_enough):
+        return Told()
+    told = Told("pass" if found.found else "warn", found.error, 0.02, margin=margin(found.error, 0.02), also={"period": found.period})
+    # The error changes with the period at which it is taken, by up to 2 pi of the share by which that is off. Of a motion that does
+    # not repeat no period is sharp.
+    told.loose = 2 * np.pi * found.doubt() / found.error if found.found else 0.05
+    return told
+
+
+def torque_error(record):
+    error = record.torque_errors()
+    if not len(error) or not error.max() > 0:
+        return Told()
+    j = int(np.argmax(error))
+    accuracy = record.scenario["physics"].get("accuracy", 0) if record.adaptive else 0
+    limit = record.limits["torque_error"]
+    return Told(graded(error[j], min(max(0.01, accuracy), limit), np.inf), error[j], limit, margin=margin(error[j], limit),
+                worst=record.names[j], ties=[record.names[j]])
+
+
+def ledger(record):
+    if not record.driven.any():
+        return Told()
+    missing, limit = abs(record.residual()), record.limits["energy_residual"]
+    value = missing / record.energy_scale()
+    return Told(graded(value, limit, np.inf), value, limit, margin=margin(value, limit),
+                also={"missing": missing, "drawn": abs(record.run["energy.electrical"])})
+
+
+def created(record):
+    if not record.driven.any():
+        return Told()
+    value, limit = record.joints["created"].sum() / record.energy_scale(), record.limits["energy_created"]
+    return Told(graded(value, limit, np.inf), value, limit, margin=margin(value, limit))
+
+
+def supply(record):
+    if not record.driven.any():
+        return Told()
+    value, drawn = record.run["energy.electrical"], record.joints["electrical"].sum()
+    gave = value < -record.least_energy() or (record.weight > 0 and drawn < 0)
+    return Told("warn" if gave else "pass", value, 0.0, least=True, margin=value, also={"gave": max(-value, -drawn)})
+
+
+def step(record):
+    ticks = record.run["control_ticks"]
+    if not ticks:
+        return Told()
+    value = record.run["control_ticks_above_1"] / ticks
+    told = Told(graded(value, 0.01, np.inf), value, 0.01, margin=margin(value, 0.01))
+    if told.status == "warn":
+        told.start = told.end = record.run["stability.time"]
+    return told
+
+
+def coarse(record):
+    if not record.adaptive or not record.end > 0:
+        return Told()
+    value = record.run["coarse_time"] / record.end
+    return Told(graded(value, 0.10, np.inf), value, 0.10, margin=margin(value, 0.10),
+                also={"accuracy": record.scenario["physics"]["accuracy"]})
+
+
+def law(record):
+    if not record.driven.any():
+        return Told()
+    return Told(graded(record.run["off_law"], 0, np.inf), record.run["off_law"], 0.0, margin=-record.run["off_law"])

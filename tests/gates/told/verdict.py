@@ -1,0 +1,242 @@
+"""All checks of a record, the word that follows from them, and what a verdict.json says otherwise."""
+import math
+
+import numpy as np
+
+from told import bodies, motors, trust
+from told.check import Told, graded, margin
+from told.sentences import LACKS, NO_MOTORS, RESTS_ON, read, same
+from told.shapes import Collisions, depths
+from told.window import Window, limit_cycle
+
+GROUPS = {"motor": ("voltage", "current", "envelope", "speed", "heat", "gear_peak", "gear_continuous"),
+          "trust": ("periodic", "evidence", "torque_error", "ledger", "created", "supply", "step", "coarse", "law")}
+WHOLE = {"outcome", "fall", "upright", "gear_peak", "stops", "setpoints", "start", "collision", "dock_tension", "dock_shear",
+         "dock_bending", "dock_torsion", "in_ground", "field", "torque_error", "ledger", "created", "supply", "step", "coarse", "law"}
+CAN_FAIL = {"outcome", "fall", "progress", "upright", "voltage", "current", "speed", "heat", "gear_peak", "gear_continuous",
+            "tracking", "stops", "collision", "dock_tension", "dock_shear", "dock_bending", "dock_torsion", "in_ground"}
+
+def outcome(record):
+    done = record.run["ended"] == 0
+    duration = record.scenario["duration"]
+    return Told("pass" if done else "fail", record.end, duration, least=True, outcome=record.outcome)
+
+
+def in_ground(record):
+    """Above a plane; of other grounds and of what touches it, nothing is recomputed here: none."""
+    if record.solver or record.ground == "none":
+        return Told()
+    found = depths(record)
+    if not found:
+        return Told()
+    if record.ground != "plane":
+        return None
+    limit, t = record.limits["sink"], record.poses["t"]
+    body = max(found, key=lambda b: found[b].max())
+    depth = found[body]
+    deepest, k = depth.max(), int(np.argmax(depth))
+    if deepest <= limit:
+        return Told("pass", 0.0, limit, margin=1.0)
+    told = Told("fail", deepest, limit, margin=margin(deepest, limit), worst=body, start=t[k], end=t[k], also={"mm": 1000 * deepest})
+    told.ties = [b for b in found if found[b].max() >= deepest * (1 - 1e-9)]
+    firsts = {b: t[np.argmax(found[b] > limit)] for b in found if found[b].max() > limit}
+    told.first, told.parts = min(firsts.values()), len(firsts)
+    told.first_parts = [b for b in firsts if firsts[b] == told.first]
+    return told
+
+
+def collision(record):
+    if record.solver:
+        return Told()
+    found = Collisions(record)
+    if not found.shaped:
+        return Told()
+    limits = record.limits
+    told = Told("pass", 0.0, limits["collision"], margin=margin(0.0, limits["collision"]))
+    if not found.pairs:
+        return told
+    depth, when = max(found.pairs.values())
+    told = Told(graded(depth, limits["touch"], limits["collision"]), depth, limits["collision"], start=when, end=when)
+    told.margin, told.loose = margin(depth, limits["collision"]), 3e-6 / depth  # m, of the search for the way out
+    told.undecided = tuple({graded(depth - 3e-6, limits["touch"], limits["collision"])} - {told.status})
+    told.ties = tuple({name for pair, (d, _) in found.pairs.items() if d >= depth - 3e-6 for name in pair})
+    told.worst, told.parts, told.first = told.ties[0], len(found.pairs), found.first
+    told.first_parts = tuple(found.first_bodies)
+    told.rows = {(when, when)}
+    told.also = {"mm": 1000 * depth, "other": told.ties}
+    return told
+
+
+class Judged:
+    """checks: {id: Told, or none where nothing is recomputed}; word, and `lacks`, what is missing for it."""
+
+    def __init__(self, record, start=None, whole=True):
+        self.record = r = record
+        self.window = w = Window(record, limit_cycle(record))
+        self.own_start = w.start
+        if start is not None:
+            w.set(record, start)
+        self.evidence = e = trust.Evidence(record, w)
+        self.checks = {
+            "outcome": outcome(r), "fall": bodies.fall(r, w), "progress": bodies.progress(r, w, e.borne, e.long_enough),
+            "upright": bodies.upright(r, w, e.period), "voltage": motors.at_limit(r, w, "voltage"),
+            "current": motors.at_limit(r, w, "current"), "envelope": motors.envelope(r, w), "speed": motors.speed(r, w),
+            "heat": motors.heat(r, w), "gear_peak": motors.gear_peak(r, w), "gear_continuous": motors.gear_continuous(r, w),
+            "tracking": motors.tracking(r, w), "stops": motors.stops(r, w), "setpoints": motors.setpoints(r, w),
+            "start": motors.start(r, w), "collision": collision(r) if whole else None,
+            "dock_tension": bodies.dock(r, "tension"), "dock_shear": bodies.dock(r, "shear"),
+            "dock_bending": bodies.dock(r, "bending"), "dock_torsion": bodies.dock(r, "torsion"), "battery": Told(),
+            "in_ground": in_ground(r), "slip": bodies.slip(r, w), "airborne": bodies.airborne(r, w),
+            "stability": bodies.stability(r, w), "field": bodies.field(r, w), "periodic": trust.periodic(r, w, e),
+            "evidence": Told(), "torque_error": trust.torque_error(r), "ledger": trust.ledger(r), "created": trust.created(r),
+            "supply": trust.supply(r), "step": trust.step(r), "coarse": trust.coarse(r), "law": trust.law(r)}
+        complete = e.long_enough and e.borne and not e.untrusted
+        self.checks["evidence"] = Told("pass" if complete else "not judged", w.end - w.start, also=self.missing())
+        for check, told in self.checks.items():
+            if told is None:
+                continue
+            told.span = told.span or ("whole run" if check in WHOLE else "window")
+            told.can_fail = check in CAN_FAIL if told.can_fail is None else told.can_fail
+            told.doubt = w.cycle.doubt()
+            if told.status == "not judged" or check == "outcome":
+                told.margin = np.nan
+
+    def missing(self):
+        """The numbers of the sentence on what is missing."""
+        r, e = self.record, self.evidence
+        errors = r.torque_errors()
+        j = int(np.argmax(errors)) if len(errors) else 0
+        creators = np.flatnonzero(r.makes_energy) if r.count else []
+        return e.also | {
+            "borne": e.share, "half": 0.5, "off": errors[j] if len(errors) else np.nan, "inaccurate": r.names[j] if r.count else None,
+            "most": r.limits["torque_error"], "residual": abs(r.residual()) / r.energy_scale(), "kept": 0.05,
+            "coarse": r.run["coarse_time"] / r.end if r.end else np.nan, "accuracy": r.scenario["physics"].get("accuracy", np.nan),
+            "creator": r.names[creators[0]] if len(creators) else None, "cpg": (r.scenario.get("cpg") or {}).get("type"),
+            "x": r.torque_constant[creators[0]] if len(creators) else np.nan,
+            "y": r.speed_constant[creators[0]] if len(creators) else np.nan}
+
+    def word(self, checks):
+        """The word that follows from these checks (as the program has them, so that one difference is one), in words of the manual."""
+        e, record = self.evidence, self.record
+        of = {c["id"]: c for c in checks}
+        status = {name: c["status"] for name, c in of.items()}
+        failing = [c for c in checks if c["status"] == "fail"]
+        if status["outcome"] == "fail":
+            return "failed"
+        trusted = not e.untrusted
+        if failing and trusted and (e.long_enough or any(c["span"] == "whole run" for c in failing)):
+            return "infeasible"
+        if failing or not (e.long_enough and e.borne and trusted) or "too close" in status.values():
+            return "not judged"
+        if all(status[name] == "not judged" for name in GROUPS["motor"]):
+            return "not judged"
+        if record.floating and record.ground != "none" and not record.solver and "not judged" in (status["fall"], status["in_ground"]):
+            return "not judged"
+        return "feasible"
+
+
+def tightest(checks):
+    """Ids of the checks that can fail and have the least margin."""
+    may = [c for c in checks if c["can_fail"] and c["margin"] is not None and (c["limit"] != 0 or c["status"] == "fail")]
+    least = min((c["margin"] for c in may), default=None)
+    return [c["id"] for c in may if c["margin"] <= least + 1e-12 * max(1, abs(least))] if may else [None]
+
+
+def close(a, b, loose=1e-9):
+    """Doubles of one file, summed in another order: 1e-9. What is null is not a number here."""
+    a, b = (math.nan if x is None else float(x) for x in (a, b))
+    return (math.isnan(a) and math.isnan(b)) or abs(a - b) <= loose * max(abs(a), abs(b)) + 1e-12
+
+
+def compare(told, check):
+    """What verdict.json has otherwise, as texts."""
+    told, wrong = told.of(check["worst"]), []
+
+    def must(ok, what, expected, found):
+        if not ok:
+            wrong.append(f"{check['id']}: {what} {found}, recomputed {expected}")
+
+    status = check["status"]
+    must(status == told.status or status in told.undecided, "status", told.status, status)
+    if check["span"] != told.span:
+        must(False, "span", told.span, check["span"])
+    must(check["can_fail"] == told.can_fail, "can_fail", told.can_fail, check["can_fail"])
+    if status != told.status or status == "not judged" and check["id"] not in ("evidence",):
+        return wrong
+    loose = getattr(told, "loose", 1e-9)
+    for name, expected in (("value", told.value), ("limit", told.limit), ("margin", told.margin), ("error", told.error)):
+        allowed = loose * abs(told.value)
+        if name == "margin":  # follows from the value; that of a stretch of rows counts the control periods to 1e-6
+            allowed = allowed / abs(told.limit or 1) + (2e-6 if check["id"] in GROUPS["motor"][:2] else 0) * (1 + abs(expected))
+        must(close(check[name], expected) or check[name] is not None and abs(check[name] - expected) <= allowed + 2e-6 * abs(
+            expected) * (told.unit == "s"), name, expected, check[name])
+    must(check["worst"] in (told.ties or (told.worst,)) or check["worst"] == told.worst, "worst", told.ties or told.worst, check["worst"])
+    must(check["parts"] == told.parts, "parts", told.parts, check["parts"])
+    timed = told.worst is None or check["worst"] == told.worst or check["id"] in ("collision", "in_ground")
+    if timed and not told.plateau(check["from"], check["to"]):
+        must(close(check["from"], told.start), "from", told.start, check["from"])
+        must(close(check["to"], told.end), "to", told.end, check["to"])
+    must(close(check["first"], told.first), "first", told.first, check["first"])
+    parts = getattr(told, "first_parts", [told.first_part])
+    must(check["first_part"] in parts, "first_part", parts, check["first_part"])
+    return wrong
+
+
+def hear(told, check, text, who):
+    """What a sentence says otherwise."""
+    found = read(check["id"], check["status"], text)
+    if found is None:
+        return [f"{who}: no expression reads this sentence of {check['id']}: {text!r}"]
+    if told is None:
+        return []
+    if check["id"] == "outcome" and check["status"] == "fail" and text != told.outcome:
+        return [f"{who}: outcome: {text!r}, recorded {told.outcome!r}"]
+    told = told.of(check["worst"])
+    numbers, wrong = told.numbers(), []
+    for name, kind, said in found:
+        expected = numbers.get(name)
+        if not kind:
+            ok = said == expected or name == "worst" and said in told.ties or isinstance(expected, tuple) and said in expected
+        else:
+            ok = expected is not None and same(kind, said, expected)
+            if not ok and name in ("value", "mm") and hasattr(told, "loose"):
+                ok = same(kind, said, expected, told.loose * abs(expected))
+            if not ok and name == "period" and expected:
+                ok = same(kind, said, expected, told.doubt * expected)
+        if not ok:
+            wrong.append(f"{who}: {check['id']}: {name} is {said} in {text!r}, recomputed {expected}")
+    return wrong
+
+
+def hear_evidence(judged, verdict):
+    """`rests_on`, and the reason of a verdict that is not judged: what is missing, what fails so far, or what is too close."""
+    lacks, wrong = judged.missing(), []
+
+    def numbers(found, text):
+        for name, kind, said in found:
+            loose = judged.window.cycle.doubt() * lacks[name] if name in ("period", "held", "take") and name in lacks else 0
+            if name not in lacks or not (same(kind, said, lacks[name], loose) if kind else said == lacks[name]):
+                wrong.append(f"evidence: {name} is {said} in {text!r}, recomputed {lacks.get(name)}")
+
+    found = RESTS_ON.read(verdict["rests_on"])
+    if found is None:
+        return [f"evidence: no expression reads {verdict['rests_on']!r}"]
+    numbers(found, verdict["rests_on"])
+    says = "time" if "do not repeat" in verdict["rests_on"] else "set points" if "does not settle" in verdict["rests_on"] else "cycle"
+    if says != judged.evidence.kind:
+        wrong.append(f"rests_on is of the {says}, {verdict['rests_on']!r}, recomputed the {judged.evidence.kind}")
+    if verdict["verdict"] != "not judged":
+        return wrong + ([f"reason is {verdict['reason']!r}"] if verdict["reason"] else [])
+    reason, _, so_far = verdict["reason"].partition("; so far: ")
+    fails = [c["text"] for c in verdict["checks"] if c["status"] == "fail"]
+    close_ = [c["text"] for c in verdict["checks"] if c["status"] == "too close"]
+    if so_far and so_far != (fails or [None])[0]:
+        wrong.append(f"reason: so far {so_far!r}, recomputed {fails[:1]}")
+    if reason in close_[:1] and not fails:
+        return wrong
+    found = LACKS.read(reason)
+    if found is not None:
+        numbers(found, reason)
+    elif NO_MOTORS.read(reason) is None:
+        wrong.append(f"reason: no expression reads {reason!r}")
+    return wrong
