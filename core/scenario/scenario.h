@@ -67,24 +67,23 @@ struct FigureSettings {
 
 /// What the verdict on a run allows (report/verdict/verdict.h).
 struct Limits {
-  static constexpr double kMostResidual = 0.05;  ///< of energy_residual: a run that leaves more unaccounted for is not judged
-  double warn_share = 0.8;                       ///< of what a motor, gear or dock has
-  double tracking_error = 0.1;                   ///< rad
-  double saturated_share = 0.01;                 ///< of the judged window
-  double saturated_periods = 3;                  ///< control periods on end
-  double height = 0.5;                           ///< of the centre of mass, of that at the start
-  double tilt = 1.0471975511965976;              ///< rad
-  double beyond_range = 0.01;                    ///< rad
-  double beyond_range_share = 0.01;              ///< of the time
-  double start_jump = 0.05;                      ///< rad
-  double touch = 5e-4;                           ///< m: bodies that are deeper in one another collide
-  double collision = 0.002;                      ///< m
-  double sink = 0.005;                           ///< m
-  double energy_residual = 0.01;                 ///< of what was drawn, or stored, or the least that counts
-  double energy_created = 0.05;                  ///< of the same
-  double slip = 0.2;                             ///< of the way of the centre of mass
-  double torque_error = 0.05;                    ///< of a joint's largest torque
-  double progress = 0;                           ///< of the robot's extent, per period; 0: nothing is asked for
+  double warn_share = 0.8;           ///< of what a motor, gear or dock has
+  double tracking_error = 0.1;       ///< rad
+  double saturated_share = 0.01;     ///< of the judged window
+  double saturated_periods = 3;      ///< control periods on end
+  double height = 0.5;               ///< of the centre of mass, of that at the start
+  double tilt = 1.0471975511965976;  ///< rad
+  double beyond_range = 0.01;        ///< rad
+  double beyond_range_share = 0.01;  ///< of the time
+  double start_jump = 0.05;          ///< rad
+  double touch = 5e-4;               ///< m: bodies that are deeper in one another collide
+  double collision = 0.002;          ///< m
+  double sink = 0.005;               ///< m
+  double energy_residual = 0.01;     ///< of what was drawn, or stored, or the least that counts
+  double energy_created = 0.05;      ///< of the same
+  double slip = 0.2;                 ///< of the way of the centre of mass
+  double torque_error = 0.05;        ///< of a joint's largest torque
+  double progress = 0;               ///< of the robot's extent, per period; 0: nothing is asked for
   bool operator==(const Limits&) const = default;
   void fields(Fields& f);
 };

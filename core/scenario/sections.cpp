@@ -219,7 +219,7 @@ void Limits::fields(Fields& f) {
   f.number("sink", sink, {"m", 0, 10, "How deep a body may be in the ground. Default: the softness of the ground."});
   f.number(
       "energy_residual", energy_residual,
-      {"", 0, kMostResidual,
+      {"", 0, 1,
        "Share of the energy drawn that may be unaccounted for without a warning; above 5 % a run is not judged. Default: the "
        "error of the torques that is judged."});
   f.number("energy_created", energy_created,

@@ -129,7 +129,7 @@ std::vector<SummaryNumber> run_numbers() {
        .definition =
            "Start of the window by which the run is judged: whole periods up to the end, from the limit cycle on, or from "
            "earlier on where more than one period would be left out; without a limit cycle 2 s or a fifth of the "
-           "run, whichever is earlier.",
+           "run, whichever is earlier; where the set points do not repeat, 0.",
        .value = [](R r) { return r.summary.judged.from; },
        .line = {42, "judged", texts::window}},
       {.key = "judged.to", .unit = "s", .definition = "Its end.", .value = [](R r) { return r.summary.judged.to; }},

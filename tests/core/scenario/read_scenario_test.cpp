@@ -212,8 +212,8 @@ TEST_F(ScenarioTest, LimitsThatContradictOneAnother) {
 }
 
 TEST_F(ScenarioTest, LimitsBeyondWhatTheyAreSharesOf) {
-  EXPECT_EQ(error(kShort + "limits: {energy_residual: 0.06}\n"),
-            "DIR/s.yaml:3:27: error: energy_residual is 0.06; allowed are 0 to 0.05");
+  EXPECT_EQ(error(kShort + "limits: {energy_residual: 1.1}\n"),
+            "DIR/s.yaml:3:27: error: energy_residual is 1.1; allowed are 0 to 1");
   EXPECT_EQ(error(kShort + "limits: {saturated_share: 1.1, warn_share: 1.2}\n"),
             "DIR/s.yaml:3:27: error: saturated_share is 1.1; allowed are 0 to 1\n"
             "DIR/s.yaml:3:44: error: warn_share is 1.2; allowed are 0 to 1");
