@@ -177,7 +177,8 @@ class Gate:
                 self.wrong.append(("sweep", f"point {k}: message {row['message']!r}, run {verdict['reason'] or why!r}"))
 
     def mutate(self, told, check):
-        """A sentence with another number must be heard as wrong: each number of it, one after the other, a tenth larger."""
+        """A sentence with another number must be heard as wrong: each number of it, one after the other, a tenth and two of its last
+        digit larger."""
         if hear(told, check, check["text"], ""):
             return
         said = check["text"].split("; take physics")[0]  # advice has its own numbers
@@ -185,7 +186,9 @@ class Gate:
             value = float(match[0])
             if 0 < value < 1e-12:
                 continue  # rounding
-            other = f"{value * 1.1 + (value == 0):.3g}" if "." in match[0] or value > 100 else f"{value + 1:.0f}"
+            last = 10.0 ** -len(match[0].partition(".")[2]) if "e" not in match[0] else 0  # of a time on the edge of two digits
+            larger = max(value * 1.1, value + 2 * last) + (value == 0)
+            other = f"{larger:.3g}" if "." in match[0] or value > 100 else f"{value + 1:.0f}"
             changed = check["text"][:match.start()] + other + check["text"][match.end():]
             self.mutants += 1
             if float(other) != value and not hear(told, check, changed, ""):

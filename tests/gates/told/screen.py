@@ -20,8 +20,8 @@ LINES = {
               r"(?: current limit: {c_some:d} joints?, {c_joint} longest, {c_share:pct})?)"
               r"(?: before: {ever:d} of {driven:d} joints?, {ever_joint} longest: {ever_share:pct} of the run)?"
               r"(?: first of the run: {first} at t = {first_time:.2f} s \((?:voltage|current)\))?",
-    "torque": r"{longest}: peak " + AT.replace("%s", "") + r" RMS {rms:.3f} N m(?: largest: {strongest}: " + AT.replace("%s", "strongest_") +
-              r")?(?: before: {ever_strongest}: " + AT.replace("%s", "ever_") + r")?"
+    "torque": r"{longest}: peak " + AT.replace("%s", "") + r" RMS {rms:.3f} N m(?: largest: {strongest}: " +
+              AT.replace("%s", "strongest_") + r")?(?: before: {ever_strongest}: " + AT.replace("%s", "ever_") + r")?"
               r"(?: at most {of_rest:.0f} % of what a motor has at rest \({rest_joint}, {rest:.3f} N m\))?",
     "tracking": r"{far}: {error:th} rad at t = {error_time:.2f} s(?: before: {ever_far}: {ever_error:th} rad at t = "
                 r"{ever_error_time:.2f} s)?",

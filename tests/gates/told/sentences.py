@@ -57,7 +57,8 @@ def same(kind, text, value, loose=0.0):
     said, low, high = (re.fullmatch(rf"({NUMBER})( \S+)?", one) for one in (text, *ends))
     if not (said and low and high and said[2] == low[2] == high[2]):
         return False
-    return float(low[1]) <= float(said[1]) <= float(high[1])  # rounding keeps the order
+    rounded = said[1] == (printed(kind, float(said[1])) if kind not in WITH_UNIT else said[1])
+    return rounded and float(low[1]) <= float(said[1]) <= float(high[1])  # rounding keeps the order
 
 
 class Expression:

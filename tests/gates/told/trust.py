@@ -13,14 +13,23 @@ SETTLED, PERIODS, LEAST_TIME, BORNE, RESIDUAL, COARSE = 0.01, 3, 2.0, 0.5, 0.05,
 ESTIMATE = 1e-3  # of a period: what three may miss
 
 
+def read_by_output(model):
+    """The texts of equations on which set points depend: that of the output, and of the states that these read."""
+    states, texts, seen = {name: str(text) for name, text in model.get("states", {}).items()}, [str(model["output"])], set()
+    for text in texts:  # grows
+        for name in states.keys() & set(re.findall(r"\w+", text)) - seen:
+            seen.add(name)
+            texts.append(states[name])
+    return " ".join(texts)
+
+
 def frequencies(record):
     """Hz, of driven joints, where the CPG makes its set points repeat by it."""
     cpg = record.scenario.get("cpg") or {}
     if "frequency" not in cpg:
         return []
     if cpg["type"] == "equations" and "model" in cpg:
-        text = str(cpg["model"])
-        if "states" in cpg["model"] and not re.search(r"\b(frequency|omega)\b", text):
+        if not re.search(r"\b(frequency|omega)\b", read_by_output(cpg["model"])):
             return []
     f = record.per_joint(cpg, "frequency")
     return [x for x in f[record.driven] if x > 0]
@@ -68,14 +77,14 @@ class Evidence:
     def support(self, record, window):
         """Why no ground bears a robot that floats; empty: one does, or nobody can know."""
         shares = borne(record, window)
-        self.share = float(shares.mean()) if shares is not None and len(shares) and not record.solver else np.nan
+        self.share = float(shares.mean()) if shares is not None and len(shares) else np.nan
         if not record.floating:
             return ""
         if not np.linalg.norm(record.gravity) > 0:
             return "no gravity"
         if record.ground == "none" or not record.solver and not elements(record):
             return "falls freely"
-        return "not on it" if self.share < BORNE else ""  # a solver's impulses are not all recorded
+        return "not on it" if self.share < BORNE else ""
 
     def nobody_knows(self, record):
         """What is no evidence for or against the word, in the order in which it is named."""

@@ -123,7 +123,8 @@ class Judged:
         j = int(np.argmax(errors)) if len(errors) else 0
         creators = np.flatnonzero(r.makes_energy) if r.count else []
         return e.also | {
-            "borne": e.share, "unknown": " and ".join(e.unknown), "half": 0.5, "off": errors[j] if len(errors) else np.nan, "inaccurate": r.names[j] if r.count else None,
+            "borne": e.share, "unknown": " and ".join(e.unknown), "half": 0.5, "off": errors[j] if len(errors) else np.nan,
+            "inaccurate": r.names[j] if r.count else None,
             "most": r.limits["torque_error"], "residual": abs(r.residual()) / r.energy_scale(), "kept": 0.05,
             "coarse": r.run["coarse_time"] / r.end if r.end else np.nan, "accuracy": r.scenario["physics"].get("accuracy", np.nan),
             "creator": r.names[creators[0]] if len(creators) else None, "cpg": (r.scenario.get("cpg") or {}).get("type"),
