@@ -153,11 +153,12 @@ def shortfall(facts, first, judged, meta_, must, failing):
     at = told.first if told else first["first"]
     unit = first["unit"]
     text = facts.pop("First over the limit", None)
-    expects = at is not None and at == at and (told.first_part if told else first["first_part"]) is not None
+    firsts = names_of(told, first, "first_part") - {None}
+    expects = at is not None and at == at and bool(firsts)
     if expects or text is not None:
-        names = part(meta_, first, names_of(told, first, "first_part"))
+        names = part(meta_, first, firsts)
         ok = expects and text is not None and any(text.startswith(name + " at ") for name in names)
-        must(ok and moment(text.rsplit(" at ", 1)[1], at), "First over the limit", (names_of(told, first, "first_part"), at), of)
+        must(ok and moment(text.rsplit(" at ", 1)[1], at), "First over the limit", (firsts, at), of)
     text = facts.pop("Worst", None)
     worst = names_of(told, first, "worst") - {None}
     if text is not None:

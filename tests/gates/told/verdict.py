@@ -207,6 +207,7 @@ def compare(told, check):
         must(close(check[name], expected) or check[name] is not None and abs(check[name] - expected) <= allowed + 2e-6 * abs(
             expected) * (told.unit == "s"), name, expected, check[name])
     must(check["worst"] in (told.ties or (told.worst,)) or check["worst"] == told.worst, "worst", told.ties or told.worst, check["worst"])
+    must(told.unit in (None, check["unit"]), "unit", told.unit, check["unit"])
     must(check["parts"] == told.parts, "parts", told.parts, check["parts"])
     timed = told.worst is None or check["worst"] == told.worst or check["id"] in ("collision", "in_ground")
     if timed and not told.plateau(check["from"], check["to"]):
