@@ -52,7 +52,7 @@ def same(kind, text, value, loose=0.0):
         return text == "nan"
     slack = 1e-9 * abs(value) + 1e-15 + loose
     ends = [printed(kind, end) for end in (value - slack, value + slack)]
-    if text in ends:
+    if text in (printed(kind, value), *ends):
         return True
     said, low, high = (re.fullmatch(rf"({NUMBER})( \S+)?", one) for one in (text, *ends))
     if not (said and low and high and said[2] == low[2] == high[2]):
