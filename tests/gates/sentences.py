@@ -29,7 +29,7 @@ except ImportError as error:
 
 from told import draws, page, screen
 from told.record import Record
-from told.verdict import Judged, compare, hear, hear_evidence, tightest
+from told.verdict import Judged, compare, hear, hear_evidence, sentence, tightest
 
 SEED = 20
 # (runs, what is said, why that is wrong): what the program has yet to be mended in.
@@ -167,7 +167,7 @@ class Gate:
             point = [x for key in ("cpg.amplitude", "actuator.i_max") for x in ("--set", f"{key}={row[key]}")]
             run(self.program, "run", source, *sets, *point, "--out", self.work / f"point-{k}", "--no-report", "--quiet")
             verdict = json.loads((self.work / f"point-{k}" / "verdict.json").read_text())
-            why = next((c["text"] for c in verdict["checks"] if c["status"] == "fail"), "")
+            why = next((sentence(c) for c in verdict["checks"] if c["id"] == verdict["decided_by"]), "")
             expected = {f"margin.{c['id']}": c["margin"] for c in verdict["checks"] if c["margin"] is not None and c["can_fail"]}
             expected["margin"] = min(c["margin"] for c in verdict["checks"] if c["can_fail"] and c["margin"] is not None)
             wrong = {key: (row[key], value) for key, value in expected.items() if row[key] == "" or float(row[key]) != value}
