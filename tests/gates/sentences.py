@@ -44,7 +44,8 @@ MUST |= {check: ("pass", "fail") for check in ("outcome", "fall", "in_ground")}
 MUST |= {"progress": ("pass", "warn", "fail"), "stability": ("pass",), "evidence": ("pass", "not judged"), "supply": ("pass",),
          "step": ("pass",), "coarse": ("pass",), "law": ("pass",)}
 WORDS = ("feasible", "infeasible", "not judged", "failed")
-
+REASONS = ("of a gait's 3 periods", "so far: ", "makes energy", "moves no joint", "off by about", "nothing drives the joints",
+           "with the error of the torques", "the shortest steps", "there is no gravity", "falls freely")
 
 
 def run(program, *arguments):
@@ -60,7 +61,7 @@ class Gate:
     def __init__(self, program, scenarios, work):
         self.program, self.scenarios, self.work = program, scenarios, work
         self.wrong, self.said, self.met, self.words, self.lines = [], 0, collections.Counter(), collections.Counter(), set()
-        self.pages, self.mutants, self.survivors, self.begins = 0, 0, [], collections.Counter()
+        self.pages, self.mutants, self.survivors, self.begins, self.reasons = 0, 0, [], collections.Counter(), []
 
     def hear(self, rng, name, scenario, settings, fixed=None):
         """One run: a draft, limits around it, the run, and all that it says."""
@@ -108,6 +109,7 @@ class Gate:
         wrong += hear_evidence(judged, verdict)
         word = judged.word(verdict["checks"])
         self.words[verdict["verdict"]] += 1
+        self.reasons.append(verdict["reason"])
         if word != verdict["verdict"]:
             wrong.append(f"the word is {verdict['verdict']}, recomputed {word}")
         if verdict["tightest"] not in tightest(verdict["checks"]):
@@ -239,6 +241,10 @@ def main():
             if not gate.words[word]:
                 open_.append(word)
                 print(f"WRONG no run is {word}")
+        for words in REASONS:
+            if not any(words in reason for reason in gate.reasons):
+                open_.append(words)
+                print(f"WRONG no run is not judged for {words!r}")
     print(f"{sum(gate.words.values())} runs, {gate.said} sentences, {gate.pages} pages, {gate.mutants} changed numbers: "
           f"{dict(gate.words)}; {len(open_)} wrong")
     print("; ".join(f"{check} {status} {count}" for (check, status), count in sorted(gate.met.items()) if status != "not judged"))

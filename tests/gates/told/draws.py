@@ -92,6 +92,14 @@ RUNS = {
     "back-driven": ("caterpillar", FAST + ["duration=3.2", "cpg.frequency=1", "actuator.efficiency=0.35",
         "actuator.efficiency_model=directional"]),
 }
+# Robots that nothing bears.
+SLOW = ["cpg.frequency=0.5", "cpg.amplitude=0.2", "duration=6"]
+EASY = {"saturated_share": 0.99, "saturated_periods": 1000, "tilt": 1.5, "tracking_error": 1, "torque_error": 0.9}
+UNBORNE = {
+    "without gravity": ("caterpillar", FAST + SLOW + ["physics.gravity=[0, 0, 0]"], EASY),
+    "above nothing": ("caterpillar", FAST + SLOW + ["ground.type=none", "contact.on=none"], EASY),
+    "touches nothing": ("caterpillar", FAST + SLOW + ["contact.on=none"], EASY),
+}
 CPGS = ["sine", "hopf", "kuramoto_amplitude", "matsuoka", "phase_oscillator", "van_der_pol"]
 GAITS = {"frequency": (0.8, 1.25), "amplitude": (0.75, 1.2)}
 
@@ -195,4 +203,4 @@ def plan(seed):
         texts = [TREE.format(name=f"random-{k}", docks=random_tree(rng, rng.randint(3, 6)), cpg=rng.choice(CPGS),
                              lag=f"{rng.uniform(0, 2):.3f}") for _ in range(20)]
         out.append((f"random {k}", texts, FAST))
-    return out
+    return out + [(name, *run) for name, run in UNBORNE.items()]
