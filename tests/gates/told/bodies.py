@@ -3,9 +3,10 @@ import numpy as np
 
 from paper.robot import rpy
 from told.check import SAME, Told, graded, margin, widen
+from told.legs import Legs
 
 LEAST_WAY = 0.01  # m: who goes less does not walk
-QUARTER = np.pi / 2
+QUARTER, NEARLY = np.pi / 2, np.pi / 4
 
 
 # ---- ground
@@ -84,13 +85,15 @@ def fall(record, window):
     height, above, limit, t = heights(record), standing(record), record.limits["height"], record.poses["t"]
     if not np.isfinite(above):
         return None
+    if not above > 0:
+        return Told()
     low = int(np.argmin(height))
     value = height[low] / above
     told = Told("fail" if value < limit else "pass", value, limit, least=True, margin=margin(value, limit, True))
     below = np.flatnonzero(height < limit * above)
     told.start, told.end = t[below[0]] if len(below) else t[low], t[low]
     told.first = told.start if len(below) else np.nan
-    told.also = {"depth": -1000 * height[low], "below": -height[low]}
+    told.also = {"below": -height[low]}
     return told
 
 
@@ -122,8 +125,9 @@ def heading(record):
 
 
 def rolls(record, window, period):
-    """Whether the base makes at least one whole turn about level axes, to the nearest number, in every period."""
-    t, turn = record.poses["t"], steps_of_turn(record)[:, :2]
+    """Whether the base makes at least one whole turn about level axes, to the nearest number, in every period, and its axis comes
+    within 45 degrees of up and of down."""
+    t, turn, tilt = record.poses["t"], steps_of_turn(record)[:, :2], turned(record)[1:]
     if window.periods:
         edges = window.end - window.cycle.period * np.arange(window.periods, -1, -1)
     elif period:
@@ -137,7 +141,8 @@ def rolls(record, window, period):
     sums = []
     for a, b in zip(edges[:-1], edges[1:]):
         rows = (t[1:] > a + 1e-9) & (t[1:] <= b + 1e-9)
-        sums.append(np.linalg.norm(own[rows].sum(0)) / (2 * np.pi))
+        both = rows.any() and tilt[rows].min() < NEARLY and tilt[rows].max() > np.pi - NEARLY
+        sums.append(np.linalg.norm(own[rows].sum(0)) / (2 * np.pi) if both else 0.0)
     return bool(sums) and min(sums) >= 0.5, sums
 
 
@@ -169,7 +174,18 @@ def extent(record):
     return float(np.linalg.norm(np.max(at, 0) - np.min(at, 0)))
 
 
-def progress(record, window, borne, long_enough):
+def halves(window, period):
+    """Where the first of two stretches up to the end begins and how long they are: whole periods, of an odd number the middle one in
+    both, and of one alone that before it, too; without periods halves of what is behind the start. 0 long: the run has no two."""
+    start = window.start if window.periods else max(window.start, min(2.0, 0.2 * window.end))
+    length = window.end - start
+    unit = (length / window.periods if window.periods else period) or length / 2
+    count = max(2, np.floor(length / unit + 1e-3))
+    begin = window.end - count * unit
+    return (begin, np.ceil(count / 2) * unit) if begin >= -1e-3 * unit else (0.0, 0.0)
+
+
+def progress(record, window, borne, long_enough, period):
     if not record.floating or record.ground == "none":
         return Told()
     t, com = record.poses["t"], record.com()
@@ -185,21 +201,19 @@ def progress(record, window, borne, long_enough):
     status = "pass" if goes else "fail" if asked else "warn" if long_enough else "not judged"
     told = Told(status, value, limit, least=True, start=t[a], end=t[b], can_fail=asked > 0)
     told.margin = margin(value, limit, True) if asked else np.nan
-    fallen = record.mass * (record.gravity @ (com[b] - com[a]))
+    begin, half = halves(window, period)
+    fallen = record.mass * (record.gravity @ (com[b] - com[min(int(np.searchsorted(t, begin)), b)]))
     driven = record.joints["shaft"].sum() if record.count else 0.0
     if borne and fallen > max(driven, record.least_energy()):
-        whole = window.end - window.start
-        half = whole * np.ceil(window.periods / 2) / window.periods if window.periods > 1 else whole / 2
         step = np.linalg.norm(np.diff(com[:, :2], axis=0), axis=1)
-        inside = np.arange(1, len(t)) > a
 
         def way(low, high):
-            return step[inside & (t[1:] > low) & (t[1:] <= high)].sum()
+            return step[(t[1:] > low) & (t[1:] <= high)].sum()
 
-        before = way(window.start, window.start + half)
+        before = way(begin, begin + half)
         faster = way(window.end - half, window.end) / before if before > 0 else 1.0
         if faster > 1.2:
-            told.status, told.value, told.limit, told.least, told.unit = "fail", faster, 1.2, False, ""
+            told.status, told.value, told.limit, told.least, told.unit = "fail", faster, 1.2, False, "times"
             told.margin, told.can_fail = margin(faster, 1.2), True
             told.also = {"fallen": fallen, "driven": driven}
     return told
@@ -271,7 +285,9 @@ def slip(record, window):
     feet = {name[5:-5]: grown[name] for name in grown if name.startswith("foot.") and name.endswith(".slid")}
     worst = max(feet, key=feet.get) if feet and max(feet.values()) > 0 else None
     way = grown["path"]
-    told = Told(worst=worst, also={"way": way, "mm": 1000 * way, "slid": feet.get(worst, 0), "least_mm": 1000 * LEAST_WAY})
+    called = Legs(record).foot
+    told = Told(worst=worst, also={"way": way, "slid": feet.get(worst, 0), "least_way": LEAST_WAY,
+                                   "foot": tuple(called(one, feet) for one in feet if worst and feet[one] >= feet[worst] * (1 - SAME))})
     told.ties = [name for name in feet if worst and feet[name] >= feet[worst] * (1 - SAME)]
     if way < LEAST_WAY:
         return told
@@ -306,7 +322,7 @@ def stability(record, window):
         return Told()
     k = int(np.nanargmin(inside))
     return Told("pass", inside[k], start=record.loads["t"][window.first + 1 + k], end=record.loads["t"][window.first + 1 + k],
-                also={"mm": 1000 * abs(inside[k]), "outside": np.mean(seen < 0), "aloft": 1 - len(seen) / len(inside)})
+                also={"way": abs(inside[k]), "outside": np.mean(seen < 0), "aloft": 1 - len(seen) / len(inside)})
 
 
 def field(record, window):

@@ -70,25 +70,35 @@ RUNS = {
         "controller={type: pid, unit: N m, Kp: 2, Kd: 0.03}"]),
     "off its field": ("caterpillar", FAST + ["duration=3.2", "cpg.frequency=1",
         "ground={type: heightfield, heightfield: {spacing: 0.4, origin: [0.4, -0.5, 0], "
-                                             "values: [[0, 0.004, 0, 0.01], [0, 0, 0.01, 0], [0.004, 0, 0, 0], [0, 0, 0.004, 0], [0, 0, 0, 0]]}}"]),
+        "values: [[0, 0.004, 0, 0.01], [0, 0, 0.01, 0], [0.004, 0, 0, 0], [0, 0, 0.004, 0], [0, 0, 0, 0]]}}"]),
     "on its field": ("hexapod", FAST + ["duration=2.4", "cpg.frequency=1", "contact.on=all",
         "ground={type: heightfield, heightfield: {spacing: 0.5, origin: [-1.4, -1.2, 0], "
-                                       "values: [[0, 0.004, 0, 0.01, 0.002, 0], [0, 0, 0.01, 0, 0, 0], [0.004, 0, 0, 0.003, 0, 0], [0, 0, 0.004, 0, 0, 0], [0, 0, 0, 0, 0, 0]]}}"]),
+        "values: [[0, 0.004, 0, 0.01, 0.002, 0], [0, 0, 0.01, 0, 0, 0], [0.004, 0, 0, 0.003, 0, 0], [0, 0, 0.004, 0, 0, 0], "
+        "[0, 0, 0, 0, 0, 0]]}}"]),
     "hexapod, allowed": ("hexapod", FAST + ["duration=3", "cpg.frequency=1.2", "cpg.amplitude=0.6"],
         {"saturated_share": 0.99, "saturated_periods": 1000}),
     "short": ("hexapod", FAST + ["duration=0.7"]),
     "short, and broken": ("caterpillar", FAST + ["duration=0.8", "robot.position=[0, 0, 0.3]"]),
     "keyframes": ("hexapod", FAST + ["duration=3",
-        "cpg={type: keyframes, model: {ramp: 0.5, frames: [{time: 0, angles: 0}, {time: 0.8, angles: {default: 0, \"*/passive\": 0.3}}, {time: 2, angles: 0}]}}"]),
+        "cpg={type: keyframes, model: {ramp: 0.5, frames: [{time: 0, angles: 0}, "
+        "{time: 0.8, angles: {default: 0, \"*/passive\": 0.3}}, {time: 2, angles: 0}]}}"]),
     "makes energy": ("hexapod", FAST + ["duration=3", "cpg.frequency=1", "actuator.Kt=0.008"]),
     "coarse steps": ("hexapod", FAST + ["duration=3", "cpg.frequency=1", "physics.integrator=implicit", "physics.step=0.005"]),
-    "one joint slower": ("hexapod", FAST + ["duration=4", "cpg={type: sine, amplitude: 0.2, couplings: [], frequency: {default: 1, m3/active: 0.7}}"],
-                         {"progress": 0}),
+    "one joint slower": ("hexapod", FAST + ["duration=4",
+        "cpg={type: sine, amplitude: 0.2, couplings: [], frequency: {default: 1, m3/active: 0.7}}"], {"progress": 0}),
     "still growing": ("library/y1-pp", ["duration=7", "cpg.model.ramp=6"]),
     "too long a step": ("hexapod", FAST + ["duration=1.2", "cpg.frequency=2.6", "physics.integrator=rk4", "physics.step=2e-5"]),
     "stands": ("caterpillar", FAST + ["duration=3", "cpg.amplitude=0"]),
     "back-driven": ("caterpillar", FAST + ["duration=3.2", "cpg.frequency=1", "actuator.efficiency=0.35",
         "actuator.efficiency_model=directional"]),
+}
+# Robots that nothing bears.
+SLOW = ["cpg.frequency=0.5", "cpg.amplitude=0.2", "duration=6"]
+EASY = {"saturated_share": 0.99, "saturated_periods": 1000, "tilt": 1.5, "tracking_error": 1, "torque_error": 0.9}
+UNBORNE = {
+    "without gravity": ("caterpillar", FAST + SLOW + ["physics.gravity=[0, 0, 0]"], EASY),
+    "above nothing": ("caterpillar", FAST + SLOW + ["ground.type=none", "contact.on=none"], EASY),
+    "touches nothing": ("caterpillar", FAST + SLOW + ["contact.on=none"], EASY),
 }
 CPGS = ["sine", "hopf", "kuramoto_amplitude", "matsuoka", "phase_oscillator", "van_der_pol"]
 GAITS = {"frequency": (0.8, 1.25), "amplitude": (0.75, 1.2)}
@@ -193,4 +203,4 @@ def plan(seed):
         texts = [TREE.format(name=f"random-{k}", docks=random_tree(rng, rng.randint(3, 6)), cpg=rng.choice(CPGS),
                              lag=f"{rng.uniform(0, 2):.3f}") for _ in range(20)]
         out.append((f"random {k}", texts, FAST))
-    return out
+    return out + [(name, *run) for name, run in UNBORNE.items()]

@@ -48,8 +48,10 @@ def at_limit(record, window, kind):
     by_time = np.array([margin(one[0], most * (1 + 1e-6)) for one in longest])
     both = np.where(record.driven, np.minimum(by_share, by_time), np.inf)
     least = both.min()
-    ties = [j for j in range(record.count) if both[j] <= least + SAME * max(1, abs(least))]
-    j, parts = max(ties, key=lambda k: share[k]), int((share > 0).sum())
+    ties = [j for j in range(record.count) if both[j] <= least + SAME]
+    widest = max(share[k] for k in ties)
+    ties = [k for k in ties if share[k] >= widest * (1 - SAME)]
+    j, parts = ties[0], int((share > 0).sum())
     told = Told("fail" if least < 0 else "warn" if parts else "pass", margin=least, parts=parts)
 
     def numbers(k):
@@ -72,30 +74,36 @@ def at_limit(record, window, kind):
     told.worst = told.worst if parts else None
     if parts:
         first_in(told, record, window.first, np.diff(table, axis=0) > 0)
-    # Within the error of the torques: rows at no limit whose torque, as the motor has it there, comes that near.
-    errors, near = record.torque_errors(), np.zeros(record.count)
+    # Within the error of the torques: rows at no limit whose torque, as the motor has it there, comes that near, count whole.
+    errors = record.torque_errors()
     peak, amperes = record.tick("envelope_peak"), record.tick("current_peak")
     busy = (np.diff(record.tick("voltage_limited"), axis=0) > 0) | (np.diff(record.tick("current_limited"), axis=0) > 0)
+    wide = []
     for k in np.flatnonzero(record.driven & (errors > 0) & (errors <= limits["torque_error"])):
         rows = (peak[1:, k] >= 1 - errors[k]) & ~busy[:, k]
-        rows[:window.first] = False
         by_current = np.full(len(rows), True) if not record.voltages else amperes[1:, k] >= (1 - errors[k]) * record.i_max[k]
         rows &= by_current == (kind == "current")
-        near[k] = share[k] + np.diff(record.t)[rows].sum() / window.length
-    k = int(np.argmax(near))
-    surely = by_time[j] < 0 or share[j] * (1 - errors[j]) > limits["saturated_share"]
-    if not surely and near[k] > limits["saturated_share"]:
+        sums = np.concatenate([[0], np.cumsum(np.where(rows, np.diff(record.t), np.diff(table[:, k])))])
+        near = (sums[-1] - sums[window.first]) / window.length
+        on_end = stretches(sums, record.t, window.first)[0] if near > 0 else 0.0
+        room = min(margin(near, limits["saturated_share"]), margin(on_end, most * (1 + 1e-6)))
+        if room < 0:
+            wide.append((room, near, on_end, k))
+    surely = share[j] * (1 - errors[j]) > limits["saturated_share"] or longest[j][0] * (1 - errors[j]) > most * (1 + 1e-6)
+    if wide and not surely:
+        least = min(wide)[0]
+        _, near, on_end, k = max((one for one in wide if one[0] <= least + SAME), key=lambda one: one[1])
         told.status, told.error = "too close", errors[k]
-        told.also |= {"near": near[k], "near_joint": record.names[k]}
+        told.also |= {"near": near, "near_on_end": on_end, "near_joint": record.names[k]}
     return told
 
 
 def first_in(told, record, row, beyond):
-    """When, and which, joint was beyond first, behind a row of ticks: the start of that row."""
+    """When, and which, joint was beyond first, behind a row of ticks: the end of that row."""
     beyond = beyond & record.driven[None, :]
     rows = np.flatnonzero(beyond[row:].any(axis=1))
     if len(rows):
-        told.first = record.t[row + rows[0]]
+        told.first = record.t[row + rows[0] + 1]
         told.first_parts = [record.names[j] for j in np.flatnonzero(beyond[row + rows[0]])]
         told.first_part = told.first_parts[0]
 
@@ -154,7 +162,8 @@ def speed(record, window):
     free, _ = rated(record, within, record.no_load, warn, 1, rows)
     broken, _ = rated(record, ever, record.ratings["speed_max"], warn, 1, all_rows)
     told, limits, row, span = free, record.no_load, window.first, "window"
-    if broken.status != "not judged" and (free.status == "not judged" or broken.value / broken.limit >= free.value / free.limit):
+    worse = broken.status == "fail" or free.status != "fail" and broken.value / broken.limit >= free.value / free.limit
+    if broken.status != "not judged" and (free.status == "not judged" or worse):
         told, limits, row, span = broken, record.ratings["speed_max"], 0, "whole run"
     if told.status != "not judged":
         told.span = span

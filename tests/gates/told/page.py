@@ -9,6 +9,7 @@ import subprocess
 import numpy as np
 
 from told.motors import grown
+from told.verdict import by_urgency
 
 SPACE = "\u00a0"
 FLOORS = {"": 1e-6, "m": 1e-7, "rad": 1e-4, "rad/s": 1e-5, "N m": 1e-6, "N": 1e-5, "A": 1e-6, "J": 1e-7}
@@ -75,6 +76,8 @@ def moment(text, at):
 def stretch(text, start, end):
     if not end - start > 1e-6:
         return moment(text, start)
+    if " to " not in text:
+        return False
     a, b = text.replace(SPACE + "s", "").split(" to ")
     room = 0.5005e-3 if end - start < 0.1 else 0.5005e-2
     return abs(float(a) - start) <= room and abs(float(b) - end) <= room
@@ -115,7 +118,7 @@ def hear(shown, meta_, verdict, judged, known):
             wrong.append(f"page: {name}{of} is {shown['facts'].get(name)!r}, recomputed {expected}")
 
     word = verdict["verdict"]
-    failing = [c for c in verdict["checks"] if c["status"] == "fail" and c["id"] not in ("ledger",)]
+    failing = sorted(by_urgency([c for c in verdict["checks"] if c["status"] == "fail"]), key=lambda c: c["id"] != verdict["decided_by"])
     first = failing[0] if failing else None
     said = shown["headline"].replace(SPACE, " ")
     expected = {"feasible": "Feasible with these motors", "not judged": "Not judged"}.get(word)
@@ -150,11 +153,12 @@ def shortfall(facts, first, judged, meta_, must, failing):
     at = told.first if told else first["first"]
     unit = first["unit"]
     text = facts.pop("First over the limit", None)
-    expects = at is not None and at == at and (told.first_part if told else first["first_part"]) is not None
+    firsts = names_of(told, first, "first_part") - {None}
+    expects = at is not None and at == at and bool(firsts)
     if expects or text is not None:
-        names = part(meta_, first, names_of(told, first, "first_part"))
+        names = part(meta_, first, firsts)
         ok = expects and text is not None and any(text.startswith(name + " at ") for name in names)
-        must(ok and moment(text.rsplit(" at ", 1)[1], at), "First over the limit", (names_of(told, first, "first_part"), at), of)
+        must(ok and moment(text.rsplit(" at ", 1)[1], at), "First over the limit", (firsts, at), of)
     text = facts.pop("Worst", None)
     worst = names_of(told, first, "worst") - {None}
     if text is not None:

@@ -6,7 +6,8 @@ import numpy as np
 from told.bodies import heading
 from told.check import SAME, worst_of
 from told.motors import grown, peaks, rms
-from told.sentences import Expression, same
+from told.sentences import Expression, printed, same
+from told.verdict import by_urgency, sentence
 
 LIMIT = ["none", "voltage", "current"]
 AT = r"{%speak:.3f} N m at t = {%stime:.2f} s(?: \((?:voltage|current) limit\))?"
@@ -19,8 +20,8 @@ LINES = {
               r"(?: current limit: {c_some:d} joints?, {c_joint} longest, {c_share:pct})?)"
               r"(?: before: {ever:d} of {driven:d} joints?, {ever_joint} longest: {ever_share:pct} of the run)?"
               r"(?: first of the run: {first} at t = {first_time:.2f} s \((?:voltage|current)\))?",
-    "torque": r"{longest}: peak " + AT.replace("%s", "") + r" RMS {rms:.3f} N m(?: largest: {strongest}: " + AT.replace("%s", "strongest_") +
-              r")?(?: before: {ever_strongest}: " + AT.replace("%s", "ever_") + r")?"
+    "torque": r"{longest}: peak " + AT.replace("%s", "") + r" RMS {rms:.3f} N m(?: largest: {strongest}: " +
+              AT.replace("%s", "strongest_") + r")?(?: before: {ever_strongest}: " + AT.replace("%s", "ever_") + r")?"
               r"(?: at most {of_rest:.0f} % of what a motor has at rest \({rest_joint}, {rest:.3f} N m\))?",
     "tracking": r"{far}: {error:th} rad at t = {error_time:.2f} s(?: before: {ever_far}: {ever_error:th} rad at t = "
                 r"{ever_error_time:.2f} s)?",
@@ -38,13 +39,12 @@ LINES = {
               r"(?: [+-] {gear:.3g} gear)?(?: [+-] {stored:.3g} stored)?(?: [+-] {contact:.3g} contact)?"
               r"(?: [+-] {friction:.3g} friction)?(?: [+-] {stops:.3g} stops)?(?: [+-] {hinges:.3g} hinges)?"
               r"(?: [+-] {missing:.3g} residual)?(?: the gears created {created:.3g} J: eq\. 2 on back-driven joints"
-              r"(?:; actuator\.efficiency_model: directional does not)?)?",
+              r"(?:; take actuator\.efficiency_model: directional)?)?",
     "stability": r"h lambda at most {stability:.2f} at t = {stability_time:.2f} s: .*; above 1 in {above:pct} of the ticks",
 }
 READ = {title: Expression(text) for title, text in LINES.items()}
 GAIT = Expression(r"{speed:.4f} m/s(?:, {per_period:.4f} m per period of {period:.4g} s)?(?:, cost of transport {electrical_cost:.3g})?")
 HEAD = Expression(r".*: {simulated:.6g} s simulated in \S+ s")
-INSTANT = 0.1  # s: a stretch that is told by its start
 
 
 def sections(text):
@@ -173,12 +173,6 @@ def hear(expression, text, known, who):
     return wrong
 
 
-def brief(check):
-    """The sentence as the first screen has it: with the time, where that is an instant."""
-    instant = check["part"] != "none" and None not in (check["from"], check["to"]) and check["to"] - check["from"] < INSTANT
-    return check["text"] + (f", at {check['from']:.2f} s" if instant else "")
-
-
 def first_screen(text, verdict, judged, known):
     """The first screen against the checks of verdict.json, whose numbers are recomputed elsewhere, and against the record."""
     parts, wrong, checks = sections(text), [], verdict["checks"]
@@ -191,34 +185,27 @@ def first_screen(text, verdict, judged, known):
             wrong.append(f"terminal: {title} is {said.get(title)!r}, recomputed {expected!r}")
 
     of = {status: [c for c in checks if c["status"] == status] for status in ("fail", "too close", "warn", "not judged")}
-    word, fails = verdict["verdict"], of["fail"]
+    word = verdict["verdict"]
+    fails = sorted(by_urgency(of["fail"]), key=lambda c: c["id"] != verdict["decided_by"])  # stable
     if word == "feasible":
         chosen = " (chosen figures)" if verdict["chosen_motors"] else ""
         must("verdict", f"feasible with these motors{chosen}, over {verdict['rests_on']}")
     elif word == "not judged":
         must("verdict", f"not judged: {verdict['reason']}")
     else:
-        must("verdict", f"{word}: {fails[0]['text']}")
+        must("verdict", f"{word}: {sentence(fails[0])}")
         fails = fails[1:]
     for title, list_ in (("fails", fails), ("too close", of["too close"]), ("warns", of["warn"])):
-        if not list_:
-            must(title, None)
-            continue
-        line = said.get(title, "")
-        lead = " ".join(brief(c) for c in list_[:4])
-        rest = "" if len(list_) <= 4 else " and " + ", ".join(c["id"] for c in list_[4:]) + " (--verbose)"
-        if rest:
-            wrong.append(f"terminal: {title} of --verbose leaves sentences out:{rest}")
-        if line != lead + rest:
-            wrong.append(f"terminal: {title} is {line!r}, recomputed {lead + rest!r}")
+        must(title, " ".join(sentence(c) for c in list_) if list_ else None)
     names = list(dict.fromkeys("docks" if c["id"].startswith("dock_") else c["id"] for c in of["not judged"]))
     must("unknown", ", ".join(names) + " (gaitlab explain verdict)" if names else None)
-    if "tightest" in said:
+    if word in ("feasible", "not judged") and verdict["tightest"]:
         c = next(c for c in checks if c["id"] == verdict["tightest"])
         part = f" of {c['worst']}" if c["worst"] else ""
-        must("tightest", f"{c['id'].replace('_', ' ')}{part}, margin {100 * c['margin']:.3g} %")
-    elif word in ("feasible", "not judged") and verdict["tightest"]:
-        wrong.append("terminal: no line on the tightest check")
+        must("tightest", f"{c['id'].replace('_', ' ')}{part}, margin {printed('pct', c['margin'])}")
+    else:
+        must("tightest", None)
+    must("rests on", verdict["figures"] or None)
     if "gait" in said:
         wrong += hear(GAIT, said["gait"], known, "terminal: gait")
     return wrong

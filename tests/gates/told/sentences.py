@@ -1,18 +1,45 @@
 """The sentences: one expression per check, and what a printed number allows.
 
-In an expression {name:format} is a number, {name} a part or a word. Formats are those of printf, and pct (percent, three digits),
-rough (percent, two digits below 10 %, else three), th (three decimals; of a thousand and more three digits), d (a whole number)."""
+In an expression {name:format} is a number, {name} a part or a word, {name:words} several. Formats are those of printf, and pct
+(percent, three digits), rough (percent, two digits below 10 %, else three), length (mm, m or km), th (three decimals; of a thousand
+and more three digits), d (a whole number)."""
 import re
 
 NUMBER = r"[-+]?(?:\d+\.?\d*(?:e[-+]?\d+)?|nan|inf)"
+WITH_UNIT = {"pct": rf"more than 1000 %|less than -1000 %|0\.0001 % and less|{NUMBER} %",
+             "rough": rf"1000 % and more|0\.0001 % and less|{NUMBER} %", "length": rf"more than 1000 km|{NUMBER} (?:mm|m|km)"}
+
+
+def percent(value):
+    if abs(value) > 10:
+        return "more than 1000 %" if value > 0 else "less than -1000 %"
+    if abs(value) >= 1:
+        return "%.0f %%" % (100 * value)
+    if abs(value) < 1e-6:
+        return "0.0001 % and less" if value > 0 else "0 %"
+    return "%.3g %%" % (100 * value)
+
+
+def rough_percent(value):
+    if value > 10:
+        return "1000 % and more"
+    if 0 < value < 1e-6:
+        return percent(value)
+    return "%.0f %%" % (100 * value) if value >= 1 else "%.*g %%" % (2 if value < 0.1 else 3, 100 * value)
+
+
+def length(metres):
+    """Three digits, in the unit in which these are less than a thousand."""
+    for scale, unit in ((1e3, "mm"), (1, "m"), (1e-3, "km")):
+        if abs(metres) * scale < 999.5:
+            return f"{metres * scale:.3g} {unit}"
+    return "more than 1000 km"
 
 
 def printed(kind, value):
     """As the sentence must have it."""
-    if kind == "pct":
-        return "%.3g" % (100 * value)
-    if kind == "rough":
-        return "%.*g" % (2 if value < 0.1 else 3, 100 * value)
+    if kind in WITH_UNIT:
+        return {"pct": percent, "rough": rough_percent, "length": length}[kind](value)
     if kind == "th":
         return "%.3f" % value if value < 1000 else "%.3g" % value
     return "%d" % value if kind == "d" else "%" + kind % value if "%" in kind else ("%" + kind) % value
@@ -24,8 +51,14 @@ def same(kind, text, value, loose=0.0):
     if value != value:
         return text == "nan"
     slack = 1e-9 * abs(value) + 1e-15 + loose
-    low, high = (float(printed(kind, end)) for end in (value - slack, value + slack))
-    return low <= float(text) <= high  # rounding keeps the order
+    ends = [printed(kind, end) for end in (value - slack, value + slack)]
+    if text in (printed(kind, value), *ends):
+        return True
+    said, low, high = (re.fullmatch(rf"({NUMBER})( \S+)?", one) for one in (text, *ends))
+    if not (said and low and high and said[2] == low[2] == high[2]):
+        return False
+    rounded = said[1] == (printed(kind, float(said[1])) if kind not in WITH_UNIT else said[1])
+    return rounded and float(low[1]) <= float(said[1]) <= float(high[1])  # rounding keeps the order
 
 
 class Expression:
@@ -36,10 +69,10 @@ class Expression:
             name, _, kind = match[1].partition(":")
             self.count += 1
             group = f"{name}__{self.count}"
-            self.kinds[group] = kind
-            if not kind:
-                return rf"(?P<{group}>[^\s;,:]+?)"
-            return rf"(?P<{group}>{NUMBER})" + (" %" if kind in ("pct", "rough") else "")
+            self.kinds[group] = kind.removeprefix("words")
+            if kind in ("", "words"):
+                return rf"(?P<{group}>.+?)" if kind else rf"(?P<{group}>[^\s;,:]+?)"
+            return rf"(?P<{group}>{WITH_UNIT.get(kind, NUMBER)})"
 
         self.expression = re.compile(re.sub(r"\{([a-z_]+(?::[^}]*)?)\}", place, text))
 
@@ -54,11 +87,11 @@ class Expression:
 WITHIN = r"(?:; with the error of the torques {low:pct} to {high:pct} of the limit)?"
 LIMITED = (r"no joint is at the limit of its (?:voltage|current|actuator)"
            r"|{parts:d} of {driven:d} joints? reach(?:es)? the limit of (?:its|their) (?:voltage|current|actuator); worst {worst}: "
-           r"(?:{share:pct} of the judged time, up to {stretch:.3g} s on end|{stretch:.3g} s on end, (?:more than |of at most )"
-           r"{most:g} control periods \({limit:.3g} s\), in all {share:pct} of the judged time)")
+           r"(?:{share:pct} of the judged time, up to {stretch:.3g} s on end from {from:.2f} s"
+           r"|{stretch:.3g} s on end from {from:.2f} s, (?:more than |of at most ){most:g} control periods \({limit:.3g} s\), "
+           r"in all {share:pct} of the judged time)")
 NEAR = (r"(?:; joint {near_joint} is within the error of its torque, {error:rough}, of that limit for up to {near:pct} of the "
-        r"judged time)?")
-SHAPED = r"(?: \(\d+ of \d+ bodies have a shape\))?"
+        r"judged time, {near_on_end:.3g} s on end)?")
 
 
 def dock_sentence(does, unit):
@@ -69,13 +102,14 @@ def dock_sentence(does, unit):
 
 JUDGED = {
     "outcome": r"the run came to its end|(?s:.+)",
-    "fall": r"the centre of mass (?:keeps at least|comes down to) {value:pct} of its height above the ground at the start"
-            r"|the centre of mass comes {below:.3g} m below the ground",
+    "fall": r"the centre of mass keeps at least {value:pct} of its height above the ground at the start"
+            r"|the robot falls at {from:.2f} s: the centre of mass comes (?:down to {value:pct} of its height above the ground at the "
+            r"start|{below:.3g} m below the ground)",
     "progress": r"the robot goes {value:.3g} m (?:per period|in the judged time)(?:, less than {limit:.3g} m)?"
                 r"|the robot slides down: gravity does {fallen:.3g} J of work, the motors {driven:.3g} J, and its speed grows "
                 r"{value:.3g} times from the first half of the judged time to the second",
-    "upright": r"the base (?:turns over: it )?tilts by up to {value:.3g} rad from its start(?:, more than {tilt:.3g} rad "
-               r"\(limits\.tilt\))?",
+    "upright": r"the base turns over at {from:.2f} s: it tilts by up to {value:.3g} rad from its start"
+               r"|the base tilts by up to {value:.3g} rad from its start(?:, more than {tilt:.3g} rad \(limits\.tilt\))?",
     "voltage": f"(?:{LIMITED})" + NEAR,
     "current": f"(?:{LIMITED})" + NEAR,
     "envelope": r"the torque of joint {worst} takes {value:pct} of what its (?:motor|actuator) has at that speed",
@@ -91,28 +125,29 @@ JUDGED = {
                  r"{value:pct} of the run",
     "start": r"the set point of joint {worst} is {value:.3g} rad from its angle at t = 0(?:, and its motor answers at once: peaks "
              r"of the whole run may be of that)?",
-    "collision": r"no two bodies are in one another \(those on one hinge are not compared\)" + SHAPED +
-                 r"|{parts:d} pairs? of bodies pass(?:es)? through one another, deepest {worst} and {other}, by {mm:.3g} mm",
+    "collision": r"no two bodies are in one another \(those on one hinge are not compared\)"
+                 r"|{parts:d} pairs? of bodies pass(?:es)? through one another, deepest {worst} and {other}, by {value:length}",
     "dock_tension": dock_sentence("pulled apart", "N"),
     "dock_shear": dock_sentence("sheared", "N"),
     "dock_bending": dock_sentence("bent", "N m"),
     "dock_torsion": dock_sentence("twisted", "N m"),
-    "in_ground": r"no body goes through the ground" + SHAPED + r"|body {worst} goes {mm:.3g} mm into the ground",
-    "slip": r"no foot slides under load|feet slide {value:pct} of the way under load, farthest {worst}, by {slid:.3g} of {way:.3g} m",
+    "in_ground": r"no body goes through the ground|body {worst} goes {value:length} into the ground",
+    "slip": r"no foot slides under load|feet slide {value:pct} of the way under load, farthest {foot:words}, by {slid:.3g} of "
+            r"{way:.3g} m",
     "airborne": r"the ground carries less than {weight:pct} of the weight for {value:pct} of the judged time",
-    "stability": r"a note: no foot bears a load for {aloft:pct} of the time; else the centre of mass stays {mm:.3g} mm within the "
-                 r"support polygon|statically stable: the centre of mass stays {mm:.3g} mm within the support polygon"
-                 r"|a note: the centre of mass comes {mm:.3g} mm out of the support polygon, and is out of it {outside:pct} of the "
+    "stability": r"a note: no foot bears a load for {aloft:pct} of the time; else the centre of mass stays {way:length} within the "
+                 r"support polygon|statically stable: the centre of mass stays {way:length} within the support polygon"
+                 r"|a note: the centre of mass comes {way:length} out of the support polygon, and is out of it {outside:pct} of the "
                  r"time on the ground, as it may be in a dynamic gait",
     "field": r"the robot stays on its heightfield|the robot leaves its heightfield at t = {t:.2f} s, x {x:.3g} m, y {y:.3g} m: "
              r"beyond it the heights of the border continue",
     "periodic": r"the motion repeats every {period:.4g} s|the set points repeat, and the motion does not settle to a period",
     "evidence": r"judged over (?:{periods:d} periods? of {period:.4g} s|{held:.3g} periods of {period:.4g} s; the motion does not "
-                r"settle|the last {judged:.3g} s; the set points do not repeat)",
+                r"settle|these {simulated:.3g} s; the set points do not repeat)(?:; not known: {unknown:words})?",
     "torque_error": r"the torque of joint {worst} is off by about {value:rough} of its peak, estimated from other steps",
     "ledger": r"{value:pct} of the energy is unaccounted for(?:: {missing:.3g} J, of {drawn:.3g} J drawn)?",
     "created": r"gears that are driven backwards give {value:pct} of the energy too much \(eq\. 2\)"
-               r"(?:; actuator\.efficiency_model: directional does not)?",
+               r"(?:; take actuator\.efficiency_model: directional)?",
     "supply": r"the motors draw {value:.3g} J|the motors gave {gave:.3g} J back to their supply instead of drawing any, so that the "
               r"cost of transport is negative: the robot went down, or a motor makes energy",
     "step": r"the step is too long in {value:pct} of the control ticks|in {value:pct} of the control ticks",
@@ -125,6 +160,9 @@ JUDGED = {
 MISSING = (r"{simulated:.3g} s are {held:.2g} of a gait's 3 periods of {period:.4g} s; take duration: {take:.4g}"
            r"|{simulated:.3g} s are less than {least:g} s; take a longer duration"
            r"|the ground carries {borne:pct} of the weight on average, less than {half:pct}: the robot is not on it"
+           r"|there is no gravity, so that no ground bears the robot; take physics\.gravity, or base: fixed"
+           r"|the robot falls freely: (?:there is no ground; take base: fixed, or a ground"
+           r"|no part of it touches the ground; take base: fixed, or contact\.on: all)"
            r"|the motor of joint {creator} makes energy: efficiency x Kt {x:.4g} N m/A exceeds Ks {y:.4g} V s/rad; take Kt = Ks"
            r"|no set point changes: cpg {cpg} moves no joint"
            r"|the torque of joint {inaccurate} is off by about {off:rough} of its peak, more than {most:pct}; take .*"
@@ -139,10 +177,11 @@ NOT_JUDGED = (
     r"|the actuator (?:is not made of DC motors, and has no voltage|states no limit|has torque at any speed, and states no largest one)"
     r"|no (?:continuous current of the motors|(?:largest|continuous) torque of the gears) is stated \(actuator\.\w+\)"
     r"|the solver of contact\.law bullet keeps bodies apart and above the ground|no body has a shape, or the run has no poses"
+    r"|{shaped:d} of {bodies:d} bodies have a shape|the start pose has its centre of mass in the ground"
     r"|judged (?:above a ground|on a heightfield|on a plane without boxes)|the robot starts beside its heightfield"
     r"|the module types state no battery|the robot has no dock|no foot bears a load"
     r"|not available with contact\.law: bullet, which yields impulses that do not all act at contact elements"
-    r"|the robot goes {mm:.3g} mm: less than {least_mm:.3g} mm is not walking"
+    r"|the robot goes {way:length}: less than {least_way:length} is not walking"
     r"|the robot goes {value:.3g} m (?:per period|in the judged time), less than {limit:.3g} m"
     r"|the set points do not repeat|the run is too short|the error of the torques was not estimated in this run"
     r"|the steps do not follow an accuracy|no rate was recorded"

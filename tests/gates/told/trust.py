@@ -1,13 +1,26 @@
 """Evidence, accuracy, and the word: docs/reference/verdict.md."""
+import math
 import re
+from fractions import Fraction
 
 import numpy as np
 
-from told.bodies import borne
+from told.bodies import borne, elements
 from told.check import Told, graded, margin
 from told.window import set_point_cycle
 
 SETTLED, PERIODS, LEAST_TIME, BORNE, RESIDUAL, COARSE = 0.01, 3, 2.0, 0.5, 0.05, 0.10
+ESTIMATE = 1e-3  # of a period: what three may miss
+
+
+def read_by_output(model):
+    """The texts of equations on which set points depend: that of the output, and of the states that these read."""
+    states, texts, seen = {name: str(text) for name, text in model.get("states", {}).items()}, [str(model["output"])], set()
+    for text in texts:  # grows
+        for name in states.keys() & set(re.findall(r"\w+", text)) - seen:
+            seen.add(name)
+            texts.append(states[name])
+    return " ".join(texts)
 
 
 def frequencies(record):
@@ -16,35 +29,37 @@ def frequencies(record):
     if "frequency" not in cpg:
         return []
     if cpg["type"] == "equations" and "model" in cpg:
-        text = str(cpg["model"])
-        if "states" in cpg["model"] and not re.search(r"\b(frequency|omega)\b", text):
+        if not re.search(r"\b(frequency|omega)\b", read_by_output(cpg["model"])):
             return []
     f = record.per_joint(cpg, "frequency")
     return [x for x in f[record.driven] if x > 0]
 
 
-def slowest_period(record):
-    """s, of the slowest set point: as they show it, else as the CPG states it; 0: they do not repeat."""
-    cpg = record.scenario.get("cpg") or {}
-    f = frequencies(record)
-    if f and record.end * min(f) < PERIODS * (1 - 1e-9):  # two periods show a repetition, but not where the amplitude grows
-        return 1 / min(f)
-    model = cpg.get("model") or {}
-    if cpg.get("type") == "keyframes" and model.get("repeat", True) and model.get("frames"):
-        last = model["frames"][-1]["time"]
-        if record.end < PERIODS * last * (1 - 1e-9):
-            return float(last)
-    found = set_point_cycle(record)
+def common_period(frequencies_):
+    """s, after which all of them have made whole turns."""
+    f = [Fraction(one).limit_denominator(10000) for one in frequencies_]
+    return float(Fraction(math.lcm(*(one.denominator for one in f)), math.gcd(*(
+        one.numerator * (math.lcm(*(o.denominator for o in f)) // one.denominator) for one in f))))
+
+
+def set_point_period(record):
+    """s: as the run shows it, else as its settings state it; 0: the set points do not repeat."""
+    found, cpg = set_point_cycle(record), record.scenario.get("cpg") or {}
     if found.found:
         return found.period
     asked = record.pose("setpoint")[:, record.driven] if record.driven.any() else np.zeros((1, 0))
-    return 1 / min(f) if f and np.ptp(asked, axis=0).max() > 0 else 0.0
+    if not np.ptp(asked, axis=0).max(initial=0) > 0:
+        return 0.0
+    model, f = cpg.get("model") or {}, frequencies(record)
+    if cpg.get("type") == "keyframes" and model.get("repeat", True):
+        return float(model["frames"][-1]["time"])
+    return common_period(f) if f else 0.0
 
 
 class Evidence:
-    def __init__(self, record, window):
+    def __init__(self, record, window, period):
         found = window.cycle
-        self.period = slowest_period(record)
+        self.period = period
         self.repeats, self.also = self.period > 0, {}
         self.kind, self.long_enough = "time", record.end >= LEAST_TIME * (1 - 1e-9)
         self.also = {"judged": window.end - window.start, "simulated": record.end, "least": LEAST_TIME}
@@ -53,12 +68,29 @@ class Evidence:
             self.also |= {"periods": window.periods, "period": found.period}
         elif self.period:
             self.kind, held = "set points", record.end / self.period
-            self.long_enough = held >= PERIODS * (1 - 1e-9)
+            self.long_enough = held >= PERIODS * (1 - ESTIMATE)
             self.also |= {"held": held, "period": self.period, "take": PERIODS * self.period}
+        self.untrusted, self.unborne = self.distrust(record), self.support(record, window)
+        self.borne = not self.unborne
+        self.unknown = self.nobody_knows(record)
+
+    def support(self, record, window):
+        """Why no ground bears a robot that floats; empty: one does, or nobody can know."""
         shares = borne(record, window)
         self.share = float(shares.mean()) if shares is not None and len(shares) else np.nan
-        self.borne = record.solver or not self.share < BORNE  # a solver's impulses are not all recorded
-        self.untrusted = self.distrust(record)
+        if not record.floating:
+            return ""
+        if not np.linalg.norm(record.gravity) > 0:
+            return "no gravity"
+        if record.ground == "none" or not record.solver and not elements(record):
+            return "falls freely"
+        return "not on it" if self.share < BORNE else ""
+
+    def nobody_knows(self, record):
+        """What is no evidence for or against the word, in the order in which it is named."""
+        ground = record.floating and not self.unborne and np.isnan(self.share)
+        torques = record.driven.any() and not record.torque_errors().max(initial=0) > 0 and self.untrusted != "makes energy"
+        return ["the ground's share of the weight"] * bool(ground) + ["the error of the torques"] * bool(torques)
 
     def distrust(self, record):
         """Which of the accuracies is missing; empty: none."""

@@ -16,6 +16,13 @@ WHOLE = {"outcome", "fall", "upright", "gear_peak", "stops", "setpoints", "start
 CAN_FAIL = {"outcome", "fall", "progress", "upright", "voltage", "current", "speed", "heat", "gear_peak", "gear_continuous",
             "tracking", "stops", "collision", "dock_tension", "dock_shear", "dock_bending", "dock_torsion", "in_ground"}
 
+# What is missing, and words of its sentence.
+LACK = {"makes energy": ["makes energy"], "moves nothing": ["moves no joint"], "torque error": ["the torque of joint"],
+        "energy": ["the energy is unaccounted"], "coarse": ["the shortest steps"], "short": ["a gait's", "are less than"],
+        "not on it": ["the robot is not on it"], "no gravity": ["there is no gravity"], "falls freely": ["falls freely"]}
+INSTANT = 0.1  # s: a stretch that is told by its start
+
+
 def outcome(record):
     done = record.run["ended"] == 0
     duration = record.scenario["duration"]
@@ -31,18 +38,25 @@ def in_ground(record):
         return Told()
     if record.ground != "plane":
         return None
-    limit, t = record.limits["sink"], record.poses["t"]
+    limit, t, some = record.limits["sink"], record.poses["t"], some_shaped(record, len(found))
     body = max(found, key=lambda b: found[b].max())
     depth = found[body]
     deepest, k = depth.max(), int(np.argmax(depth))
     if deepest <= limit:
-        return Told("pass", 0.0, limit, margin=1.0)
-    told = Told("fail", deepest, limit, margin=margin(deepest, limit), worst=body, start=t[k], end=t[k], also={"mm": 1000 * deepest})
+        return some or Told("pass", 0.0, limit, margin=1.0)
+    told = Told("fail", deepest, limit, margin=margin(deepest, limit), worst=body, start=t[k], end=t[k])
     told.ties = [b for b in found if found[b].max() >= deepest * (1 - 1e-9)]
     firsts = {b: t[np.argmax(found[b] > limit)] for b in found if found[b].max() > limit}
     told.first, told.parts = min(firsts.values()), len(firsts)
-    told.first_parts = [b for b in firsts if firsts[b] == told.first]
+    then = {b: found[b][np.searchsorted(t, told.first)] for b in firsts if firsts[b] == told.first}
+    told.first_parts = [b for b in then if then[b] >= max(then.values()) - 1e-9]
     return told
+
+
+def some_shaped(record, shaped):
+    """What is not judged where nothing was found and bodies without a shape may have done it; none: all have one."""
+    bodies_ = len(record.robot.bodies)
+    return Told(also={"shaped": shaped, "bodies": bodies_}) if shaped < bodies_ else None
 
 
 def collision(record):
@@ -54,7 +68,7 @@ def collision(record):
     limits = record.limits
     told = Told("pass", 0.0, limits["collision"], margin=margin(0.0, limits["collision"]))
     if not found.pairs:
-        return told
+        return some_shaped(record, found.shaped) or told
     depth, when = max(found.pairs.values())
     told = Told(graded(depth, limits["touch"], limits["collision"]), depth, limits["collision"], start=when, end=when)
     told.margin, told.loose = margin(depth, limits["collision"]), 3e-6 / depth  # m, of the search for the way out
@@ -63,7 +77,7 @@ def collision(record):
     told.worst, told.parts, told.first = told.ties[0], len(found.pairs), found.first
     told.first_parts = tuple(found.first_bodies)
     told.rows = {(when, when)}
-    told.also = {"mm": 1000 * depth, "other": told.ties}
+    told.also = {"other": told.ties}
     return told
 
 
@@ -72,13 +86,14 @@ class Judged:
 
     def __init__(self, record, start=None, whole=True):
         self.record = r = record
-        self.window = w = Window(record, limit_cycle(record))
+        period = trust.set_point_period(r)
+        self.window = w = Window(record, limit_cycle(record), period > 0)
         self.own_start = w.start
         if start is not None:
             w.set(record, start)
-        self.evidence = e = trust.Evidence(record, w)
+        self.evidence = e = trust.Evidence(record, w, period)
         self.checks = {
-            "outcome": outcome(r), "fall": bodies.fall(r, w), "progress": bodies.progress(r, w, e.borne, e.long_enough),
+            "outcome": outcome(r), "fall": bodies.fall(r, w), "progress": bodies.progress(r, w, e.borne, e.long_enough, period),
             "upright": bodies.upright(r, w, e.period), "voltage": motors.at_limit(r, w, "voltage"),
             "current": motors.at_limit(r, w, "current"), "envelope": motors.envelope(r, w), "speed": motors.speed(r, w),
             "heat": motors.heat(r, w), "gear_peak": motors.gear_peak(r, w), "gear_continuous": motors.gear_continuous(r, w),
@@ -108,7 +123,8 @@ class Judged:
         j = int(np.argmax(errors)) if len(errors) else 0
         creators = np.flatnonzero(r.makes_energy) if r.count else []
         return e.also | {
-            "borne": e.share, "half": 0.5, "off": errors[j] if len(errors) else np.nan, "inaccurate": r.names[j] if r.count else None,
+            "borne": e.share, "unknown": " and ".join(e.unknown), "half": 0.5, "off": errors[j] if len(errors) else np.nan,
+            "inaccurate": r.names[j] if r.count else None,
             "most": r.limits["torque_error"], "residual": abs(r.residual()) / r.energy_scale(), "kept": 0.05,
             "coarse": r.run["coarse_time"] / r.end if r.end else np.nan, "accuracy": r.scenario["physics"].get("accuracy", np.nan),
             "creator": r.names[creators[0]] if len(creators) else None, "cpg": (r.scenario.get("cpg") or {}).get("type"),
@@ -133,6 +149,26 @@ class Judged:
         if record.floating and record.ground != "none" and not record.solver and "not judged" in (status["fall"], status["in_ground"]):
             return "not judged"
         return "feasible"
+
+
+    def decided_by(self, checks, word):
+        """Ids of what infeasible and failed rest on: of what fails the least margin, in a run that is too short of the whole run's."""
+        if word not in ("infeasible", "failed"):
+            return [None]
+        short = word == "infeasible" and not self.evidence.long_enough
+        return [by_urgency([c for c in checks if c["status"] == "fail" and (c["span"] == "whole run" or not short)])[0]["id"]]
+
+
+def sentence(check):
+    """The text with the time, where a part was worst at one instant, and what is missing."""
+    times = check["from"], check["to"]
+    instant = check["part"] != "none" and check["status"] != "pass" and None not in times and times[1] - times[0] < INSTANT
+    return check["text"] + (f", at {times[0]:.2f} s" if instant else "") + ("; missing: " + check["missing"] if check["missing"] else "")
+
+
+def by_urgency(checks):
+    """The least margin first, and before it what has none."""
+    return sorted(checks, key=lambda c: -math.inf if c["margin"] is None else c["margin"])
 
 
 def tightest(checks):
@@ -171,6 +207,7 @@ def compare(told, check):
         must(close(check[name], expected) or check[name] is not None and abs(check[name] - expected) <= allowed + 2e-6 * abs(
             expected) * (told.unit == "s"), name, expected, check[name])
     must(check["worst"] in (told.ties or (told.worst,)) or check["worst"] == told.worst, "worst", told.ties or told.worst, check["worst"])
+    must(told.unit in (None, check["unit"]), "unit", told.unit, check["unit"])
     must(check["parts"] == told.parts, "parts", told.parts, check["parts"])
     timed = told.worst is None or check["worst"] == told.worst or check["id"] in ("collision", "in_ground")
     if timed and not told.plateau(check["from"], check["to"]):
@@ -199,7 +236,9 @@ def hear(told, check, text, who):
             ok = said == expected or name == "worst" and said in told.ties or isinstance(expected, tuple) and said in expected
         else:
             ok = expected is not None and same(kind, said, expected)
-            if not ok and name in ("value", "mm") and hasattr(told, "loose"):
+            if not ok and name == "from":
+                ok = any(same(kind, said, row[0]) for row in getattr(told, "rows", ()))
+            if not ok and name == "value" and hasattr(told, "loose"):
                 ok = same(kind, said, expected, told.loose * abs(expected))
             if not ok and name == "period" and expected:
                 ok = same(kind, said, expected, told.doubt * expected)
@@ -223,16 +262,24 @@ def hear_evidence(judged, verdict):
         return [f"evidence: no expression reads {verdict['rests_on']!r}"]
     numbers(found, verdict["rests_on"])
     says = "time" if "do not repeat" in verdict["rests_on"] else "set points" if "does not settle" in verdict["rests_on"] else "cycle"
+    if ("; not known: " in verdict["rests_on"]) != bool(judged.evidence.unknown):
+        wrong.append(f"rests_on is {verdict['rests_on']!r}, recomputed that nobody knows {judged.evidence.unknown}")
     if says != judged.evidence.kind:
         wrong.append(f"rests_on is of the {says}, {verdict['rests_on']!r}, recomputed the {judged.evidence.kind}")
     if verdict["verdict"] != "not judged":
         return wrong + ([f"reason is {verdict['reason']!r}"] if verdict["reason"] else [])
     reason, _, so_far = verdict["reason"].partition("; so far: ")
-    fails = [c["text"] for c in verdict["checks"] if c["status"] == "fail"]
-    close_ = [c["text"] for c in verdict["checks"] if c["status"] == "too close"]
-    if so_far and so_far != (fails or [None])[0]:
-        wrong.append(f"reason: so far {so_far!r}, recomputed {fails[:1]}")
-    if reason in close_[:1] and not fails:
+    fails = by_urgency([c for c in verdict["checks"] if c["status"] == "fail"])
+    close_ = by_urgency([c for c in verdict["checks"] if c["status"] == "too close"])
+    first = sentence(fails[0]) if fails and not judged.evidence.untrusted else ""
+    if so_far != first:
+        wrong.append(f"reason: so far {so_far!r}, recomputed {first!r}")
+    e = judged.evidence
+    lack = e.untrusted or "" if e.long_enough else e.untrusted or "short"
+    lack = lack or e.unborne if not fails else lack
+    if lack and not any(words in reason for words in LACK[lack]):
+        wrong.append(f"reason: {reason!r}, recomputed {lack}")
+    if reason in [c["text"] for c in close_[:1]] and not fails:
         return wrong
     found = LACKS.read(reason)
     if found is not None:

@@ -2,6 +2,7 @@
 import numpy as np
 
 REPEATS, STILL, SHORTEST = 0.02, 1e-3, 5
+START = 2.0  # s, of a run without a limit cycle, a fifth of it at most
 
 
 class Cycle:
@@ -100,7 +101,7 @@ def set_point_cycle(record):
 class Window:
     """start, end, s; periods; first: the row of ticks that it begins behind."""
 
-    def __init__(self, record, found):
+    def __init__(self, record, found, repeats):
         self.cycle, self.end, self.periods = found, record.end, 0
         if found.found:
             eps = 1e-3  # of a period: what it may miss and be whole
@@ -108,7 +109,8 @@ class Window:
             least = int(np.ceil(held - 1 - eps))  # at most one period is left out
             self.periods = max(int(np.floor((self.end - found.start) / found.period + eps)), least)
             self.periods = min(self.periods, int(np.floor(held + eps)))
-        self.start = max(0.0, self.end - self.periods * found.period) if self.periods else min(2.0, 0.2 * self.end)
+        left_out = START if repeats else 0.0  # what is played once counts
+        self.start = max(0.0, self.end - self.periods * found.period) if self.periods else min(left_out, 0.2 * self.end)
         self.set(record, self.start)
 
     def set(self, record, start):
