@@ -31,8 +31,8 @@ constexpr Meaning kWords[] = {
 };
 
 constexpr const char* kEvidence =
-    "Evidence. Long enough: a whole period of a limit cycle that repeats within 1 %; else three periods of the slowest set "
-    "point; where set points do not repeat, 2 s. Borne: the ground carries at least half of the weight in the mean, of a "
+    "Evidence. Long enough: a whole period of a limit cycle that repeats within 1 %; else three periods of the set "
+    "points; where set points do not repeat, 2 s. Borne: the ground carries at least half of the weight in the mean, of a "
     "floating base. Accurate: torque error at most limits.torque_error, at most 5 % of the energy unaccounted for, at most 10 "
     "% of the time coarser than physics.accuracy, and no motor whose efficiency x Kt exceeds Ks.";
 

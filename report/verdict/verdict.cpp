@@ -25,12 +25,12 @@ void replace_end(std::string& text, std::string_view end, std::string_view by) {
   if (text.ends_with(end)) text.replace(text.size() - end.size(), end.size(), by);
 }
 
-/// What orders checks: the least margin first, and before it what has none.
-double urgency(const Check& check) {
-  return std::isnan(check.margin) ? -std::numeric_limits<double>::infinity() : check.margin;
+/// What orders checks: those of the robot as a whole first, because what fell has no gait; then by the least margin.
+std::pair<bool, double> urgency(const Check& check) {
+  return {check.group != CheckGroup::run, std::isnan(check.margin) ? -std::numeric_limits<double>::infinity() : check.margin};
 }
 
-/// Of the checks with that status the one with the least margin, or nullptr.
+/// The most urgent of those that count, or nullptr.
 template <class Counts>
 const Check* worst_of(const std::vector<Check>& checks, const Counts& counts) {
   const Check* found = nullptr;

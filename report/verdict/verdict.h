@@ -51,10 +51,11 @@ struct Verdict {
   std::string window_of_rows = {};        ///< motion_sentence of an older folder; empty: all else is of control ticks
   std::vector<JointDemand> demands = {};  ///< empty: no joint reaches a limit, or nobody asked
   std::string demand_doubt = {};          ///< why demands are not known, or doubtful
-  /// Of `failed` and `infeasible`: the check that the word rests on, of those that make it the one with the least margin.
+  /// Of `failed` and `infeasible`: the check that the word rests on: of those that make it one of the robot as a whole (group
+  /// run), else the one with the least margin.
   std::string decided_by = {};
   [[nodiscard]] std::size_t count(CheckStatus status) const;
-  /// What fails: first what the word rests on, then from the least margin on.
+  /// What fails, in the same order.
   [[nodiscard]] std::vector<const Check*> failures() const;
   /// The check that can fail with the least margin; nullptr: no margin is known. Limits of 0 count only where they fail.
   [[nodiscard]] const Check* tightest() const;

@@ -202,7 +202,7 @@ RIGHT_STUDIES = [
     LAG + "replicates: {count: 2, vary: {ground.friction: {normal: [0.8, 0.1], low: 0.3}, actuator.R: {times: {uniform: [0.9, 1]}}}, "
     "combine: quantile(0.9)}\n",
     LAG + "objective: [{maximize: speed}, {minimize: torque.peak}]\nconstraints: [torque.rms <= 1]\n",
-    LAG + "guards: none\nstop: [fell, speed > 9 after 1]\n",
+    LAG + "guards: none\nstop: [fell, speed > 9 after 0.01]\n",
     LAG + "guards: {stops: 0.1, dock_bending: {margin: 0.2}, periodic: true, slip: false}\nmethod: {type: cma, population: 16}\nbudget: {runs: 99}\nverify: {engine: none}\n",
 ]
 WRONG_STUDIES = [

@@ -94,10 +94,11 @@ function judgement(desk: Run, meta: Meta): Judgement {
   return { mood: "good", said: "Feasible with these motors", why: [sentence(rests_on ? `over ${rests_on}: ${kept}` : kept), ...left], facts: facts() };
 }
 
-/** What fails: first what the word rests on, then from the least margin on; what has no margin first. */
+/** What fails: first what the word rests on, then what concerns the robot as a whole, then from the least margin on. */
 function failures({ verdict: { checks, decided_by } }: Meta): Check[] {
-  const urgency = ({ id, margin }: Check) => (id === decided_by ? -Infinity : (margin ?? -1e300));
-  return checks.filter((c) => c.status === "fail").sort((a, b) => (urgency(a) < urgency(b) ? -1 : urgency(a) > urgency(b) ? 1 : 0));
+  const urgency = ({ id, group, margin }: Check) => (id === decided_by ? [0, 0] : [group === "run" ? 1 : 2, margin ?? -1e300]);
+  const sooner = ([a, m]: number[], [b, n]: number[]) => a - b || m - n;
+  return checks.filter((c) => c.status === "fail").sort((a, b) => sooner(urgency(a), urgency(b)));
 }
 
 /** The check that the page opens at: what the word rests on, what is too close, else the tightest one; null: none leads anywhere. */

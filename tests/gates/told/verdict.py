@@ -152,7 +152,7 @@ class Judged:
 
 
     def decided_by(self, checks, word):
-        """Ids of what infeasible and failed rest on: of what fails the least margin, in a run that is too short of the whole run's."""
+        """Ids of what infeasible and failed rest on: of what fails the robot as a whole, else the least margin, in a run that is too short of the whole run's."""
         if word not in ("infeasible", "failed"):
             return [None]
         short = word == "infeasible" and not self.evidence.long_enough
@@ -167,8 +167,8 @@ def sentence(check):
 
 
 def by_urgency(checks):
-    """The least margin first, and before it what has none."""
-    return sorted(checks, key=lambda c: -math.inf if c["margin"] is None else c["margin"])
+    """What concerns the robot as a whole first, then the least margin, and before it what has none."""
+    return sorted(checks, key=lambda c: (c["group"] != "run", -math.inf if c["margin"] is None else c["margin"]))
 
 
 def tightest(checks):
