@@ -109,8 +109,10 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
                                    texts::percent(kTrustedResidual),
                                    s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step");
   } else if (coarse > kTrustedCoarse) {
-    made.not_trusted = fmt::format("in {} of the time the shortest steps do not reach the accuracy {}",
-                                   texts::rough_percent(coarse), texts::rough_percent(s.physics.accuracy));
+    made.not_trusted = fmt::format(
+        "in {} of the time the shortest steps do not reach the accuracy {}; look for what is undamped, or driven without "
+        "bounds",
+        texts::rough_percent(coarse), texts::rough_percent(s.physics.accuracy));
   }
   if (driven && !error.estimated) unknown.emplace_back("the error of the torques");
 }

@@ -167,7 +167,7 @@ MISSING = (r"{simulated:.3g} s are {held:.2g} of a gait's 3 periods of {period:.
            r"|no set point changes: cpg {cpg} moves no joint"
            r"|the torque of joint {inaccurate} is off by about {off:rough} of its peak, more than {most:pct}; take .*"
            r"|{residual:pct} of the energy is unaccounted for, more than {kept:pct}; take .*"
-           r"|in {coarse:rough} of the time the shortest steps do not reach the accuracy {accuracy:rough}")
+           r"|in {coarse:rough} of the time the shortest steps do not reach the accuracy {accuracy:rough}; look for .*")
 # A check that is not judged says why; a number in such a sentence is recomputed, too.
 NOT_JUDGED = (
     r"judged of a floating base(?: above a ground| on a ground| that gravity holds on a ground, where the ground's forces are recorded)?"
