@@ -47,7 +47,8 @@ struct Judged {
   [[nodiscard]] static std::size_t first(const std::vector<JudgedJoint>& joints);
 };
 
-/// s: what is left out of a run that ends at `end` and has no limit cycle, because it is the start: 2 s or a fifth.
+/// s: length of the start that is left out of a run without a limit cycle: 2 s, or a fifth of a run that ends earlier than 10
+/// s.
 double left_out_start(double end);
 
 /// The window holds whole periods up to the end of the run: from the limit cycle on, or from earlier on where more than one

@@ -38,7 +38,7 @@ double least_frequency(const Scenario& s) {
   return least;
 }
 
-/// Set points of the driven joints at every control tick, row-major: what the CPG does without feedback.
+/// Set points of the driven joints at every control tick without feedback, row-major.
 std::vector<double> set_points_alone(const Scenario& s, std::int64_t ticks) {
   const std::unique_ptr<Cpg> cpg = make_cpg(s.cpg, info(*s.robot));
   const std::size_t joints = s.robot->joints.size();
@@ -64,7 +64,7 @@ std::vector<double> set_points_alone(const Scenario& s, std::int64_t ticks) {
   return all;
 }
 
-/// Whether the recorded set points are those of the CPG alone. Those of a row were in force just before it.
+/// True where feedback changed no recorded set point. The set point of a row was in force just before it.
 bool recorded_so(const Scenario& s, const Recording& r, const std::vector<double>& alone, const std::vector<Series>& recorded) {
   const Series t = motion(r).t;
   for (std::size_t row = 1; row < t.size(); ++row) {
@@ -97,7 +97,7 @@ std::optional<MotionCycle> cycle_alone(const Scenario& s, const Recording& r) tr
     if (found.found) return found;
   }
   return MotionCycle();
-} catch (const PluginError&) {  // what it would do after the run is not asked of it
+} catch (const PluginError&) {  // a CPG may fail after the end of the run
   return {};
 }
 

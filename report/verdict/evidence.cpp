@@ -59,11 +59,12 @@ void judge_support(const Scenario& s, const Summary& summary, Evidence& made, st
     made.not_borne = "there is no gravity, so that no ground bears the robot; take physics.gravity, or base: fixed";
     return;
   }
-  if (s.ground.kind == Ground::Kind::none || (!s.contact.solver() && contact_elements(*s.robot, s.contact.on).empty())) {
-    made.not_borne =
-        fmt::format("the robot falls freely: {}; take base: fixed, or {}",
-                    s.ground.kind == Ground::Kind::none ? "there is no ground" : "no part of it touches the ground",
-                    s.ground.kind == Ground::Kind::none ? "a ground" : "contact.on: all");
+  if (s.ground.kind == Ground::Kind::none) {
+    made.not_borne = "the robot falls freely: there is no ground; take base: fixed, or a ground";
+    return;
+  }
+  if (!s.contact.solver() && contact_elements(*s.robot, s.contact.on).empty()) {
+    made.not_borne = "the robot falls freely: no part of it touches the ground; take base: fixed, or contact.on: all";
     return;
   }
   const double share = summary.posture.borne_share;

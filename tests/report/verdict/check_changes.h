@@ -1,4 +1,4 @@
-// By what tests of checks change a recorded walk.
+// Changes that tests of checks make to a recorded walk.
 #pragma once
 #include <cmath>
 #include <functional>

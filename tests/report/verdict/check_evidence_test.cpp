@@ -1,4 +1,4 @@
-// Evidence, what is too close to be judged, and the words that come of checks.
+// Evidence, values too close to their limits, and the words that follow from checks.
 #include <cmath>
 #include <limits>
 

@@ -114,8 +114,8 @@ TEST(Earned, ADropAtTheStartIsNoSlide) {
   EXPECT_NE(dropped.check("progress").status, CheckStatus::fail) << dropped.check("progress").text;
 }
 
-/// A slide within the only period of the window is compared with the period before.
-TEST(Earned, SlidingWithinOnePeriod) {
+/// A slide is found in short runs, too: of two periods, two and a half, three and a half.
+TEST(Earned, SlidingInAShortRun) {
   const double g = 9.81;
   const auto on_slope = [&](const char* duration) {
     return Told(shipped("hexapod.yaml", {"physics.engine=articulated", duration, "ground.friction=0.3",
