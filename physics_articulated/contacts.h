@@ -179,6 +179,16 @@ class Contacts {
     }
     return all;
   }
+  /// Lanes in which the last solve had more than half of the load on elements that slide, whose friction holds nothing back.
+  [[nodiscard]] math::Mask<T> mostly_slide() const {
+    T load = 0.0, sliding = 0.0;
+    for (const Contact<T>& c : touching_) {
+      const T fn = dot(c.n, c.held);
+      load = load + fn;
+      sliding = sliding + math::select(c.sliding_force > T(0.0), fn, T(0.0));
+    }
+    return sliding > T(0.5) * load;
+  }
   /// Tangents at the iterate, in the lanes `which`.
   void touch(const math::Mask<T>& which, double h) {
     using math::select;

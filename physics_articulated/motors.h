@@ -24,9 +24,11 @@ class Motors {
         slope(joints),
         scale(joints, T(1.0)),
         per_speed(joints, T(1.0 / kSpeed)),
+        least_slope_(joints, T(0.0)),
         actuator_(actuator) {
     if (actuator == nullptr) return;
     find_scale();
+    for (const std::size_t j : passive) least_slope_[j] = T(0.0);
     const DcMotor* from = actuator->dc_motors();
     if (from == nullptr) return;
     dc_.resize(joints);
@@ -69,6 +71,10 @@ class Motors {
     torque[j] = math::select(which, law[j] + falls * (end - start), torque[j]);
   }
 
+  /// Lanes in which the tangent at the last solve is that of a motor at its limit, which damps no speed: a slope below a tenth
+  /// of that at rest. None of a passive joint or of an actuator without a slope.
+  [[nodiscard]] math::Mask<T> at_limit(std::size_t j) const { return slope[j] < least_slope_[j]; }
+
   /// Actuator::electrical of DC motors; false: they are none.
   bool evaluate(In command, In speed, const Actuator::Electrical& out) const {
     for (std::size_t j = 0; j < dc_.size(); ++j) {
@@ -89,7 +95,8 @@ class Motors {
   std::vector<T> per_speed;       ///< by which an error of the speed is judged: the slope at rest, else scale / kSpeed
 
  private:
-  static constexpr double kSpeed = 3;  ///< rad/s: about what motors of modules run at
+  static constexpr double kSpeed = 3;    ///< rad/s: about what motors of modules run at
+  static constexpr double kSlope = 0.1;  ///< of the slope at rest: a directional gear changes it by less, a limit by all of it
 
   void find_scale() {
     const In limit = actuator_->command_limit();
@@ -100,7 +107,10 @@ class Motors {
       if (std::isfinite(torques[i]) && torques[i] > 0) to[i] = torques[i];
     }
     actuator_->effort(rest, rest, torques, slopes);
-    for (std::size_t i = 0; i < limit.size(); ++i) numbers(per_speed)[i] = slopes[i] > 0 ? slopes[i] : to[i] / kSpeed;
+    for (std::size_t i = 0; i < limit.size(); ++i) {
+      numbers(per_speed)[i] = slopes[i] > 0 ? slopes[i] : to[i] / kSpeed;
+      numbers(least_slope_)[i] = slopes[i] > 0 ? kSlope * slopes[i] : 0;
+    }
   }
 
   static Out numbers(std::span<T> values) { return math::numbers(values); }
@@ -113,6 +123,7 @@ class Motors {
     std::copy_n(math::numbers(std::span<const T>(&value, 1)).begin(), math::kLanes<T>, to.data() + j * math::kLanes<T>);
   }
 
+  std::vector<T> least_slope_;  // of a motor that is not at its limit; 0: there is none
   const Actuator* actuator_;
   std::vector<BasicDcMotor<T>> dc_;  // empty: asks the actuator
 };

@@ -78,13 +78,16 @@ class Stepper {
   History layout;
 
  private:
-  static constexpr std::size_t kLevels = 5;    ///< lengths of an adaptive step: h to h / 16
+  static constexpr std::size_t kLevels = 7;    ///< lengths of an adaptive step: h to h / 64
   static constexpr std::size_t kHalvings = 6;  ///< of a step whose search does not end
   // What two orders may differ by, in units of the accuracy: chosen, with the base's speeds, as the least that brings the gaits
   // and limits of docs/validation.md within the accuracy.
   static constexpr double kSecondOrder = 1, kThirdOrder = 2;
   static constexpr double kBaseSpeed = 0.02, kBaseTurn = 0.2;  ///< m/s, rad/s: what the base's differences are relative to
-  static constexpr double kFloor = 0.01;  ///< of the largest torque at rest: what the accuracy is relative to at least
+  // Where an error of speed is not damped it becomes an error of place, and shows in a torque long after the step that made it.
+  static constexpr double kAtLimit = 0.25;  ///< of the tolerance of a joint whose motor is at its limit
+  static constexpr double kLoose = 0.5;     ///< of the base's where a motor is at its limit, or most of the load slides
+  static constexpr double kFloor = 0.01;    ///< of the largest torque at rest: what the accuracy is relative to at least
 
   static constexpr std::size_t kMostParts = 1 + 7 * ((std::size_t{1} << kLevels) - 1);
 
@@ -144,24 +147,37 @@ class Stepper {
   }
 
   /// Lanes in which no speed differs by more than `share` of the accuracy: of a joint, as a torque, relative to its largest
-  /// torque so far; of the base relative to kBaseSpeed and kBaseTurn, for what it does shows in the torques only later.
+  /// torque so far; of the base relative to kBaseSpeed and kBaseTurn, for what it does shows in the torques only later. Both
+  /// by the state in which the last solve left the lane.
   template <class Difference>
   math::Mask<T> within(double share, const math::Mask<T>& which, Difference difference) {
     math::Mask<T> within = which;
     const T allowed = share * accuracy_;
+    math::Mask<T> loose = implicit.contacts.mostly_slide();
     for (std::size_t j = 0; j < joints_; ++j) {
       const T& peak = history_[layout.peak() + j];
       const T least = kFloor * implicit.motors.scale[j];
       const T apart = implicit.motors.per_speed[j] * math::abs(difference(StateLayout::kAngles + joints_ + j));
-      within = math::mask_and(within, apart <= allowed * math::select(peak > least, peak, least));
+      const auto limited = implicit.motors.at_limit(j);
+      const T here = math::select(limited, kAtLimit * allowed, allowed);
+      within = math::mask_and(within, apart <= here * math::select(peak > least, peak, least));
+      loose = math::mask_or(loose, limited);
     }
+    const T of_base = math::select(loose, kLoose * allowed, allowed);
     for (const auto& [first, speed] :
          {std::pair(StateLayout::kVelocity, kBaseSpeed), {StateLayout::kAngularVelocity, kBaseTurn}}) {
       const Vec<T> apart{difference(first), difference(first + 1), difference(first + 2)};
-      const T most = speed * allowed;
+      const T most = speed * of_base;
       within = math::mask_and(within, dot(apart, apart) <= most * most);
     }
     return within;
+  }
+
+  /// Lanes that are numbers: no length of step brings the others back.
+  static math::Mask<T> finite(std::span<const T> x) {
+    T sum = 0.0;
+    for (const T& one : x) sum = sum + T(0.0) * one;
+    return sum <= T(0.0);
   }
 
   /// A step of h of the lanes `which`. Level kLevels: second order, whatever its error.
@@ -205,8 +221,9 @@ class Stepper {
     normalise<T>(whole);
     const auto taken = math::mask_or(second, third);
     for (std::size_t e = 0; e < x.size(); ++e) x[e] = select(taken, whole[e], start[e]);
-    const auto shorter = math::fresh(which, taken);
+    const auto shorter = math::mask_and(math::fresh(which, taken), finite(start));
     if (!math::any_lane(shorter)) return;
+    if (!math::any_lane(taken)) used_ = first;  // parts that count for nobody
     for (int i = 0; i < 2; ++i) adapt(x, command, h / 2, shorter, level + 1);
   }
 

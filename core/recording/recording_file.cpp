@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
 #include <optional>
+#include <string_view>
 #include <type_traits>
 
 #include "core/errors.h"
@@ -21,6 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kHinges = "energy.hinges";
 constexpr const char* kEnded = "ended";
+constexpr const char* kEventTime = "torque_error.event_time";
+constexpr const char* kEventJoint = "torque_error.event_joint";
 
 /// Every number of a recording that is not one of a row or of a joint: visit(name, unit, definition, number).
 template <class OfRecording, class Visit>
@@ -45,6 +49,8 @@ void each_number(OfRecording& r, Visit visit) {
   visit("off_law", "", "joint-steps that ended off the law of their motor or stop", r.tally.off);
   visit("coarse_time", "s", "time in which the steps did not reach the accuracy", r.tally.coarse);
   visit("torque_error.estimated", "", "1: there is an estimate of the torque error", r.tally.estimated);
+  visit(kEventTime, "s", "when run and twin parted by more than the accuracy first; below 0: never", r.tally.event_time);
+  visit(kEventJoint, "", "number of the joint in which they did", r.tally.event_joint);
   visit(kEnded, "", "how it ended: 0 done, 1 diverged, 2 plugin, 3 stopped, 4 interrupted, 5 not run, 6 early",
         r.outcome.ended);
 }
@@ -104,7 +110,8 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   }
   each_number(r, [&](const char* name, const char*, const char*, auto& number) {
     using Number = std::remove_reference_t<decltype(number)>;
-    const bool added = name == kHinges || name == kEnded;
+    const bool added = std::ranges::any_of(std::array{kHinges, kEnded, kEventTime, kEventJoint},
+                                           [&](const char* one) { return name == std::string_view(one); });
     if (added && run.find(name) == run.columns.size()) return;  // older folders do not have it
     const double read = value(run, 0, name);
     // Yes or no, a source, and counts, which a double holds to 2^53.
@@ -116,6 +123,8 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
       throw unfit(file, fmt::format("{} is {}", name, read));
     number = static_cast<Number>(read);
   });
+  if (r.tally.event_joint > 0 && r.tally.event_joint >= r.joints.size())
+    throw unfit(file, fmt::format("{} is {}", kEventJoint, r.tally.event_joint));
   if (!std::isfinite(r.simulated) || r.simulated < 0) throw unfit(file, fmt::format("simulated is {}", r.simulated));
   if (!r.rest.columns.empty() && r.rest.rows() != r.trace.rows()) {
     throw unfit(file, fmt::format("{} rows in /recording/rest, {} in the trace", r.rest.rows(), r.trace.rows()));

@@ -64,6 +64,8 @@ struct StepTally {
   double off = 0;                    ///< joint-steps that ended off the law of their motor or stop
   double coarse = 0;                 ///< s in which the shortest steps that an integrator takes did not reach the accuracy
   bool estimated = false;            ///< whether there is an estimate of the torque error yet (core/simulation/step_error.h)
+  double event_time = -1;            ///< s: when the run and its twin parted by more than the accuracy first; below 0: never
+  std::size_t event_joint = 0;       ///< in which joint
   std::vector<double> torque_error;  ///< of each joint, RMS, N m
   std::vector<double> torque_peak;   ///< of each joint, largest torque where that error is asked for, N m
 };

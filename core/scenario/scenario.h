@@ -23,11 +23,21 @@ struct Initial {
   void fields(Fields& f);
 };
 
+/// Whether a run has a twin, which tells what its steps cost in torque (core/simulation/step_error.h).
+enum class Estimate { full, off };
+
+template <>
+struct EnumNames<Estimate> {
+  using enum Estimate;
+  static constexpr EnumName<Estimate> kTable[] = {{full, "full"}, {off, "off"}};
+};
+
 struct Physics {
   const Engine* engine = nullptr;
   double step = 0;                         ///< s; with `adaptive_step` the longest that the control period allows
   bool adaptive_step = false;              ///< `step: auto`: the integrator divides each step as `accuracy` asks
   double accuracy = 0.01;                  ///< of the torques, relative; of integrators that choose their steps
+  Estimate estimate = Estimate::full;
   const Integrator* integrator = nullptr;  ///< of the engine's
   Vec3 gravity{0, 0, -9.81};               ///< m/s^2, world
   /// Whether the integrator chooses its steps by `accuracy`.

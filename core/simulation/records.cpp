@@ -67,8 +67,10 @@ Sample& Simulation::take_sample(Lane& lane, bool whole) {
   take_passive(lane, s);
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
   plant_->tally(l, s.tally);
-  if (step_error_) {
+  if (step_error_ && lane.scenario.physics.estimate == Estimate::full) {
     s.tally.estimated = step_error_->any(l);
+    s.tally.event_time = step_error_->event_time(l);
+    s.tally.event_joint = step_error_->event_joint(l);
     for (std::size_t j = 0; j < layout_.joints; ++j) {
       s.tally.torque_error[j] = step_error_->rms(j, l);
       s.tally.torque_peak[j] = step_error_->peak(j, l);

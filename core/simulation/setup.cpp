@@ -35,9 +35,12 @@ bool can_share(const Scenario& a, const Scenario& b) {
          std::ranges::equal(elements(a), elements(b), same_place);
 }
 
-Simulation::Simulation(std::span<const Scenario> lanes, Loads loads) try
+Simulation::Simulation(std::span<const Scenario> lanes, Loads loads) : Simulation(lanes, loads, Role::run) {}
+
+Simulation::Simulation(std::span<const Scenario> lanes, Loads loads, Role role) try
     : scenarios_(lanes.begin(), lanes.end()),
       loads_(loads),
+      role_(role),
       h_(scenarios_.at(0).physics.step),
       layout_{scenarios_[0].robot->joints.size(), scenarios_.size()},
       meter_(scenarios_) {
@@ -60,10 +63,12 @@ Simulation::Simulation(std::span<const Scenario> lanes, Loads loads) try
        {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_, &available_, &largest_}) {
     values->assign(layout_.joints * lanes_.size(), 0.0);
   }
-  cut_state();
+  numbers_.assign(state_size(), 0.0);
+  cut_state(numbers_);
   set_start();
+  if (role_ == Role::twin) return;
   check_standing();
-  watch_error();
+  make_twin();
 } catch (const PluginError& error) {
   throw InputError(lanes[0].place(std::string(word(error.kind)) + ".type"), error.what());
 }
@@ -86,18 +91,25 @@ PlantSettings Simulation::plant_settings() const {
   return settings;
 }
 
-/// step counter | plant | its history | set points | commands | per lane: CPG states, controller states, ledger's sums.
-void Simulation::cut_state() {
-  const std::size_t joints = layout_.joints * lanes_.size();
-  const std::size_t watch = StepError::size(layout_, plant_->history());
-  std::size_t size = 1 + layout_.size() + plant_->history() + 2 * joints + watch;
+/// Numbers that change, without those of the twin.
+std::size_t Simulation::state_size() const {
+  std::size_t size = 1 + layout_.size() + plant_->history() + 2 * layout_.joints * lanes_.size();
   for (const auto& lane : lanes_) {
     size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states()) + Ledger::kSums;
   }
-  state_.assign(size, 0.0);
+  return size;
+}
+
+/// step counter | plant | its history | set points | commands | per lane: CPG states, controller states, ledger's sums. Takes
+/// the present values along.
+void Simulation::cut_state(Out numbers) {
+  std::ranges::copy(own_, numbers.begin());
+  own_ = numbers.first(state_size());
+  state_ = numbers;
+  const std::size_t joints = layout_.joints * lanes_.size();
   std::size_t at = 1;
   const auto cut = [&](std::size_t count) {
-    const Out part = Out(state_).subspan(at, count);
+    const Out part = numbers.subspan(at, count);
     at += count;
     return part;
   };
@@ -105,7 +117,6 @@ void Simulation::cut_state() {
   plant_history_ = cut(plant_->history());
   setpoint_ = cut(joints);
   command_ = cut(joints);
-  step_error_state_ = cut(watch);
   for (const auto& lane : lanes_) {
     lane->cpg_state = cut(lane->sample.cpg.size());
     lane->controller_state = cut(lane->controller == nullptr ? 0 : lane->controller->states());
@@ -171,54 +182,36 @@ void Simulation::set_start() {
     for (std::size_t j = 0; actuator_ != nullptr && j < layout_.joints; ++j) {
       lane.limit[j] = actuator_->command_limit()[j * lanes_.size() + l];
     }
-    lane.probes = std::make_unique<Probes>(s, lane.contacts, lane.cpg.get(),
-                                           actuator_ == nullptr ? "" : actuator_->command_unit(), sample);
-    Recording& recording = lane.recording;
-    recording.trace.columns = lane.probes->columns();
-    recording.rest.columns = lane.probes->rest_columns();
-    recording.ticks.columns = tick_columns(layout_.joints);
-    recording.poses.columns = pose_columns(layout_.joints);
-    lane.ticks_per_row = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kTickRows / s.control_period - 1e-9)));
-    check_memory(s, gaitlab::rows_needed(s, recording));
-    const auto reserve = [&](Trace& table, double rows) {
-      try {
-        table.values.reserve(static_cast<std::size_t>(rows + 3) * table.columns.size());
-      } catch (const std::bad_alloc&) {
-        throw too_many_rows(s, gaitlab::rows_needed(s, recording), "so much memory is not to be had");
-      }
-    };
-    for (Trace* table : {&recording.trace, &recording.rest}) reserve(*table, s.duration / s.trace.period);
-    const double ticks = s.duration / (s.control_period * static_cast<double>(lane.ticks_per_row));
-    for (Trace* table : {&recording.ticks, &recording.poses})
-      reserve(*table, std::min(ticks, static_cast<double>(kMostTickRows)));
-    if (loads_ == Loads::left_out) continue;
-    lane.loads = std::make_unique<LoadMeter>(s, lane.contacts);
-    recording.loads.columns = lane.loads->columns();
-    reserve(recording.loads, std::min(ticks, static_cast<double>(kMostTickRows)));
+    if (role_ == Role::run) set_recording(lane);
   }
 }
 
-/// A second plant for the estimate of the torque error, where there are motors and a state that can be copied.
-void Simulation::watch_error() {
-  const Physics& physics = scenarios_[0].physics;
-  const bool known = physics.adapts() || physics.integrator->order > 0;
-  if (actuator_ == nullptr || !known || !plant_->state_is_complete() || layout_.joints == 0) return;
-  const std::int64_t control_every = std::llround(scenarios_[0].control_period / h_);
-  PlantSettings settings = plant_settings();
-  StepTwin twin;
-  if (physics.adapts()) {
-    settings.accuracy *= StepError::kCoarser;
-    for (LaneSettings& other : settings.others) other.accuracy *= StepError::kCoarser;
-    twin = {1, StepError::kSafety / (StepError::kCoarserError - 1), 0.18, 6};
-  } else {
-    const double ratio = 1 << physics.integrator->order;
-    // An explicit step of twice the length may be too long for the robot.
-    const bool longer = control_every % 2 == 0 && !(standing_.rate > 0);
-    const double factor = StepError::kSafety / (ratio - 1);
-    twin = longer ? StepTwin{2, factor, 0.18, 5} : StepTwin{-2, ratio * factor, 0.09, 20};
-  }
-  step_error_ = std::make_unique<StepError>(physics.engine->make(settings), twin, *actuator_, layout_, control_every, h_);
-  step_error_->bind(step_error_state_);
+void Simulation::set_recording(Lane& lane) {
+  const Scenario& s = lane.scenario;
+  lane.probes = std::make_unique<Probes>(s, lane.contacts, lane.cpg.get(),
+                                         actuator_ == nullptr ? "" : actuator_->command_unit(), lane.sample);
+  Recording& recording = lane.recording;
+  recording.trace.columns = lane.probes->columns();
+  recording.rest.columns = lane.probes->rest_columns();
+  recording.ticks.columns = tick_columns(layout_.joints);
+  recording.poses.columns = pose_columns(layout_.joints);
+  lane.ticks_per_row = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kTickRows / s.control_period - 1e-9)));
+  check_memory(s, gaitlab::rows_needed(s, recording));
+  const auto reserve = [&](Trace& table, double rows) {
+    try {
+      table.values.reserve(static_cast<std::size_t>(rows + 3) * table.columns.size());
+    } catch (const std::bad_alloc&) {
+      throw too_many_rows(s, gaitlab::rows_needed(s, recording), "so much memory is not to be had");
+    }
+  };
+  for (Trace* table : {&recording.trace, &recording.rest}) reserve(*table, s.duration / s.trace.period);
+  const double ticks = s.duration / (s.control_period * static_cast<double>(lane.ticks_per_row));
+  for (Trace* table : {&recording.ticks, &recording.poses})
+    reserve(*table, std::min(ticks, static_cast<double>(kMostTickRows)));
+  if (loads_ == Loads::left_out) return;
+  lane.loads = std::make_unique<LoadMeter>(s, lane.contacts);
+  recording.loads.columns = lane.loads->columns();
+  reserve(recording.loads, std::min(ticks, static_cast<double>(kMostTickRows)));
 }
 
 /// No command yet: set point = angle, command 0.

@@ -30,15 +30,15 @@ bool Simulation::any(bool (Simulation::*tick)(const Lane&) const) const {
 }
 
 void Simulation::step() try {
+  if (twin_) begin_twin();
   if (any(&Simulation::trace_tick)) record();
   if (any(&Simulation::control_tick)) {
     sense();
     command();
   }
   record_within_step();
-  if (step_error_) step_error_->begin(step_number(), plant_state_, plant_history_);
   advance(h_, [](const Lane&) { return true; });
-  if (step_error_) step_error_->follow(step_number(), plant_state_, command_, h_);
+  if (twin_) follow_twin();
   state_[0] += 1;
   check();
 } catch (const PluginError& error) {
@@ -98,6 +98,10 @@ void Simulation::guard(Lane& lane, Work work) try {
 }
 
 void Simulation::fail(Lane& lane, const SimulationError& error) {
+  if (role_ == Role::twin) {
+    lane.closed = true;
+    return place_at_start(lane);
+  }
   if (lanes_.size() == 1) throw SimulationError(error);
   lane.outcome = error.outcome();
   end(lane);
@@ -158,9 +162,10 @@ void Simulation::sense() {
 void Simulation::command() {
   for (const auto& lane : lanes_) {
     if (!control_tick(*lane)) continue;
-    if (lane->recording.control_ticks % lane->ticks_per_row == 0) record_tick(*lane);
+    if (role_ == Role::run && lane->recording.control_ticks % lane->ticks_per_row == 0) record_tick(*lane);
     guard(*lane, [&] { command(*lane); });
   }
+  if (role_ == Role::twin) return;
   record_loads([](const Lane& lane) { return !lane.closed; });
   watch_stability();
 }

@@ -68,6 +68,8 @@ class Simulation {
 
  private:
   struct Lane;
+  enum class Role { run, twin };  ///< a twin records nothing, is not estimated itself, and throws nothing in a step
+  Simulation(std::span<const Scenario> lanes, Loads loads, Role role);
 
   [[nodiscard]] bool control_tick(const Lane& lane) const;
   [[nodiscard]] bool trace_tick(const Lane& lane) const;
@@ -84,11 +86,18 @@ class Simulation {
   [[nodiscard]] bool fine(const Lane& lane) const;
 
   [[nodiscard]] PlantSettings plant_settings() const;
-  void cut_state();
+  [[nodiscard]] std::size_t state_size() const;
+  void cut_state(Out numbers);
   void set_start();
   void place_at_start(Lane& lane);
   void check_standing();
-  void watch_error();
+  void make_twin();
+  [[nodiscard]] StepTwin twin_schedule() const;
+  [[nodiscard]] std::vector<Scenario> twins(const StepTwin& how) const;
+  void begin_twin();
+  void follow_twin();
+  void step_twin();
+  void set_recording(Lane& lane);
   void ask_watch();
   void watch_stability();
   void evaluate_motors(In speeds);
@@ -113,15 +122,20 @@ class Simulation {
 
   std::vector<Scenario> scenarios_;
   Loads loads_;
+  Role role_;
   double h_;
   std::int64_t steps_ = 0;  ///< of the longest lane
   std::unique_ptr<Actuator> actuator_;
   std::unique_ptr<Plant> plant_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   StateLayout layout_;
-  std::vector<double> state_;
-  std::unique_ptr<StepError> step_error_;                                    ///< nullptr: nothing to estimate
-  Out plant_state_, plant_history_, step_error_state_, setpoint_, command_;  ///< parts of state_; joint * lanes + lane
+  std::vector<double> numbers_;                           ///< all that changes, that of the twin included; of a twin, empty
+  Out state_;                                             ///< the same; of a twin, a part of the first's
+  Out own_;                                               ///< without the twin's and those of step_error_
+  std::unique_ptr<Simulation> twin_;                      ///< nullptr: nothing to estimate
+  StepTwin how_;                                          ///< twin_ goes beside this
+  std::unique_ptr<StepError> step_error_;                 ///< with twin_
+  Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; joint * lanes + lane
   std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, available_,
       largest_;                   ///< scratch, elementwise
   std::vector<double> saved_;     ///< scratch: state_ while a row within a step is made

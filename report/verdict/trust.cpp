@@ -80,6 +80,10 @@ std::string steps_text(const Scenario& scenario, const Recording& r) {
   if (error.estimated) {
     text += fmt::format("; torque error about {} (joint {})", texts::rough_percent(error.share),
                         scenario.robot->joints[error.joint].name);
+    if (r.tally.event_time >= 0 && error.share > torque_error_limit(scenario)) {
+      text += fmt::format(", beyond the accuracy first at {:.4g} s (joint {})", r.tally.event_time,
+                          scenario.robot->joints[r.tally.event_joint].name);
+    }
   } else if (scenario.actuator.entry != nullptr && !r.joints.empty()) {
     text += "; torque error not estimated";
   }

@@ -4,30 +4,12 @@
 
 #include "report/verdict/trust.h"
 #include "tests/program/fixture.h"
+#include "tests/program/torque_error.h"
 #include "tests/report/verdict/messages.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
 namespace {
-
-/// RMS over the rows over the joint's peak, which counts as at least 2 % of the largest of all; of the worst joint.
-double torque_error(const Recording& measured, const Recording& truth) {
-  const std::size_t joints = truth.joints.size();
-  EXPECT_EQ(measured.rows(), truth.rows());
-  std::vector<double> peak(joints), square(joints);
-  for (std::size_t j = 0; j < joints; ++j) {
-    const Series one = measured.joint(j, "torque");
-    const Series other = truth.joint(j, "torque");
-    for (std::size_t row = 0; row < other.size(); ++row) {
-      peak[j] = std::max(peak[j], std::abs(other[row]));
-      square[j] += std::pow(one[row] - other[row], 2) / static_cast<double>(truth.rows());
-    }
-  }
-  const double largest = *std::max_element(peak.begin(), peak.end());
-  double worst = 0;
-  for (std::size_t j = 0; j < joints; ++j) worst = std::max(worst, std::sqrt(square[j]) / std::max(peak[j], 0.02 * largest));
-  return worst;
-}
 
 double at_limit(const JointStatistics& joint) { return joint.saturated_voltage + joint.saturated_current; }
 

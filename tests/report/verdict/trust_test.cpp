@@ -217,16 +217,22 @@ TEST(Trust, AnErrorIsRelativeToTheTorquesOfTheWholeRun) {
   EXPECT_LT(r.tally.torque_peak[3], 0.1);
 }
 
-/// The torque of an ideal source depends on no speed: that two runs agree in it says nothing of their steps.
-TEST(Trust, NothingIsEstimatedOfTorqueSources) {
+/// The torque of an ideal source depends on no speed: where its command does not either, that two runs agree in it says
+/// nothing of their steps. A loop shows them.
+TEST(Trust, TorqueSourcesAreEstimatedByTheirCommands) {
   const std::string text =
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nactuator: {type: torque, limit: 1.9}\n"
-      "controller: {type: pid, unit: N m, Kp: 5, Kd: 0.05}\ncpg: {type: sine, frequency: 0.5, amplitude: 0.4}\nduration: 0.6\n";
+      "cpg: {type: sine, frequency: 0.5, amplitude: 0.4}\nduration: 0.6\n";
   for (const char* engine : {"articulated", "bullet"}) {
-    const Scenario s = scenario(text, {std::string("physics.engine=") + engine});
-    const Recording r = run(s);
-    EXPECT_TRUE(contains(steps_text(s, r), "; torque error not estimated")) << steps_text(s, r);
-    EXPECT_TRUE(nlohmann::json::parse(to_json(summarise(s, r, 1), s, r)).at("torque_error").is_null());
+    for (const char* gains : {"Kp: 0, Ki: 0, Kd: 0", "Kp: 5, Kd: 0.05"}) {
+      const Scenario s = scenario(text + fmt::format("controller: {{type: pid, unit: N m, {}}}\n", gains),
+                                  {std::string("physics.engine=") + engine});
+      const Recording r = run(s);
+      const bool nothing = contains(gains, "Kp: 0,");
+      EXPECT_EQ(contains(steps_text(s, r), "; torque error not estimated"), nothing) << steps_text(s, r);
+      const auto json = nlohmann::json::parse(to_json(summarise(s, r, 1), s, r));
+      EXPECT_EQ(json.at("torque_error").is_null(), nothing);
+    }
   }
 }
 
