@@ -56,7 +56,7 @@ void rename(SourceLocation& place, const std::string& from, const std::string& t
 Scenario read_inside(const StoredScenario& stored, const std::vector<std::string>& sets, Catalog& catalog) {
   const MemoryFile copy(stored.text);
   try {
-    Scenario scenario = read_scenario(copy.path(), sets, catalog);
+    Scenario scenario = read_scenario(copy.path(), sets, catalog, ReadAs::record);
     scenario.file = stored.shown;
     Scenario::Places places = *scenario.places;
     for (auto& [key, place] : places) rename(place, copy.path(), stored.shown);
@@ -112,7 +112,7 @@ Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugin
     for (const PluginFile& file : recorded_plugins(stored)) paths.push_back(file.path);
     sets.push_back("plugins=" + paths.dump());
   }
-  return stored.file.empty() ? read_inside(stored, sets, catalog) : read_scenario(stored.file, sets, catalog);
+  return stored.file.empty() ? read_inside(stored, sets, catalog) : read_scenario(stored.file, sets, catalog, ReadAs::record);
 }
 
 namespace {

@@ -29,7 +29,8 @@ namespace gaitlab {
 
 class ScenarioReader {
  public:
-  ScenarioReader(const std::string& path, Catalog& catalog) : path_(path), catalog_(catalog) {
+  ScenarioReader(const std::string& path, Catalog& catalog, ReadAs as = ReadAs::scenario)
+      : path_(path), catalog_(catalog), as_(as) {
     scenario_.file = path;
     folder_ = std::filesystem::path(path).parent_path().string();
     if (folder_.empty()) folder_ = ".";
@@ -236,7 +237,7 @@ class ScenarioReader {
     checks.figure_joints();
     if (joints != nullptr) scenario_.figure.joints = joints_meant(scenario_.figure.joints, *joints);
     checks.base_velocity();
-    checks.limits();
+    if (as_ == ReadAs::scenario) checks.limits();
     finish_periods(root_, scenario_, catalog_, problems_);
     const auto concerns = [&](const char* section) { return reads(section); };
     constexpr std::array kOfPlugins{"physics", "contact", "actuator", "controller", "cpg"};
@@ -337,6 +338,7 @@ class ScenarioReader {
 
   std::string path_, folder_;
   Catalog& catalog_;
+  ReadAs as_;
   Problems problems_;
   Node root_;
   Scenario scenario_;
@@ -346,8 +348,8 @@ class ScenarioReader {
   std::vector<std::string> touched_;  ///< sections to read; none: all
 };
 
-Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog) {
-  return ScenarioReader(path, catalog).read(read_text(path), sets);
+Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog, ReadAs as) {
+  return ScenarioReader(path, catalog, as).read(read_text(path), sets);
 }
 
 Scenario read_module(const std::string& path, Catalog& catalog) {

@@ -10,9 +10,13 @@ namespace gaitlab {
 
 class ScenarioReader;
 
+/// record: the scenario of a run that was made, in which limits may contradict each other, as older versions allowed.
+enum class ReadAs { scenario, record };
+
 /// Reads and checks a scenario file. `sets` are `key.path=value` texts in order. Loads the scenario's plugins into the catalog.
 /// Throws InputError with every problem found, each at FILE:LINE:COL.
-Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog);
+Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog,
+                       ReadAs as = ReadAs::scenario);
 
 /// One module of the type in a file, alone, without ground. Throws InputError with every problem found.
 Scenario read_module(const std::string& path, Catalog& catalog);

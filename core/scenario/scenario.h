@@ -34,9 +34,9 @@ struct EnumNames<Estimate> {
 
 struct Physics {
   const Engine* engine = nullptr;
-  double step = 0;                         ///< s; with `adaptive_step` the longest that the control period allows
-  bool adaptive_step = false;              ///< `step: auto`: the integrator divides each step as `accuracy` asks
-  double accuracy = 0.01;                  ///< of the torques, relative; of integrators that choose their steps
+  double step = 0;             ///< s; with `adaptive_step` the longest that the control period allows
+  bool adaptive_step = false;  ///< `step: auto`: the integrator divides each step as `accuracy` asks
+  double accuracy = 0.01;      ///< of the torques, relative; of integrators that choose their steps
   Estimate estimate = Estimate::full;
   const Integrator* integrator = nullptr;  ///< of the engine's
   Vec3 gravity{0, 0, -9.81};               ///< m/s^2, world
@@ -94,6 +94,8 @@ struct Limits {
   double slip = 0.2;                 ///< of the way of the centre of mass
   double torque_error = 0.05;        ///< of a joint's largest torque
   double progress = 0;               ///< of the robot's extent, per period; 0: nothing is asked for
+  /// m: depth from which on two bodies are in one another. A record may have a `touch` above `collision`.
+  [[nodiscard]] double meeting() const { return touch < collision ? touch : collision; }
   bool operator==(const Limits&) const = default;
   void fields(Fields& f);
 };

@@ -144,7 +144,7 @@ class Search {
     double deepest = 0;
     const bool first = met_.empty();
     row.pairs(can_, [&](std::size_t a, std::size_t b) {
-      const double depth = row.depth(a, b, limits_.touch);
+      const double depth = row.depth(a, b, limits_.meeting());
       if (!(depth > kTouching)) return;
       const Pair pair = std::minmax(pieces_[a].body, pieces_[b].body);
       met_.insert(pair);

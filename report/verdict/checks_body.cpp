@@ -203,7 +203,7 @@ void collision(const CheckedRun& run, Check& made) {
   if (!found && !made.text.empty()) return;
   judge(made, "collision", &Limits::collision, run);
   made.value = found ? found->depth : 0;
-  made.status = graded(made.value, run.limits().touch, made.limit);
+  made.status = graded(made.value, run.limits().meeting(), made.limit);
   made.text = "no two bodies are in one another (those on one hinge are not compared)";
   if (!found) return;
   made.from = made.to = found->deepest_time;

@@ -209,6 +209,10 @@ TEST_F(ScenarioTest, LimitsThatContradictOneAnother) {
             "--set limits.collision=1e-4: error: " + text +
                 "0.0005 m by default, and limits.collision, above which they are a failure, is 0.0001 m; expected limits.touch "
                 "of at most 0.0001 m");
+  // A run that was made is a record.
+  const std::string old = folder_.write("old.yaml", kShort + "limits: {touch: 0.02, collision: 0.01}\n");
+  EXPECT_EQ(read_scenario(old, {}, catalog_, ReadAs::record).limits.touch, 0.02);
+  EXPECT_EQ(read_scenario(old, {}, catalog_, ReadAs::record).limits.meeting(), 0.01);
 }
 
 TEST_F(ScenarioTest, LimitsBeyondWhatTheyAreSharesOf) {
