@@ -12,8 +12,10 @@ constexpr CheckSpan kWindow = CheckSpan::window, kWhole = CheckSpan::whole_run;
 template <DockQuantity kQuantity>
 void dock(const CheckedRun& run, Check& made) {
   judge_docks(run.scenario, run.record, kQuantity, dock_limits(*run.scenario.robot, kQuantity), made);
-  if (made.status != CheckStatus::not_judged && !run.torque_errors.empty())
-    widen(run.scenario, std::ranges::max(run.torque_errors), made);
+  if (made.status == CheckStatus::not_judged || run.torque_errors.empty()) return;
+  // All docks have the error of the worst joint, so that the worst dock decides.
+  const ErrorBar bar = ErrorBar::around(made.worst, made.value / made.limit, std::ranges::max(run.torque_errors));
+  widen(run.scenario, {&bar, 1}, made);
 }
 void slip(const CheckedRun& run, Check& made) {
   judge_slip(run.scenario, run.record, run.summary, made);

@@ -40,7 +40,7 @@ constexpr const char* kMargin =
     "Margin of a check: (limit - value) / limit, for a least limit with the opposite sign, with the limit at which it fails; "
     "of several limits the least; of a limit of 0 not divided. Below 0 it fails. The worst joint, body, dock or foot is the "
     "one with the least margin. A value whose error, by the estimated error of the torques, reaches across the limit is too "
-    "close.";
+    "close, unless another part is beyond its limit by more than its own error.";
 
 /// A paragraph behind a head, which its other lines are indented by.
 std::string hanging(const std::string& head, const std::string& text, std::size_t width) {

@@ -8,6 +8,7 @@
 #include "report/analysis/envelope.h"
 #include "report/analysis/fall.h"
 #include "report/analysis/motors.h"
+#include "report/verdict/error_bar.h"
 #include "report/verdict/evidence.h"
 #include "report/verdict/trust.h"
 #include "report/verdict/verdict.h"
@@ -36,10 +37,6 @@ struct CheckedRun {
 
 /// Up to `pass` a pass, up to `warn` a warning, above it, and where it is not a number, a failure.
 CheckStatus graded(double value, double pass, double warn);
-
-/// Sets Check::error. Where the failing limit lies within the error of the value the status becomes `too close`, and the text
-/// gains the range and the remedy. error: share of the value.
-void widen(const Scenario& scenario, double error, Check& made);
 
 /// The stretch between the row of Recording::ticks before `time` and `time`, in which a peak of that row was reached.
 std::pair<double, double> row_before(const Recording& record, double time);

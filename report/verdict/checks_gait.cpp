@@ -1,4 +1,4 @@
-// Checks of the gait as a whole: progress, and the evidence for the word; the error bars of the others.
+// Checks of the gait as a whole: progress, and the evidence for the word.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -93,17 +93,6 @@ double speed_up(const Motion& m, const Halves& of, double end) {
 }
 
 }  // namespace
-
-void widen(const Scenario& scenario, double error, Check& made) {
-  const double low = made.value * (1 - error);
-  const double high = made.value * (1 + error);
-  made.error = error;
-  if (!(error > 0) || !(low < made.limit && made.limit < high)) return;
-  made.status = CheckStatus::too_close;
-  made.text += fmt::format("; with the error of the torques {} to {} of the limit", texts::percent(low / made.limit),
-                           texts::percent(high / made.limit));
-  made.remedy = "take " + torque_remedy(scenario, std::max(error, scenario.limits.torque_error));
-}
 
 namespace checks {
 
@@ -212,12 +201,11 @@ void evidence(const CheckedRun& run, Check& made) {
   const Evidence& found = run.evidence;
   made.value = run.summary.judged.to - run.summary.judged.from;
   made.source = "chosen";
-  made.text = !found.not_trusted.empty() ? found.not_trusted
-              : !found.too_short.empty() ? found.too_short
-              : !found.not_borne.empty() ? found.not_borne
-                                         : "judged over " + found.rests_on;
-  made.remedy = found.remedy;
-  if (found.complete()) made.status = CheckStatus::pass;
+  const Lack& lack = found.first();
+  made.text = lack.empty() ? "judged over " + found.rests_on : lack.text;
+  made.remedy = lack.remedy;
+  if (lack.empty()) made.status = CheckStatus::pass;
+  if (!lack.empty()) made.place = run.scenario.nearest_place(lack.key);
 }
 
 }  // namespace checks

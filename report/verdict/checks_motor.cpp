@@ -97,7 +97,10 @@ std::vector<double> parts_at_limit(const CheckedRun& run, std::size_t joint, dou
   return parts;
 }
 
-double error_of(const CheckedRun& run, std::size_t joint);
+/// Share by which the torque of a joint, and so its current, may be off; 0: not estimated.
+double error_of(const CheckedRun& run, std::size_t joint) {
+  return joint < run.torque_errors.size() ? run.torque_errors[joint] : 0;
+}
 
 /// Sets Check::first to the end of the first row, behind the row `after`, in which any driven joint is `beyond`, and
 /// Check::first_part to the joint; leaves both where none is.
@@ -142,9 +145,12 @@ AtLimit at_limit(const CheckedRun& run, std::size_t joint, double error, MotorLi
   return made;
 }
 
-/// Whether a joint that is at its limit a share `error` shorter still fails.
-bool fails_anyway(const AtLimit& at, double error) {
-  return std::ranges::any_of(at.criteria, [&](const Criterion& one) { return one.value * (1 - error) > one.limit; });
+/// The bar from a joint that is at its limit a share `error` shorter to one that is as long as `widest`.
+ErrorBar bar_of(const AtLimit& at, double error, const AtLimit& widest) {
+  ErrorBar bar{"", error, 0, 1 - widest.margin()};
+  for (const Criterion& one : at.criteria)
+    bar.least = std::max(bar.least, 1 - Criterion{one.value * (1 - error), one.limit}.margin());
+  return bar;
 }
 
 void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn column) {
@@ -153,6 +159,7 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
   const Judged& judged = run.summary.judged;
   std::optional<AtLimit> worst;
   std::optional<AtLimit> widest;  // of joints that would fail if their torques were larger by their errors
+  std::vector<ErrorBar> bars;
   const auto worse = [](const AtLimit& one, const std::optional<AtLimit>& other) {
     constexpr double kEqual = 1e-9;  // margins of sums of the same ticks
     const double nearer = other ? other->margin() - one.margin() : 1;
@@ -164,9 +171,10 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
     if (one.share > 0) ++made.parts;
     if (worse(one, worst)) worst = one;
     const double error = error_of(run, j);
-    if (!(error > 0) || !(error <= run.limits().torque_error)) continue;  // a larger one is no evidence of anything
-    const AtLimit wide = at_limit(run, j, error, limit);
-    if (wide.margin() < 0 && worse(wide, widest)) widest = wide;
+    const bool known = error > 0 && error <= run.limits().torque_error;  // a larger one is no evidence of anything
+    const AtLimit wide = known ? at_limit(run, j, error, limit) : one;
+    bars.push_back(bar_of(one, error, wide));
+    if (known && wide.margin() < 0 && worse(wide, widest)) widest = wide;
   }
   if (!worst) return;
   made.text = unstated(run, limit, worst->share);
@@ -200,7 +208,7 @@ void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn
                                         made.margin < 0 ? "more than " : "of at most ", run.limits().saturated_periods,
                                         made.limit, texts::percent(worst->share));
   }
-  if (!widest || fails_anyway(*worst, error_of(run, worst->joint))) return;
+  if (!widest || !too_close(bars)) return;
   made.error = error_of(run, widest->joint);
   made.status = CheckStatus::too_close;
   made.text += fmt::format(
@@ -214,14 +222,14 @@ struct Rated {
   double value, limit, time;
 };
 
-/// The joint that comes nearest to its limit, or is farthest beyond it, which is returned. none: what is said where no joint
-/// has a limit.
+/// Of the joint that comes nearest to its limit, or is farthest beyond it. none: what is said where no joint has a limit.
+/// Returns the bars of all joints that have one.
 template <class Rate>
-std::size_t rated(const CheckedRun& run, Check& made, TickColumn column, const char* none, double pass, double warn,
-                  Rate rate) {
+std::vector<ErrorBar> rated(const CheckedRun& run, Check& made, TickColumn column, const char* none, double pass, double warn,
+                            Rate rate) {
   made.text = run.unknown(column);
-  std::size_t found = 0;
-  if (!made.text.empty()) return found;
+  std::vector<ErrorBar> bars;
+  if (!made.text.empty()) return bars;
   made.text = none;
   double worst = -1;
   for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
@@ -229,26 +237,21 @@ std::size_t rated(const CheckedRun& run, Check& made, TickColumn column, const c
     const Rated of = rate(j);
     if (!std::isfinite(of.limit) || !(of.limit > 0)) continue;
     const double share = of.value / of.limit;
+    bars.push_back(ErrorBar::around(run.joint(j), share, error_of(run, j)));
     if (share > (std::isfinite(warn) ? warn : pass)) ++made.parts;
     if (share <= kLarger * worst) continue;
     worst = share;
-    found = j;
     made.value = of.value;
     made.limit = of.limit;
     made.part = Part::joint;
     made.worst = run.joint(j);
     std::tie(made.from, made.to) = row_before(run.record, of.time);
   }
-  if (worst < 0) return found;
+  if (worst < 0) return bars;
   made.status = graded(worst, pass, warn);
   made.source = run.motor_source;
   made.text.clear();
-  return found;
-}
-
-/// Share by which the torque of a joint, and so its current, may be off; 0: not estimated.
-double error_of(const CheckedRun& run, std::size_t joint) {
-  return joint < run.torque_errors.size() ? run.torque_errors[joint] : 0;
+  return bars;
 }
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -305,7 +308,7 @@ void speed(const CheckedRun& run, Check& made) {
 }
 
 void heat(const CheckedRun& run, Check& made) {
-  const std::size_t worst =
+  const std::vector<ErrorBar> bars =
       rated(run, made, kCurrentSquare, "no continuous current of the motors is stated (actuator.i_continuous)",
             run.limits().warn_share, 1, [&](std::size_t j) {
               return Rated{run.summary.judged.joints[j].current_rms, run.motors.joint(j).continuous.value_or(0), kNoTime};
@@ -313,11 +316,11 @@ void heat(const CheckedRun& run, Check& made) {
   if (made.status == CheckStatus::not_judged) return;
   made.text = fmt::format("the motor of joint {} takes {:.3g} A RMS, {} of its continuous rating", made.worst, made.value,
                           texts::percent(made.value / made.limit));
-  widen(run.scenario, error_of(run, worst), made);
+  widen(run.scenario, bars, made);
 }
 
 void gear_peak(const CheckedRun& run, Check& made) {
-  const std::size_t worst =
+  const std::vector<ErrorBar> bars =
       rated(run, made, kTorquePeak, "no largest torque of the gears is stated (actuator.gear_torque_peak)",
             run.limits().warn_share, 1, [&](std::size_t j) {
               const JudgedJoint& joint = run.summary.judged.whole[j];
@@ -328,18 +331,18 @@ void gear_peak(const CheckedRun& run, Check& made) {
       run, 0, kTorquePeak,
       [&](std::size_t j, double now, double) { return now > run.motors.joint(j).gear_peak.value_or(kNever); }, made);
   made.text = fmt::format("the gear of joint {} takes up to {:.3g} N m of {:.3g} N m", made.worst, made.value, made.limit);
-  widen(run.scenario, error_of(run, worst), made);
+  widen(run.scenario, bars, made);
 }
 
 void gear_continuous(const CheckedRun& run, Check& made) {
-  const std::size_t worst =
+  const std::vector<ErrorBar> bars =
       rated(run, made, kTorqueSquare, "no continuous torque of the gears is stated (actuator.gear_torque_continuous)",
             run.limits().warn_share, 1, [&](std::size_t j) {
               return Rated{run.summary.judged.joints[j].torque_rms, run.motors.joint(j).gear_continuous.value_or(0), kNoTime};
             });
   if (made.status == CheckStatus::not_judged) return;
   made.text = fmt::format("the gear of joint {} takes {:.3g} N m RMS of {:.3g} N m", made.worst, made.value, made.limit);
-  widen(run.scenario, error_of(run, worst), made);
+  widen(run.scenario, bars, made);
 }
 
 }  // namespace checks

@@ -42,36 +42,38 @@ void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
     const double held = r.simulated / period;
     made.rests_on = fmt::format("{:.3g} periods of {:.4g} s; the motion does not settle", held, period);
     if (held < kPeriodsNeeded * (1 - kEstimate)) {
-      made.too_short = fmt::format("{:.3g} s are {:.2g} of a gait's {:g} periods of {:.4g} s; take duration: {:.4g}",
-                                   r.simulated, held, kPeriodsNeeded, period, kPeriodsNeeded * period);
+      made.too_short = {fmt::format("{:.3g} s are {:.2g} of a gait's {:g} periods of {:.4g} s; take duration: {:.4g}",
+                                    r.simulated, held, kPeriodsNeeded, period, kPeriodsNeeded * period),
+                        "duration"};
     }
     return;
   }
   made.rests_on = fmt::format("these {:.3g} s; the set points do not repeat", r.simulated);
   if (r.simulated < kLeastTime * (1 - kRelative))
-    made.too_short = fmt::format("{:.3g} s are less than {:g} s; take a longer duration", r.simulated, kLeastTime);
+    made.too_short = {fmt::format("{:.3g} s are less than {:g} s; take a longer duration", r.simulated, kLeastTime),
+                      "duration"};
 }
 
 /// unknown: gains a name where nobody can know it.
 void judge_support(const Scenario& s, const Summary& summary, Evidence& made, std::vector<std::string>& unknown) {
   if (s.base != Base::floating) return;
   if (!(s.physics.gravity.norm() > 0)) {
-    made.not_borne = "there is no gravity, so that no ground bears the robot; take physics.gravity, or base: fixed";
-    return;
+    made.not_borne = {"there is no gravity, so that no ground bears the robot", "physics.gravity",
+                      "take physics.gravity, or base: fixed"};
+  } else if (s.ground.kind == Ground::Kind::none) {
+    made.not_borne = {"the robot falls freely: there is no ground", "ground.type", "take base: fixed, or a ground"};
+  } else if (!s.contact.solver() && contact_elements(*s.robot, s.contact.on).empty()) {
+    made.not_borne = {"the robot falls freely: no part of it touches the ground", "contact.on",
+                      "take base: fixed, or contact.on: all"};
   }
-  if (s.ground.kind == Ground::Kind::none) {
-    made.not_borne = "the robot falls freely: there is no ground; take base: fixed, or a ground";
-    return;
-  }
-  if (!s.contact.solver() && contact_elements(*s.robot, s.contact.on).empty()) {
-    made.not_borne = "the robot falls freely: no part of it touches the ground; take base: fixed, or contact.on: all";
-    return;
-  }
+  made.falls_freely = !made.not_borne.empty();
+  if (made.falls_freely) return;
   const double share = summary.posture.borne_share;
   if (std::isnan(share)) unknown.emplace_back("the ground's share of the weight");  // a solver's impulses are not recorded
   if (share >= kBorne || std::isnan(share)) return;
-  made.not_borne = fmt::format("the ground carries {} of the weight on average, less than {}: the robot is not on it",
-                               texts::percent(share), texts::percent(kBorne));
+  made.not_borne = {fmt::format("the ground carries {} of the weight on average, less than {}: the robot is not on it",
+                                texts::percent(share), texts::percent(kBorne)),
+                    "contact"};
 }
 
 /// The motor that makes energy by itself; empty: none.
@@ -95,25 +97,29 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
   const double coarse = s.physics.adapts() && r.simulated > 0 ? r.tally.coarse / r.simulated : 0;
   const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
   const std::vector<Series> asked = set_points(s, r);
-  if (made.not_trusted = makes_energy(s); !made.not_trusted.empty()) return;
+  if (made.not_trusted = {makes_energy(s), "actuator.Kt"}; !made.not_trusted.empty()) return;
+  const char* const steps = s.physics.adapts() ? "physics.accuracy" : "physics.step";
   if (driven && made.too_short.empty() && s.cpg.entry != nullptr && !asked.empty() && !moves(asked)) {
-    made.not_trusted = fmt::format("no set point changes: cpg {} moves no joint", s.cpg.entry->name);
-    made.remedy = "look for its amplitudes, frames or equations";
+    made.not_trusted = {fmt::format("no set point changes: cpg {} moves no joint", s.cpg.entry->name), "cpg",
+                        "look for its amplitudes, frames or equations"};
   } else if (error.estimated && !std::isfinite(error.share)) {
-    made.not_trusted = fmt::format("the error of the torque of joint {} is not a number", s.robot->joints[error.joint].name);
+    made.not_trusted = {fmt::format("the error of the torque of joint {} is not a number", s.robot->joints[error.joint].name),
+                        steps};
   } else if (error.estimated && error.share > s.limits.torque_error) {
-    made.not_trusted = fmt::format("the torque of joint {} is off by about {} of its peak, more than {}; take {}",
-                                   s.robot->joints[error.joint].name, texts::rough_percent(error.share),
-                                   texts::percent(s.limits.torque_error), torque_remedy(s, error.share));
+    made.not_trusted = {fmt::format("the torque of joint {} is off by about {} of its peak, more than {}; take {}",
+                                    s.robot->joints[error.joint].name, texts::rough_percent(error.share),
+                                    texts::percent(s.limits.torque_error), torque_remedy(s, error.share)),
+                        steps};
   } else if (driven && !(residual <= kTrustedResidual)) {  // also where it is not a number
-    made.not_trusted = fmt::format("{} of the energy is unaccounted for, more than {}; take {}", texts::percent(residual),
-                                   texts::percent(kTrustedResidual),
-                                   s.physics.adapts() ? "a smaller physics.accuracy" : "a smaller physics.step");
+    made.not_trusted = {fmt::format("{} of the energy is unaccounted for, more than {}; take a smaller {}",
+                                    texts::percent(residual), texts::percent(kTrustedResidual), steps),
+                        steps};
   } else if (coarse > kTrustedCoarse) {
-    made.not_trusted = fmt::format(
-        "in {} of the time the shortest steps do not reach the accuracy {}; look for what is undamped, or driven without "
-        "bounds",
-        texts::rough_percent(coarse), texts::rough_percent(s.physics.accuracy));
+    made.not_trusted = {
+        fmt::format("in {} of the time the shortest steps do not reach the accuracy {}; look for what is undamped, or driven "
+                    "without bounds",
+                    texts::rough_percent(coarse), texts::rough_percent(s.physics.accuracy)),
+        steps};
   }
   if (driven && !error.estimated) unknown.emplace_back("the error of the torques");
 }

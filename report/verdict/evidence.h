@@ -17,15 +17,27 @@ inline constexpr double kBorne = 0.5;
 inline constexpr double kSettled = 0.01;
 inline constexpr double kLeastTime = 2;  ///< s, where the set points do not repeat
 
-/// Each text is empty where nothing is missing, else a sentence with its remedy.
+/// What is missing.
+struct Lack {
+  std::string text = {};    ///< with what to set where `remedy` is empty; empty: nothing is missing
+  std::string key = {};     ///< setting that a message points at
+  std::string remedy = {};  ///< of what no other message tells at its place
+  [[nodiscard]] bool empty() const { return text.empty(); }
+  [[nodiscard]] std::string sentence() const { return text + (remedy.empty() ? "" : "; " + remedy); }
+};
+
 struct Evidence {
-  std::string too_short;    ///< a gait needs a whole period of its limit cycle, or three periods of its set points, or 2 s
-  std::string not_borne;    ///< the ground carries less than half of the weight
-  std::string not_trusted;  ///< the numbers are wrong by more than the shares above, a motor makes energy, or nothing moves
-  std::string remedy;       ///< of set points that never change
-  bool repeats = false;     ///< the set points do
-  std::string rests_on;     ///< `3 periods of 4 s`, `these 18 s; the set points do not repeat`
+  Lack too_short;             ///< a gait needs a whole period of its limit cycle, or three periods of its set points, or 2 s
+  Lack not_borne;             ///< the ground carries less than half of the weight
+  Lack not_trusted;           ///< the numbers are wrong by more than the shares above, a motor makes energy, or nothing moves
+  bool falls_freely = false;  ///< nothing could bear the robot, however long and accurate the run
+  bool repeats = false;       ///< the set points do
+  std::string rests_on;       ///< `3 periods of 4 s`, `these 18 s; the set points do not repeat`
   [[nodiscard]] bool complete() const { return too_short.empty() && not_borne.empty() && not_trusted.empty(); }
+  /// What is to be mended first.
+  [[nodiscard]] const Lack& first() const {
+    return falls_freely ? not_borne : !not_trusted.empty() ? not_trusted : !too_short.empty() ? too_short : not_borne;
+  }
 };
 
 /// Throws PluginError.

@@ -47,13 +47,13 @@ bool undone_by_no_time(const Check& check) { return fails(check) && check.span =
 /// The reason why nothing that fails makes the gait infeasible, or why it is not feasible though nothing fails; empty: none.
 std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) {
   const Evidence& found = run.evidence;
-  if (!found.not_trusted.empty()) return found.not_trusted;
+  if (!found.not_trusted.empty()) return found.first().sentence();
   if (!found.too_short.empty()) {
     const Check* const failing = worst_of(checks, fails);
-    return found.too_short + (failing == nullptr ? "" : "; so far: " + failing->sentence());
+    return found.first().sentence() + (failing == nullptr ? "" : "; so far: " + failing->sentence());
   }
   if (std::ranges::any_of(checks, fails)) return "";
-  if (!found.not_borne.empty()) return found.not_borne;
+  if (!found.not_borne.empty()) return found.not_borne.sentence();
   if (const Check* const close = worst_of(checks, too_close)) return close->text;
   const auto judged = [](const Check& c) { return c.status != CheckStatus::not_judged; };
   if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == CheckGroup::motor && judged(c); }))

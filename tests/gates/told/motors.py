@@ -89,8 +89,9 @@ def at_limit(record, window, kind):
         room = min(margin(near, limits["saturated_share"]), margin(on_end, most * (1 + 1e-6)))
         if room < 0:
             wide.append((room, near, on_end, k))
-    surely = share[j] * (1 - errors[j]) > limits["saturated_share"] or longest[j][0] * (1 - errors[j]) > most * (1 + 1e-6)
-    if wide and not surely:
+    surely = [share[k] * (1 - errors[k]) > limits["saturated_share"] or longest[k][0] * (1 - errors[k]) > most * (1 + 1e-6)
+              for k in np.flatnonzero(record.driven)]
+    if wide and not any(surely):
         least = min(wide)[0]
         _, near, on_end, k = max((one for one in wide if one[0] <= least + SAME), key=lambda one: one[1])
         told.status, told.error = "too close", errors[k]
@@ -177,7 +178,17 @@ def of_rating(record, values, key, rows=None, first=None):
         return told
     if first is not None:
         first_in(told, record, 0, record.tick(first)[1:] > record.ratings[key])
-    return widen(told, record.torque_errors()[j])
+    errors, share = record.torque_errors(), np.where(record.driven & (record.ratings[key] > 0), values / record.ratings[key], 0)
+    widen(told, errors[j])
+    across = (errors > 0) & (share * (1 - errors) < 1) & (share * (1 + errors) > 1)
+    beyond = (share > 1) & (share * (1 - errors) >= 1)
+    if beyond.any():  # one is enough
+        told.status = "fail"
+    elif across.any() and not across[j]:
+        k = int(np.argmax(np.where(across, share * (1 + errors), 0)))
+        told.status = "too close"
+        told.also |= {"other": record.names[k], "other_low": share[k] * (1 - errors[k]), "other_high": share[k] * (1 + errors[k])}
+    return told
 
 
 def rms(record, what, window):

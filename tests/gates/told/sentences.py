@@ -84,7 +84,8 @@ class Expression:
         return [(group.rpartition("__")[0], kind, match[group]) for group, kind in self.kinds.items() if match[group] is not None]
 
 
-WITHIN = r"(?:; with the error of the torques {low:pct} to {high:pct} of the limit)?"
+WITHIN = (r"(?:; with the error of the torques {low:pct} to {high:pct} of the limit"
+          r"|; joint {other} takes, with the error of its torque, {other_low:pct} to {other_high:pct} of its limit)?")
 LIMITED = (r"no joint is at the limit of its (?:voltage|current|actuator)"
            r"|{parts:d} of {driven:d} joints? reach(?:es)? the limit of (?:its|their) (?:voltage|current|actuator); worst {worst}: "
            r"(?:{share:pct} of the judged time, up to {stretch:.3g} s on end from {from:.2f} s"
@@ -160,11 +161,11 @@ JUDGED = {
 MISSING = (r"{simulated:.3g} s are {held:.2g} of a gait's 3 periods of {period:.4g} s; take duration: {take:.4g}"
            r"|{simulated:.3g} s are less than {least:g} s; take a longer duration"
            r"|the ground carries {borne:pct} of the weight on average, less than {half:pct}: the robot is not on it"
-           r"|there is no gravity, so that no ground bears the robot; take physics\.gravity, or base: fixed"
-           r"|the robot falls freely: (?:there is no ground; take base: fixed, or a ground"
-           r"|no part of it touches the ground; take base: fixed, or contact\.on: all)"
+           r"|there is no gravity, so that no ground bears the robot(?:; take physics\.gravity, or base: fixed)?"
+           r"|the robot falls freely: (?:there is no ground(?:; take base: fixed, or a ground)?"
+           r"|no part of it touches the ground(?:; take base: fixed, or contact\.on: all)?)"
            r"|the motor of joint {creator} makes energy: efficiency x Kt {x:.4g} N m/A exceeds Ks {y:.4g} V s/rad; take Kt = Ks"
-           r"|no set point changes: cpg {cpg} moves no joint"
+           r"|no set point changes: cpg {cpg} moves no joint(?:; look for its amplitudes, frames or equations)?"
            r"|the torque of joint {inaccurate} is off by about {off:rough} of its peak, more than {most:pct}; take .*"
            r"|{residual:pct} of the energy is unaccounted for, more than {kept:pct}; take .*"
            r"|in {coarse:rough} of the time the shortest steps do not reach the accuracy {accuracy:rough}; look for .*")

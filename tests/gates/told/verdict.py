@@ -277,6 +277,7 @@ def hear_evidence(judged, verdict):
     e = judged.evidence
     lack = e.untrusted or "" if e.long_enough else e.untrusted or "short"
     lack = lack or e.unborne if not fails else lack
+    lack = e.unborne if lack and e.unborne in ("no gravity", "falls freely") else lack  # what no accuracy and no time mends
     if lack and not any(words in reason for words in LACK[lack]):
         wrong.append(f"reason: {reason!r}, recomputed {lack}")
     if reason in [c["text"] for c in close_[:1]] and not fails:

@@ -72,6 +72,20 @@ TEST(Posture, CycleSpeedIsThatOfTheWindow) {
   EXPECT_TRUE(std::isnan(cycle_speed(r, judged)));  // no limit cycle
   judged.periods = 2;
   EXPECT_NEAR(cycle_speed(r, judged), 0.3 * std::sqrt(2.0), 1e-12);
+  judged.to = 9.92;  // another part of the way between two rows than at the start
+  EXPECT_NEAR(cycle_speed(r, judged), 0.3 * std::sqrt(2.0), 1e-12);
+}
+
+/// Of a window that ends between two rows: the last one in it.
+TEST(Posture, EndsWithTheWindow) {
+  const Scenario s = one_module({"robot.position=[0, 0, 10]", "duration=1"});
+  const Recording r = run(s);
+  Judged judged;
+  judged.from = 0.2;
+  judged.to = 0.5;
+  const double last = std::floor(judged.to / s.control_period) * s.control_period;
+  constexpr double kIntegration = 1e-4;  // m: as above
+  EXPECT_NEAR(posture(s, r, judged).height_min, r.com(0).z() - s.physics.gravity.norm() * last * last / 2, kIntegration);
 }
 
 /// The guard: gaits that are shipped as walking keep to the ground, and a hop is told.

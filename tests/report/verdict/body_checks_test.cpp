@@ -167,8 +167,9 @@ TEST(UprightCheck, IsOfTheStart) {
   EXPECT_EQ(fixed.check("upright").status, CheckStatus::not_judged);
 }
 
-/// Rows 0.01 s apart over 4 s, in the periods of 1 s behind 1 s.
-Upright turned_by(const std::function<double(double)>& angle, std::size_t periods = 3, double set_points = 0, double from = 1) {
+/// Rows 0.01 s apart over 4 s, in the periods of 1 s behind 1 s. lean: rad, sideways, behind the start.
+Upright turned_by(const std::function<double(double)>& angle, std::size_t periods = 3, double set_points = 0, double from = 1,
+                  double lean = 0) {
   static const Still still("{type: none}", {"actuator.type=none", "physics.gravity=[0, 0, 0]"});
   Recording record = still.record;
   Trace& poses = record.poses;
@@ -178,8 +179,11 @@ Upright turned_by(const std::function<double(double)>& angle, std::size_t period
   for (int row = 0; row <= 400; ++row) {
     std::vector<double> values = first;
     values[poses.find("t")] = 0.01 * row;
-    values[poses.find("base.qw")] = std::cos(angle(0.01 * row) / 2);
-    values[poses.find("base.qx")] = std::sin(angle(0.01 * row) / 2);
+    const Quat turned =
+        Eigen::AngleAxisd(angle(0.01 * row), Vec3::UnitX()) * Eigen::AngleAxisd(row > 0 ? lean : 0, Vec3::UnitY());
+    for (const auto& [column, value] :
+         {std::pair{"base.qw", turned.w()}, {"base.qx", turned.x()}, {"base.qy", turned.y()}, {"base.qz", turned.z()}})
+      values[poses.find(column)] = value;
     poses.values.insert(poses.values.end(), values.begin(), values.end());
   }
   Judged judged;
@@ -222,6 +226,13 @@ TEST(UprightCheck, IsNotOfWhatRolls) {
   EXPECT_TRUE(turned_by(rolls, 0, 0).rolls);
   EXPECT_FALSE(turned_by(topples, 0, 0).rolls);
   EXPECT_FALSE(turned_by(tumbles, 0, 0, 0).rolls) << "a whole turn in the first half alone";
+  const auto last = [](double t) { return t < 3 ? 0.0 : kTurn * t; };
+  const auto back = [](double t) { return t < 2 ? 0.0 : t < 3 ? -kTurn * t : kTurn * t; };
+  EXPECT_TRUE(turned_by(last, 0, 1).rolls) << "one period of the set points";
+  EXPECT_TRUE(turned_by(back, 0, 1).rolls) << "that period alone";
+  // Leaning, it still points nearly upwards and nearly downwards, within 45 degrees.
+  for (const double cosine : {0.72, 0.9}) EXPECT_TRUE(turned_by(rolls, 3, 0, 1, std::acos(cosine)).rolls) << cosine;
+  EXPECT_FALSE(turned_by(rolls, 3, 0, 1, std::acos(0.7)).rolls);
 }
 
 /// Less than a period behind the first time that it turns over, a run does not show whether it rolls; of a run of three

@@ -150,6 +150,114 @@ TEST(CheckEvidence, TooCloseToTheLimitOfAMotor) {
   grow(fails, kVoltageLimited, 1, 12 - 3.05 * 0.015, 12);
   fails.scenario.limits.saturated_share = 1;
   EXPECT_EQ(fails.status("voltage"), CheckStatus::too_close) << "3.05 periods less 3 %";
+  // Another joint, with a larger margin and no error, fails: what is near elsewhere undoes nothing.
+  const auto other = [&](double periods) {
+    Case two = fails;
+    for (std::size_t k = 0; k <= two.last_tick(); ++k)
+      two.tick(k, 2, kVoltageLimited) = std::max(0.0, two.time(k) - (12 - periods * 0.015));
+    return two.check("voltage");
+  };
+  EXPECT_EQ(other(3.04).status, CheckStatus::fail) << other(3.04).text;
+  EXPECT_EQ(other(3.04).worst, fails.scenario.robot->joints[kJoint].name);
+  EXPECT_EQ(other(2.9).status, CheckStatus::too_close) << other(2.9).text;
+}
+
+/// A stretch at a limit, of rows that come within the error of it: three control periods are kept, more are too close, and what
+/// is at the limit for longer, less the error, fails.
+TEST(CheckEvidence, TheBarOfAStretch) {
+  const auto with = [](std::size_t near, double periods) {
+    Case made = rated_gait();
+    off(0.03)(made);
+    made.scenario.limits.saturated_share = 1;
+    for (std::size_t k = made.last_tick() + 1 - near; k <= made.last_tick(); ++k) made.tick(k, kJoint, kEnvelopePeak) = 0.98;
+    grow(made, kVoltageLimited, 1, 6, 6 + periods * 0.015);
+    return made.status("voltage");
+  };
+  EXPECT_EQ(with(3, 0), CheckStatus::pass);
+  EXPECT_EQ(with(4, 0), CheckStatus::too_close);
+  EXPECT_EQ(with(3, 3), CheckStatus::warn);
+  EXPECT_EQ(with(0, 3.05), CheckStatus::too_close) << "less 3 %";
+  EXPECT_EQ(with(0, 3.15), CheckStatus::fail);
+  EXPECT_EQ(with(4, 3.15), CheckStatus::fail);
+}
+
+/// Every rating of several joints, each with its error: one that is beyond its limit with its whole bar makes the check fail;
+/// else one whose limit lies within its bar leaves it open.
+TEST(CheckEvidence, AnyPartDecides) {
+  const auto with = [](TickColumn column, double limit, bool square, double first, double second) {
+    return [=](Case& made) {
+      off(0.03)(made);
+      const auto set = [&](std::size_t joint, double share) {
+        for (std::size_t k = 0; k <= made.last_tick(); ++k)
+          made.tick(k, joint, column) = square ? share * share * limit * limit * made.time(k) : share * limit;
+      };
+      set(kJoint, first);
+      set(2, second);
+    };
+  };
+  for (const auto& [id, column, limit, square] : {std::tuple{"heat", kCurrentSquare, 1.0, true},
+                                                  {"gear_peak", kTorquePeak, 5.0, false},
+                                                  {"gear_continuous", kTorqueSquare, 3.0, true}}) {
+    const auto check = [&, &of = id, in = column, most = limit, sums = square](double first, double second) {
+      return changed(of, with(in, most, sums, first, second));
+    };
+    const std::string& nearer = rated_gait().scenario.robot->joints[kJoint].name;
+    EXPECT_EQ(check(1.02, 0.9).status, CheckStatus::too_close) << id;
+    EXPECT_EQ(check(1.02, 1.01).status, CheckStatus::fail) << id << ": " << check(1.02, 1.01).text;
+    EXPECT_EQ(check(1.02, 1.01).worst, nearer) << id;
+    const Check open = check(0.98, 0.99);
+    EXPECT_EQ(open.status, CheckStatus::too_close) << id << ": " << open.text;
+    EXPECT_NE(open.worst, nearer) << id;
+    EXPECT_EQ(open.error, 0) << id;
+    EXPECT_TRUE(contains(open.text,
+                         fmt::format("; joint {} takes, with the error of its torque, 95.1 % to 101 % of its limit", nearer)))
+        << open.text;
+    EXPECT_TRUE(contains(open.remedy, "take physics.accuracy: ")) << open.remedy;
+    EXPECT_EQ(check(0.96, 0.99).status, CheckStatus::warn) << id;
+  }
+}
+
+/// What nothing could bear is told first, at the setting that makes it so; no longer run and no smaller steps mend it.
+TEST(CheckEvidence, WhatNothingBears) {
+  for (const auto& [set, text] : {std::pair{"physics.gravity=[0, 0, 0]", "there is no gravity"},
+                                  {"ground.type=none", "there is no ground"},
+                                  {"contact.on=none", "no part of it touches the ground"}}) {
+    for (const Case& of : {walk(), rated_gait()}) {
+      Case made = of;
+      made.known = Overlaps{made.scenario.robot->bodies.size()};
+      made.scenario = shipped("caterpillar.yaml", {fmt::format("duration={}", of.scenario.duration), set});
+      const Check check = made.check("evidence");
+      EXPECT_EQ(check.status, CheckStatus::not_judged);
+      EXPECT_EQ(check.place.file, std::string("--set ") + set);
+      EXPECT_TRUE(contains(check.text, text)) << check.text;
+      EXPECT_TRUE(contains(check.remedy, "take ")) << check.remedy;
+      EXPECT_EQ(made.judged().word, Word::not_judged);
+      EXPECT_TRUE(made.judged().why().starts_with(check.text + "; " + check.remedy)) << made.judged().why();
+      off(0.051)(made);
+      EXPECT_TRUE(contains(made.judged().why(), text)) << made.judged().why();
+    }
+  }
+  EXPECT_EQ(walk().check("evidence").place.line, walk().scenario.nearest_place("duration").line);
+  EXPECT_TRUE(contains(walk().judged().why(), "take duration: 12")) << walk().judged().why();
+  Case wrong = rated_gait();
+  off(0.051)(wrong);
+  wrong.scenario.own_places["physics.accuracy"] = SourceLocation{"accuracy"};
+  EXPECT_EQ(wrong.check("evidence").place.file, "accuracy");
+}
+
+/// An error that is not a number is the worst of all, whichever joint has it.
+TEST(CheckEvidence, NotANumberIsNoEvidence) {
+  for (const std::size_t joint : {std::size_t{0}, kJoint, std::size_t{9}}) {
+    Case made = rated_gait();
+    off(0.01)(made);
+    made.record.tally.torque_error[joint] = std::nan("");
+    EXPECT_TRUE(torque_error(made.record).estimated);
+    EXPECT_EQ(torque_error(made.record).joint, joint);
+    EXPECT_EQ(made.judged().word, Word::not_judged);
+    EXPECT_EQ(made.judged().why(),
+              fmt::format("the error of the torque of joint {} is not a number", made.scenario.robot->joints[joint].name));
+    EXPECT_EQ(made.status("torque_error"), CheckStatus::warn);
+  }
 }
 
 TEST(CheckEvidence, WordsOfWhatIsTooClose) {

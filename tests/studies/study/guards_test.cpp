@@ -154,6 +154,26 @@ TEST(Guards, HaveOldNames) {
   }
 }
 
+/// Old names without a check: that of the verdict itself, and those that need another setting.
+TEST(Guards, SayWhatOldNamesBecame) {
+  const auto read = [](const std::string& text) {
+    const Node node = parse_yaml("guards: {" + text + "}\n", "s.yaml");
+    studies::Study study;
+    Problems problems;
+    studies::read_guards(*node.find("guards"), study, problems);
+    EXPECT_TRUE(study.guards.empty()) << text;
+    return !problems.empty() ? problems.list().front().text : study.notes.empty() ? "" : study.notes.front().text;
+  };
+  EXPECT_EQ(read("verdict_excess: 0"),
+            "verdict_excess is the old name of the verdict, which is a guard by default; leave it out");
+  EXPECT_EQ(read("verdict_excess: 0.1"),
+            "verdict_excess: 0.1 is an old guard without a check of the same meaning; write guards: {ID: {margin: -0.1}} for a "
+            "check that may fail");
+  EXPECT_EQ(read("range.share: 0.2"),
+            "range.share: 0.2 is an old guard without a check of the same meaning; write set: "
+            "[limits.beyond_range_share=0.2], or guards: {stops: ANGLE} with an angle in rad");
+}
+
 /// The columns of a run: the margins of its verdict, and those against the study's limits.
 TEST(Guards, MarginsAreThoseOfTheVerdict) {
   const Scenario scenario = shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=4", "cpg.amplitude=1.2"});

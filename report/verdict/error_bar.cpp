@@ -1,0 +1,28 @@
+#include "report/verdict/error_bar.h"
+
+#include <fmt/format.h>
+
+#include <tuple>
+
+#include "core/scenario/scenario.h"
+#include "report/verdict/number_texts.h"
+#include "report/verdict/trust.h"
+
+namespace gaitlab::report {
+
+void widen(const Scenario& scenario, std::span<const ErrorBar> bars, Check& made) {
+  for (const ErrorBar& bar : bars) {
+    if (bar.part == made.worst) made.error = bar.error;
+  }
+  if (!too_close(bars)) return;
+  const auto reach = [&](const ErrorBar& bar) { return std::tuple(bar.across(), bar.part == made.worst, bar.most); };
+  const ErrorBar& named = *std::ranges::max_element(bars, {}, reach);
+  const std::string range = fmt::format("{} to {}", texts::percent(named.least), texts::percent(named.most));
+  made.status = CheckStatus::too_close;
+  made.text += named.part == made.worst
+                   ? fmt::format("; with the error of the torques {} of the limit", range)
+                   : fmt::format("; joint {} takes, with the error of its torque, {} of its limit", named.part, range);
+  made.remedy = "take " + torque_remedy(scenario, std::max(named.error, scenario.limits.torque_error));
+}
+
+}  // namespace gaitlab::report
