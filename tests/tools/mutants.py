@@ -106,7 +106,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("build", nargs="?", default="build/release")
     parser.add_argument("--list", action="store_true", help="print the mutants, and run none")
-    parser.add_argument("--only", default="", help="mutants with this in their names")
+    parser.add_argument("--only", default="", help="mutants with one of these texts, between commas, in their names")
     parser.add_argument("--quick", action="store_true", help="without the tests that simulate")
     parser.add_argument("--jobs", type=int, default=2, help="compilers, and processes of tests, at a time")
     given = parser.parse_args()
@@ -115,7 +115,7 @@ def main():
         return 0
     os.chdir(ROOT)
     mutants, program = compile_all(pathlib.Path(given.build).resolve(), given.jobs, QUICK if given.quick else QUICK + SLOW)
-    chosen = [k for k, name in mutants.names.items() if given.only in name]
+    chosen = [k for k, name in mutants.names.items() if any(text in name for text in given.only.split(","))]
     told = {}
 
     def run(numbers, tests, environment):

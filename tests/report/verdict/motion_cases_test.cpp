@@ -193,7 +193,7 @@ TEST(CheckMotion, CollisionsAreDeeperThanATouch) {
   s.limits.collision = 4e-4;
   EXPECT_GT(depth(angle, usual), 4e-4) << "of a record, whose limits.touch is above limits.collision";
   // Where all that touches counts, an overlap of 1e-9 m is still rounding.
-  for (deep = angle; deep - apart > 1e-14;) {
+  for (apart = 0.6, deep = angle; deep - apart > 1e-14;) {
     const double middle = (apart + deep) / 2;
     if (middle == apart || middle == deep) break;
     (depth(middle, 0) > 0 ? deep : apart) = middle;
