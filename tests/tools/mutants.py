@@ -37,6 +37,7 @@ SLOW_FILTER = ("Verdict*:SetupWarnings*:RunWarnings*:Doubts*:Earned*:Motion.*:An
                "Motion.OfAnOlderFolder*")
 # (part of a mutant's name, the reason why no test can see it)
 EQUIVALENT = [
+    ("kEqual times 1.3", "rounding of sums of the same ticks, which differ by a tick or not at all"),
     ("kRounds times 1.3", "rounding of times, of which no tick is within a millionth of a control period"),
     ("kOnGrid times 1.3", "rounding of times, which are whole control periods or half of one away from it"),
 ]

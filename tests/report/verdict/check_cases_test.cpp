@@ -95,6 +95,39 @@ TEST(CheckCases, SaturationNamesItsJoints) {
   EXPECT_EQ(with(0, 0).value, 0);
 }
 
+/// Of equal margins, as those of stretches are, the joint that is at its limit for longer in all is the worst.
+TEST(CheckCases, SaturationOfEqualStretches) {
+  const auto worst = [](std::size_t longer, std::size_t other) {
+    Case made = rated_gait();
+    made.scenario.limits.saturated_share = 1;
+    for (std::size_t k = 0; k <= made.last_tick(); ++k) {
+      const double stretch = std::max(0.0, made.time(k) - 11.5);
+      made.tick(k, other, kVoltageLimited) = stretch;
+      made.tick(k, longer, kVoltageLimited) = stretch + std::min(0.2, std::max(0.0, made.time(k) - 10));
+    }
+    const Check check = made.check("voltage");
+    EXPECT_NEAR(check.value, 0.5, 1e-9) << "sums of ticks";
+    EXPECT_EQ(check.unit, "s");
+    return check.worst;
+  };
+  const std::vector<Joint>& joints = rated_gait().scenario.robot->joints;
+  EXPECT_EQ(worst(2, kJoint), joints[2].name);
+  EXPECT_EQ(worst(kJoint, 2), joints[kJoint].name);
+}
+
+/// A torque that is cut was limited, whatever its actuator states now.
+TEST(CheckCases, SaturationOfOtherActuators) {
+  const auto with = [](double share) {
+    return changed("current", [=](Case& made) {
+      made.scenario = shipped("caterpillar.yaml", {"duration=12", "physics.engine=articulated", "actuator={type: torque}",
+                                                   "controller={type: pid, unit: N m, Kp: 5}"});
+      rate(kCurrentLimited, share)(made);
+    });
+  };
+  EXPECT_EQ(with(0.02).status, CheckStatus::fail) << with(0.02).text;
+  EXPECT_EQ(with(0).status, CheckStatus::not_judged) << with(0).text;
+}
+
 /// A row that is at the limit but for a thousandth is so all the while.
 TEST(CheckCases, AStretchHasNoGaps) {
   const auto status = [](double part) {

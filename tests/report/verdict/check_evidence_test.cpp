@@ -179,6 +179,18 @@ TEST(CheckEvidence, TheBarOfAStretch) {
   EXPECT_EQ(with(0, 3.05), CheckStatus::too_close) << "less 3 %";
   EXPECT_EQ(with(0, 3.15), CheckStatus::fail);
   EXPECT_EQ(with(4, 3.15), CheckStatus::fail);
+  // A row that is at a limit for a part of it, its own or the other one, is known, and counts as it is.
+  for (const TickColumn column : {kVoltageLimited, kCurrentLimited}) {
+    Case partly = rated_gait();
+    off(0.03)(partly);
+    partly.scenario.limits.saturated_share = 1;
+    double sum = 0;
+    for (std::size_t k = partly.last_tick() - 5; k <= partly.last_tick(); ++k) {
+      partly.tick(k, kJoint, kEnvelopePeak) = 1;
+      partly.tick(k, kJoint, column) = sum += 0.4 * (partly.time(k) - partly.time(k - 1));
+    }
+    EXPECT_EQ(partly.status("voltage"), column == kVoltageLimited ? CheckStatus::warn : CheckStatus::pass);
+  }
 }
 
 /// Every rating of several joints, each with its error: one that is beyond its limit with its whole bar makes the check fail;
