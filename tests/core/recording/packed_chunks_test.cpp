@@ -1,0 +1,84 @@
+#include "core/recording/packed_chunks.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+namespace gaitlab {
+namespace {
+
+struct Chunk {
+  std::size_t row, column, packed;
+  std::vector<double> values;
+};
+
+// What zlib and the inverse of shuffle make of them: an implementation that shares nothing with the writer's.
+std::vector<Chunk> unpacked(const Trace& table, std::size_t rows) {
+  std::vector<Chunk> all;
+  pack_chunks(table, rows, [&](std::size_t row, std::size_t column, std::span<const std::byte> packed) {
+    std::vector<unsigned char> shuffled(rows * sizeof(double) + 1);  // a byte more, which must stay unused
+    uLongf size = shuffled.size();
+    ASSERT_EQ(uncompress(shuffled.data(), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size()), Z_OK);
+    ASSERT_EQ(size, rows * sizeof(double));
+    Chunk chunk{row, column, packed.size(), std::vector<double>(rows)};
+    for (std::size_t k = 0; k < rows; ++k) {
+      unsigned char bytes[sizeof(double)];
+      for (std::size_t b = 0; b < sizeof(double); ++b) bytes[b] = shuffled[b * rows + k];
+      std::memcpy(&chunk.values[k], bytes, sizeof(double));
+    }
+    all.push_back(std::move(chunk));
+  });
+  return all;
+}
+
+// `noise` random columns (every byte is) beside t and a constant.
+Trace table(std::size_t rows, std::size_t noise) {
+  std::mt19937_64 random(1);
+  Trace made;
+  made.columns = {{"t", "s", ""}, {"constant", "", ""}};
+  for (std::size_t c = 0; c < noise; ++c) made.columns.push_back({"c" + std::to_string(c), "", ""});
+  for (std::size_t k = 0; k < rows; ++k) {
+    made.values.insert(made.values.end(), {0.005 * static_cast<double>(k), -0.0325});
+    for (std::size_t c = 0; c < noise; ++c) {
+      const std::uint64_t bits = random() & ~(std::uint64_t{1} << 62U);  // no NaN, which is not equal to itself
+      double value = 0;
+      std::memcpy(&value, &bits, sizeof value);
+      made.values.push_back(value);
+    }
+  }
+  return made;
+}
+
+TEST(PackedChunks, HoldEveryValueOfTheirColumnByRowThenColumn) {
+  constexpr std::size_t kRows = 100;
+  for (const std::size_t noise : {0U, 5U, 6U, 7U, 15U}) {  // up to whole groups of columns, and beside them
+    const Trace whole = table(250, noise);
+    const std::vector<Chunk> chunks = unpacked(whole, kRows);
+    ASSERT_EQ(chunks.size(), 3 * whole.columns.size());
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+      EXPECT_EQ(chunks[i].row, i / whole.columns.size() * kRows);
+      EXPECT_EQ(chunks[i].column, i % whole.columns.size());
+      for (std::size_t k = 0; k < kRows; ++k) {
+        const std::size_t row = chunks[i].row + k;
+        ASSERT_EQ(chunks[i].values[k], row < whole.rows() ? whole.at(row, chunks[i].column) : 0.0) << i << ' ' << row;
+      }
+    }
+  }
+}
+
+TEST(PackedChunks, AreSmallWhereTheyCanBeAndBarelyLargerWhereNot) {
+  constexpr std::size_t kRows = 4096;
+  const std::vector<Chunk> chunks = unpacked(table(kRows, 1), kRows);
+  ASSERT_EQ(chunks.size(), 3U);
+  EXPECT_LT(chunks[1].packed, kRows * sizeof(double) / 100);  // a constant
+  // Two bytes of head, four of checksum, five of each stored block of at most 65535 bytes.
+  EXPECT_LE(chunks[2].packed, kRows * sizeof(double) + 2 + 4 + 2 * 5);
+}
+
+TEST(PackedChunks, OfNoRowsAreNone) { EXPECT_TRUE(unpacked(table(0, 2), 1).empty()); }
+
+}  // namespace
+}  // namespace gaitlab
