@@ -13,8 +13,20 @@ std::uint64_t fnv1a(std::string_view bytes, std::uint64_t state = kFnvOffset);
 /// FNV-1a (64 bit) of the bytes alone. 16 hex digits.
 std::string hash(std::string_view bytes);
 
-/// Of files, eight bytes at a time and so several times as fast: h = (h ^ word) * prime, h ^= h >> 32, words little-endian, the
-/// last one filled up with zeros; prime and start are those of FNV-1a (64 bit), the length is the first word. 16 hex digits.
+/// Eight bytes at a time and so several times as fast: h = (h ^ word) * prime, h ^= h >> 32, words little-endian; prime and
+/// start are those of FNV-1a (64 bit).
+class WordHash {
+ public:
+  /// Its length first, then its words, the last one filled up with zeros.
+  void add(std::string_view bytes);
+  /// 16 hex digits.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::uint64_t state_ = kFnvOffset;
+};
+
+/// WordHash of these bytes alone.
 std::string hash_words(std::string_view bytes);
 
 }  // namespace gaitlab

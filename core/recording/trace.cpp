@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-
 namespace gaitlab {
 
 std::size_t Trace::find(const std::string& name) const {
@@ -12,15 +10,32 @@ std::size_t Trace::find(const std::string& name) const {
   return index;
 }
 
+namespace {
+
+constexpr std::string_view kWords = "2-";  // format 2; one of format 1 is 16 digits alone
+
+std::string joined_names(const Trace& trace) {
+  std::string names;
+  for (const Column& column : trace.columns) names += column.name + '\0';  // so that {"ab", "c"} and {"a", "bc"} differ
+  return names;
+}
+
+std::string_view bytes_of(const Trace& trace) {
+  return {reinterpret_cast<const char*>(trace.values.data()), trace.values.size() * sizeof(double)};
+}
+
+}  // namespace
+
 std::string hash(const Trace& trace) {
-  std::uint64_t state = kFnvOffset;
-  for (const Column& column : trace.columns) {
-    state = fnv1a(column.name, state);
-    state = fnv1a(std::string_view("\0", 1), state);  // so that {"ab", "c"} and {"a", "bc"} differ
-  }
-  const char* bytes = reinterpret_cast<const char*>(trace.values.data());
-  state = fnv1a({bytes, trace.values.size() * sizeof(double)}, state);
-  return fmt::format("{:016x}", state);
+  WordHash words;
+  words.add(joined_names(trace));
+  words.add(bytes_of(trace));
+  return std::string(kWords) + words.text();
+}
+
+bool is_hash(std::string_view text, const Trace& trace) {
+  if (text.starts_with(kWords)) return text == hash(trace);
+  return text == fmt::format("{:016x}", fnv1a(bytes_of(trace), fnv1a(joined_names(trace))));
 }
 
 }  // namespace gaitlab

@@ -30,7 +30,12 @@ struct Trace {
   [[nodiscard]] std::size_t find(const std::string& name) const;
 };
 
-/// FNV-1a (64 bit) over the names and the bytes of all values: the same trace, the same hash. 16 hex digits.
+/// Of the names and the bytes of all values: the same trace, the same hash. `2-`, the number of its format, and 16 hex digits
+/// of WordHash: of all names, each with a NUL behind it, then of the values.
 std::string hash(const Trace& trace);
+
+/// Whether `text` is the hash of this trace, of format 2 or of format 1: FNV-1a over the same bytes, without a number before
+/// it.
+bool is_hash(std::string_view text, const Trace& trace);
 
 }  // namespace gaitlab

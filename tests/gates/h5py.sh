@@ -30,21 +30,26 @@ assert seed == 7 and build.startswith("0.") and scenario.startswith("gaitlab: 1\
 assert torque.min() < 0 and len(torque) == len(t)
 
 import struct
+def words(bytes, state=14695981039346656037):
+    for word in (len(bytes), *struct.unpack(f"<{(len(bytes) + 7) // 8}Q", bytes + b"\0" * (-len(bytes) % 8))):
+        state = (state ^ word) * 1099511628211 % 2**64
+        state ^= state >> 32
+    return state
 whole = open("runs/walk/trace.h5", "rb").read()
-rest = whole[512:]
-state = 14695981039346656037
-for word in (len(rest), *struct.unpack(f"<{(len(rest) + 7) // 8}Q", rest + b"\0" * (-len(rest) % 8))):
-    state = (state ^ word) * 1099511628211 % 2**64
-    state ^= state >> 32
-assert whole[:512].decode().split("on: ")[1].startswith(f"{state:016x}\n"), "the hash of the file"
+assert whole[:512].decode().split("on: ")[1].startswith(f"{words(whole[512:]):016x}\n"), "the hash of the file"
+names = words(b"".join(name.encode() + b"\0" for name in columns))
+import json
+trace_hash = f"2-{words(trace.astype('<f8').tobytes(), names):016x}"
+assert json.load(open("runs/walk/summary.json"))["trace_hash"] == trace_hash, "the hash of the trace"
 
 with h5py.File("runs/walk/trace.h5") as file:
+    assert file.attrs["checksum"].decode() == trace_hash
     table = file["recording/ticks"]
     ticks = dict(zip((name.decode() for name in table.attrs["columns"]), table[:].T))
 assert ticks["t"][-1] == t[-1] and max(ticks["joint.3.torque_peak"]) >= max(abs(torque))
 TEXT
 "$python" recipe.py
-ok "h5py reads names, units, definitions, origin, tables and every bit; the hash is that of docs/conventions.md"
+ok "h5py reads names, units, definitions, origin, tables and every bit; both hashes are those of docs/conventions.md"
 mkdir forged && cd forged
 if "$python" "$root/tests/gates/forged.py" "$program" ../runs/walk/trace.h5 "${FLIPS:-40}"; then ok "forged traces are refused"; else bad "forged traces"; fi
 verdict
