@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
 
 #include "core/model/principal_axes.h"
 #include "core/settings/wording.h"
@@ -248,7 +250,9 @@ class Mjcf {
       v = {velocity.x(), velocity.z(), start_.angular_velocity.y()};
     }
     // MuJoCo numbers joints as the bodies come, depth first.
-    append_joints(world, q, v);
+    std::map<std::string_view, std::size_t> numbers;
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j) numbers.emplace(robot_.joints[j].name, j);
+    append_joints(world, numbers, q, v);
     if (q.empty()) return;
     Xml& key = add(add(root, "keyframe"), "key");
     set(key, "name", "start");
@@ -256,15 +260,15 @@ class Mjcf {
     set(key, "qvel", text(v));
   }
 
-  void append_joints(const Xml& element, std::vector<double>& q, std::vector<double>& v) const {
+  void append_joints(const Xml& element, const std::map<std::string_view, std::size_t>& numbers, std::vector<double>& q,
+                     std::vector<double>& v) const {
     for (const Xml& child : element.children) {
       const std::string* name = child.name == "joint" ? child.attribute("name") : nullptr;
-      for (std::size_t j = 0; name != nullptr && j < robot_.joints.size(); ++j) {
-        if (robot_.joints[j].name != *name) continue;
-        q.push_back(start_.q[j]);
-        v.push_back(start_.qd[j]);
+      if (const auto at = name == nullptr ? numbers.end() : numbers.find(*name); at != numbers.end()) {
+        q.push_back(start_.q[at->second]);
+        v.push_back(start_.qd[at->second]);
       }
-      if (child.name == "body") append_joints(child, q, v);
+      if (child.name == "body") append_joints(child, numbers, q, v);
     }
   }
 

@@ -20,23 +20,32 @@ std::string joined_numbers(const Numbers& numbers) {
   return out;
 }
 
-/// Speed at which the torque of joint j under `command` vanishes, rad/s; 0 where it never does.
-double no_load_speed(const Actuator& actuator, const std::vector<double>& command, std::size_t j) {
-  std::vector<double> speed(command.size(), 0.0);
-  std::vector<double> torque(command.size());
-  std::vector<double> slope(command.size());
-  const auto drives = [&](double w) {
-    speed[j] = w;
-    actuator.effort(command, speed, torque, slope);
-    return torque[j] > 0;
-  };
-  double lo = 0;
-  double hi = 1e6;  // rad/s on a joint: nothing turns faster
-  if (drives(hi)) return 0;
-  for (int i = 0; i < 200 && lo < hi; ++i) {  // ends where no double lies between
-    const double middle = lo + (hi - lo) / 2;
-    if (middle <= lo || middle >= hi) break;
-    (drives(middle) ? lo : hi) = middle;
+/// Speeds at which the torques of the joints under `command` vanish, rad/s; 0 where one never does. All are halved at once,
+/// because an actuator is asked for all joints at once.
+std::vector<double> no_load_speeds(const Actuator& actuator, const std::vector<double>& command) {
+  constexpr double kFastest = 1e6;  // rad/s on a joint: nothing turns faster
+  constexpr int kMostHalvings = 200;
+  const std::size_t joints = command.size();
+  std::vector<double> lo(joints, 0.0);
+  std::vector<double> hi(joints, kFastest);
+  std::vector<double> middle(hi);
+  std::vector<double> torque(joints);
+  std::vector<double> slope(joints);
+  actuator.effort(command, hi, torque, slope);
+  for (std::size_t j = 0; j < joints; ++j) {
+    if (torque[j] > 0) hi[j] = 0;
+  }
+  bool between = joints > 0;  // a double between the bounds of any joint
+  for (int i = 0; i < kMostHalvings && between; ++i) {
+    between = false;
+    for (std::size_t j = 0; j < joints; ++j) {
+      middle[j] = lo[j] + (hi[j] - lo[j]) / 2;
+      between = between || (middle[j] > lo[j] && middle[j] < hi[j]);
+    }
+    actuator.effort(command, middle, torque, slope);
+    for (std::size_t j = 0; j < joints; ++j) {
+      if (middle[j] > lo[j] && middle[j] < hi[j]) (torque[j] > 0 ? lo : hi)[j] = middle[j];
+    }
   }
   return hi;
 }
@@ -62,10 +71,9 @@ std::vector<MotorLimits> motor_limits(const Scenario& scenario) {
   std::vector<double> slope(joints);
   actuator->effort(command, rest, torque, slope);
   const In rotors = actuator->reflected_inertia();
+  const std::vector<double> fastest = no_load_speeds(*actuator, command);
   std::vector<MotorLimits> limits(joints);
-  for (std::size_t j = 0; j < joints; ++j) {
-    limits[j] = {torque[j], no_load_speed(*actuator, command, j), rotors.empty() ? 0 : rotors[j]};
-  }
+  for (std::size_t j = 0; j < joints; ++j) limits[j] = {torque[j], fastest[j], rotors.empty() ? 0 : rotors[j]};
   return limits;
 }
 

@@ -6,6 +6,9 @@ namespace gaitlab::interchange {
 
 namespace {
 
+constexpr std::size_t kMostLevels =
+    40;  // of indentation: it would be nearly all of a long chain, whose bodies lie in one another
+
 std::string escaped(const std::string& value) {
   std::string out;
   for (const char c : value) {
@@ -33,7 +36,7 @@ std::string escaped(const std::string& value) {
 }
 
 void print(const Xml& element, std::size_t level, std::string& out) {
-  const std::string indent(4 * level, ' ');
+  const std::string indent(4 * std::min(level, kMostLevels), ' ');
   if (element.name.empty()) {
     out += indent + "<!--" + element.words + "-->\n";
     return;

@@ -26,7 +26,7 @@ Xml& add(Xml& parent, std::string name);
 void comment(Xml& parent, std::string words);
 /// Replaces the attribute where there is one of that name. Any text is allowed as a value.
 void set(Xml& element, const std::string& name, std::string value);
-/// A line per element, indented by four spaces per level; UTF-8 as it comes.
+/// A line per element, indented by four spaces per level, at most 160; UTF-8 as it comes.
 std::string print(const Xml& root);
 
 }  // namespace gaitlab::interchange

@@ -30,5 +30,17 @@ TEST(Xml, IsIndentedAndEscaped) {
   EXPECT_EQ(body.attribute("size"), nullptr);
 }
 
+// Of 3000 modules in a chain, indentation was 2.6 of 2.7 GB.
+TEST(Xml, OfElementsWithinOneAnotherGrowsWithTheirNumber) {
+  const auto nested = [](int levels) {
+    Xml root;
+    root.name = "body";
+    Xml* last = &root;
+    for (int level = 1; level < levels; ++level) last = &add(*last, "body");
+    return print(root).size();
+  };
+  EXPECT_EQ(nested(2000) - nested(1000), nested(3000) - nested(2000));
+}
+
 }  // namespace
 }  // namespace gaitlab::interchange
