@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "app/commands.h"
+#include "app/study/own_gait.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_run.h"
 #include "app/study/study_text.h"
@@ -120,6 +121,7 @@ int optimize_study(const OptimizeArguments& a) {
   const studies::Lock lock(folder / "lock");
   Journal journal(folder / studies::kJournalFile, head, taken_build(a));
   keep_runs(plan, journal, folder, a.quiet);
+  if (journal.rows() == 0) print_own_gait(plan, a.quiet);
 
   const SearchEnd end = run_study(plan, journal, remembering(executor, answers), a);
   const auto interrupted = [&] {

@@ -101,6 +101,13 @@ std::optional<report::Quantity> find_quantity(const std::string& name, const Rob
 
 }  // namespace
 
+bool depends_on_estimate(const std::string& quantity) {
+  const std::string_view name = quantity.starts_with(kMargin) ? std::string_view(quantity).substr(kMargin.size()) : quantity;
+  return name == "feasible" || name == "evidence" ||
+         std::ranges::any_of(std::array{"torque_e", "predictable", "spread."},
+                             [&](const char* begin) { return name.starts_with(begin); });
+}
+
 bool is_gone(const std::string& quantity) { return quantity == "verdict_excess"; }
 
 studies::QuantityOffer quantity_offer() {

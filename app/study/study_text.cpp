@@ -119,6 +119,20 @@ std::string rejected_text(Journal& journal, const studies::Results& results) {
   return text;
 }
 
+/// What the steps cost in torque, of the points for which it was estimated.
+std::string estimated_text(Journal& journal, const studies::Results& results) {
+  const studies::Estimated found = studies::estimated(journal);
+  if (found.runs == 0) return results.runs == 0 ? "" : "the error of the torques was estimated in none of the runs\n";
+  std::string text =
+      fmt::format("torque error estimated in {}: {} beyond 1 %, {} beyond 2 %, {} beyond 5 %; at most {:.2g} %\n",
+                  counted(found.runs, "run"), found.beyond[0], found.beyond[1], found.beyond[2], 100 * found.worst);
+  if (!found.trusted())
+    text +=
+        "more than one in ten is beyond 5 %: `feasible` of a point that was not estimated is not to be trusted; take "
+        "estimate_every: 1, and physics.step: auto or a smaller accuracy\n";
+  return text;
+}
+
 std::string share(std::uint64_t part, std::uint64_t of) {
   return of == 0 ? "" : fmt::format(" ({:.0f} %)", 100 * static_cast<double>(part) / static_cast<double>(of));
 }
@@ -219,6 +233,7 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
   std::string text =
       fmt::format("{}: {} of {} runs ended, {} kept{}, {} feasible, {} failed\n", clipped(head.name), results.runs, head.runs,
                   results.kept_runs, share(results.kept_runs, results.runs), results.feasible_runs, failed);
+  text += estimated_text(journal, results);
   if (!head.guarded) text += "without guards: results may exploit the simulation\n";
   if (head.objectives.size() > 1) {
     const std::vector<std::size_t> best = studies::front(results.points, head.objectives);

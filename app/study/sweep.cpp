@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/commands.h"
+#include "app/study/own_gait.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_run.h"
 #include "app/study/study_text.h"
@@ -49,6 +50,7 @@ int sweep_study(const SweepArguments& a) {
   const studies::Lock lock(shard.whole() ? folder / "lock" : lock_file.replace_extension("lock"));
   Journal journal(file, head, taken_build(a));
   keep_runs(plan, journal, folder, a.quiet);
+  if (journal.rows() == 0 && shard.index == 0) print_own_gait(plan, a.quiet);
 
   studies::Standing standing;
   {

@@ -90,6 +90,21 @@ Results results(Journal& journal) {
   return results;
 }
 
+Estimated estimated(Journal& journal) {
+  const JournalHead& head = journal.head();
+  const auto at = std::ranges::find(head.quantities, kTorqueError, &Quantity::name);
+  Estimated found;
+  if (at == head.quantities.end()) return found;
+  const auto column = static_cast<std::size_t>(at - head.quantities.begin());
+  journal.each_numbers({journal.columns().quantities[column]}, [&](std::span<const double> values) {
+    if (std::isnan(values.front())) return;
+    ++found.runs;
+    found.worst = std::max(found.worst, values.front());
+    for (std::size_t k = 0; k < found.kShares.size(); ++k) found.beyond[k] += values.front() > found.kShares[k] ? 1 : 0;
+  });
+  return found;
+}
+
 std::vector<BrokenLimit> broken_limits(Journal& journal) {
   const JournalHead& head = journal.head();
   std::vector<std::string> columns{"run"};  // one at least

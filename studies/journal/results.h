@@ -1,5 +1,6 @@
 // What a study found: its points in order, the best first.
 #pragma once
+#include <array>
 #include <map>
 #include <vector>
 
@@ -37,6 +38,20 @@ struct Results {
 PointResult point_result(const JournalHead& head, std::span<const Brief> runs);
 
 Results results(Journal& journal);
+
+/// Runs whose torque error was estimated, and how many of these are beyond each share. Every run under an engine that has an
+/// estimate has one where `estimate_every` is 1.
+struct Estimated {
+  static constexpr std::array kShares{0.01, 0.02, 0.05};
+  std::uint64_t runs = 0;
+  std::array<std::uint64_t, kShares.size()> beyond{};
+  double worst = 0;
+  /// Nine of ten are to be trusted (the last of the shares), or there is none to doubt.
+  [[nodiscard]] bool trusted() const { return 10 * beyond.back() <= runs; }
+};
+Estimated estimated(Journal& journal);
+/// The quantity that has it.
+inline constexpr const char* kTorqueError = "torque_error.worst";
 
 /// Kept points that no other is better than in all objectives, by the first objective, the best first. Of equal ones the
 /// first.

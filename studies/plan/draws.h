@@ -12,6 +12,8 @@ std::uint64_t hash64(std::initializer_list<std::uint64_t> words);
 
 /// First word of what searches draw (1 to 3 are the points').
 inline constexpr std::uint64_t kSearchDraw = 4;
+/// First word of the draw of points whose torque error is estimated.
+inline constexpr std::uint64_t kEstimateDraw = 5;
 
 /// In [0, 1), of the hash of the words.
 double uniform(std::initializer_list<std::uint64_t> words);

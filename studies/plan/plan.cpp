@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "core/model/pattern.h"
@@ -246,6 +247,14 @@ Row Plan::row(std::uint64_t run) const {
   return row;
 }
 
+bool Plan::estimates(const std::string& point) const {
+  const auto every = static_cast<std::uint64_t>(study_.estimate_every);
+  if (every == 0) return false;
+  std::uint64_t name = 0;  // the first 64 of 128 bit
+  std::from_chars(point.data(), point.data() + std::min<std::size_t>(point.size(), 16), name, 16);
+  return hash64({kEstimateDraw, static_cast<std::uint64_t>(study_.seed), name}) % every == 0;
+}
+
 void Plan::finish(Row& row, const Scenario& scenario, const Recording& recording, const Measure& measure) const {
   row.simulated = recording.simulated;
   row.outcome = name_of(recording.outcome.ended);
@@ -279,6 +288,7 @@ std::string Plan::definition() const {
     text += fmt::format("{}: {}\n", study_.objectives[k].maximize ? "maximize" : "minimize", judge_->objectives()[k]);
   for (const Limit& limit : judge_->limits()) text += fmt::format("{}: {}\n", limit.guard ? "guard" : "constraint", limit.text);
   for (const std::string& stop : stops_->texts()) text += "stop: " + stop + "\n";
+  text += fmt::format("estimate_every: {}\n", study_.estimate_every);
   std::string columns;
   for (const Quantity& column : columns_) columns += column.name + "\n";
   for (const Quantity& column : columns_) {

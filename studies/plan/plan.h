@@ -59,6 +59,9 @@ class Plan {
   }
   [[nodiscard]] bool has_other_engine() const;
 
+  /// Whether the torque error of a run of this point is estimated: drawn by the seed and its name.
+  [[nodiscard]] bool estimates(const std::string& point) const;
+
   /// The row of a run as far as it is known before the run.
   [[nodiscard]] Row row(std::uint64_t run) const;
   /// Fills in how it ended.

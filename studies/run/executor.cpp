@@ -32,6 +32,11 @@ class LocalWork {
       const std::uint64_t run = job->row.run;
       try {
         Rollout rollout{run, plan_.with(job->sets, job->scenario)};
+        Physics& physics = rollout.scenario.physics;
+        if (physics.estimate == Estimate::full && !job->estimate && !plan_.estimates(job->row.point)) {
+          physics.estimate = Estimate::off;
+          physics.estimated_by_others = true;
+        }
         const std::lock_guard lock(mutex_);
         rows_[run] = std::move(job->row);
         return rollout;

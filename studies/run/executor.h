@@ -18,6 +18,7 @@ struct Job {
   Row row;
   std::vector<std::string> sets;
   std::size_t scenario = 0;
+  bool estimate = false;  ///< the torque error of this one, whatever is drawn
 };
 
 /// Where an executor takes jobs from, and gives their rows to.

@@ -155,6 +155,7 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
         const std::uint64_t run = results.points[point].first_run + r;
         Job job{plan.row(run), plan.sets(run), plan.points().scenario(run)};
         job.row.run = jobs.size();
+        job.estimate = true;
         std::ranges::copy(way.sets(plan, run), std::back_inserter(job.sets));
         jobs.push_back(std::move(job));
       }

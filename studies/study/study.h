@@ -163,7 +163,8 @@ struct Study {
   [[nodiscard]] bool of_sensitivity() const { return method == Method::morris || method == Method::sobol_indices; }
   /// Runs of a point: its replicates in every scenario.
   [[nodiscard]] std::uint64_t runs_of_point() const { return std::max<std::size_t>(1, scenarios.size()) * replicates.number(); }
-  bool asked = false;  ///< points come from another program (`gaitlab evaluate`) instead of the method
+  std::int64_t estimate_every = 16;  ///< one point in so many has its torque error estimated; 0: none
+  bool asked = false;                ///< points come from another program (`gaitlab evaluate`) instead of the method
 };
 
 }  // namespace studies

@@ -17,6 +17,11 @@ struct PlainKeys {
     f.text("scenario", scenario, "Scenario file, relative to this file; or `scenarios`.");
     f.texts("set", study.sets, "Settings of all runs, as for --set: physics.step=0.001.");
     f.integer("seed", study.seed, {"", 0, 9e15, "Seed of what is drawn: points and replicates."});
+    f.integer(
+        "estimate_every", study.estimate_every,
+        {"", 0, 1e9,
+         "One point in so many, drawn by the seed, has the error of its torques estimated, which takes lanes of its own; 1: "
+         "all, 0: none. The best points that `gaitlab optimize` tries again always have."});
     f.texts("quantities", study.quantities,
             "Quantities of a run that are shown in tables and drawn, by name with * and ?; without any the speed. Those of one "
             "joint, "

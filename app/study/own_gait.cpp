@@ -1,0 +1,111 @@
+// The scenario's own gait, tried before a study: what the study's step costs.
+#include "app/study/own_gait.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "app/app.h"
+#include "app/stop_on_signal.h"
+#include "app/study/study_quantities.h"
+#include "core/errors.h"
+#include "core/settings/wording.h"
+#include "core/simulation/batch.h"
+#include "report/verdict/number_texts.h"
+#include "report/verdict/trust.h"
+
+namespace gaitlab::app {
+
+namespace {
+
+constexpr double kMuch = 0.005;  // of the objective: a step that costs more is said with a remedy
+
+struct Way {
+  std::vector<std::string> sets;
+  std::optional<double> objective = {};  ///< of the study, the first; nothing: refused, failed, or not known
+  report::TorqueError error = {};
+};
+
+/// As the study has it; with half the step; with steps that the integrator chooses.
+std::vector<Way> ways(const Scenario& own) {
+  std::vector<Way> all{{{}}};
+  if (own.physics.adapts()) return all;
+  all.push_back({{"physics.step=" + number_text(own.physics.step / 2)}});
+  if (const Integrator* adaptive = own.physics.engine->adaptive(); adaptive != nullptr)
+    all.push_back({{"physics.step=auto", std::string("physics.integrator=") + adaptive->name}});
+  return all;
+}
+
+/// False: stopped.
+bool try_all(const studies::Plan& plan, std::size_t scenario, std::vector<Way>& all) {
+  const studies::Measure measure = quantity_measure(plan.columns(), plan.scenario());
+  std::size_t next = 0;
+  const BatchStream stream{.next = [&]() -> std::optional<Rollout> {
+                             while (next < all.size()) {
+                               const std::size_t number = next++;
+                               try {
+                                 return Rollout{number, plan.with(all[number].sets, scenario)};
+                               } catch (const InputError&) {  // a step that the engine refuses
+                               }
+                             }
+                             return {};
+                           },
+                           .end =
+                               [&](std::vector<RolloutEnd>&& pack) {
+                                 for (const RolloutEnd& end : pack) {
+                                   Way& way = all[end.rollout.number];
+                                   if (!end.refused.empty() || !end.recording.outcome.done()) continue;
+                                   const studies::Judged judged = measure(end.rollout.scenario, end.recording);
+                                   const double value = plan.judge().score(judged.quantities, judged.verdict).objective();
+                                   if (std::isfinite(value)) way.objective = value;
+                                   way.error = report::torque_error(end.recording);
+                                 }
+                               }};
+  return run_pulled(stream, {}, Loads::recorded, stopped());
+}
+
+/// Share of the limit of ever smaller steps (Richardson) by which a value is off.
+struct Cost {
+  double limit;
+  [[nodiscard]] double of(double value) const { return std::abs(value - limit) / std::abs(limit); }
+};
+
+std::string text(const studies::Plan& plan, const Scenario& own, const std::vector<Way>& all) {
+  const Way& given = all.front();
+  const std::string error =
+      given.error.estimated ? ", its torque error is about " + report::texts::rough_percent(given.error.share) : "";
+  const bool known = given.objective && all.size() > 1 && all[1].objective;
+  const bool much = given.error.estimated && !(given.error.share <= report::torque_error_limit(own));
+  if (!known)
+    return much ? "the torque error of the scenario's own gait is about " + report::texts::rough_percent(given.error.share)
+                : "";
+  const double ratio = std::pow(2, std::max(1, own.physics.integrator->order));
+  const double half = *all[1].objective;
+  const Cost cost{half + (half - *given.objective) / (ratio - 1)};
+  if (!(std::abs(cost.limit) > 0)) return "";
+  const std::string& objective = plan.judge().objectives().front();
+  std::string said = fmt::format("step {} s costs {} of {} on the scenario's own gait", number_text(own.physics.step),
+                                 report::texts::rough_percent(cost.of(*given.objective)), clipped(objective));
+  const bool chooses = all.size() > 2 && all[2].objective;
+  if (chooses) said += ", auto " + report::texts::rough_percent(cost.of(*all[2].objective));
+  said += error;
+  if (cost.of(*given.objective) > kMuch)
+    said += chooses ? ": take physics.step: auto" : ": take physics.step: " + number_text(own.physics.step / 2);
+  return said;
+}
+
+}  // namespace
+
+void print_own_gait(const studies::Plan& plan, bool quiet) {
+  if (quiet) return;
+  for (std::size_t k = 0; k < plan.scenarios().size(); ++k) {
+    const Scenario& own = plan.scenarios()[k].nominal;
+    std::vector<Way> all = ways(own);
+    if (!try_all(plan, k, all)) return;
+    const std::string said = text(plan, own, all);
+    if (!said.empty()) say(own.file, "note", said);
+  }
+}
+
+}  // namespace gaitlab::app
