@@ -20,6 +20,7 @@
 #include "report/figures/run/figure.h"
 #include "report/figures/run/run_figure.h"
 #include "report/page/page.h"
+#include "report/verdict/spread.h"
 #include "report/verdict/summary_text.h"
 #include "report/verdict/trust.h"
 
@@ -83,6 +84,17 @@ void note_time(const Scenario& scenario, Simulation& simulation) {
   if (time.seconds > kLongRun) say(scenario.file, "note", to_string(time));
 }
 
+/// Of a motion that nobody can predict: other rollouts, as good as this.
+void take_spread(const Scenario& scenario, Recording& recording, const report::Summary& summary, bool quiet) {
+  const report::Predictability found = report::predictability(scenario, recording);
+  if (found != report::Predictability::chaotic && found != report::Predictability::ill) return;
+  if (!quiet)
+    say(scenario.file, "note",
+        report::predictability_text(scenario, recording) + "; three more rollouts show how far its numbers spread");
+  const report::Verdict own = report::verdict(scenario, recording, summary, report::overlaps(scenario, recording));
+  recording.spread = report::spread(scenario, recording, summary, own, stopped());
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
@@ -125,6 +137,7 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
     made = summarised();
   } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the trace first, then again
   }
+  if (made) take_spread(scenario, recording, *made, arguments.quiet);
   write_run(files, arguments.format, scenario, recording);
   const report::Summary summary = made ? std::move(*made) : summarised();
   if (files.lost_any()) files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });

@@ -8,8 +8,9 @@
 
 namespace gaitlab {
 
-inline constexpr std::string_view kTraceFormats[] = {"gaitlab-trace-1", "gaitlab-trace-2"};     ///< the last one is written
-inline constexpr const char* kBeside[] = {"rest", "ticks", "loads", "poses", "joints", "run"};  ///< tables of `/recording`
+inline constexpr std::string_view kTraceFormats[] = {"gaitlab-trace-1", "gaitlab-trace-2"};  ///< the last one is written
+inline constexpr const char* kBeside[] = {"rest",   "ticks",  "loads", "poses",
+                                          "spread", "joints", "run"};  ///< tables of `/recording`
 inline constexpr std::size_t kUserBlock = 512;  ///< bytes before the HDF5 part; the smallest that HDF5 knows
 
 /// What the HDF5 library refused, or content that is not a trace.

@@ -68,6 +68,9 @@ struct Recording {
   /// At the rows of `ticks`: pose of the base, angles and set points of the joints, centre of mass, and normal force of the
   /// ground on the robot. Folders of older formats have no rows, or only pose and angles.
   Trace poses;
+  /// Of a motion that nobody can predict: numbers (report/verdict/spread.h) of this run, then of the same under a gravity that
+  /// differs by next to nothing, a row each. Without columns where it was not tried.
+  Trace spread;
   std::vector<JointStatistics> joints;  ///< none: the robot has no joint, or the run is of a format that did not keep them
   Ledger ledger;                        ///< at the end
   StepTally tally;                      ///< of the engine's steps

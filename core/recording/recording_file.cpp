@@ -23,8 +23,17 @@ namespace fs = std::filesystem;
 
 constexpr const char* kHinges = "energy.hinges";
 constexpr const char* kEnded = "ended";
-constexpr const char* kEventTime = "torque_error.event_time";
-constexpr const char* kEventJoint = "torque_error.event_joint";
+
+/// A rollout beside the run, and the words of its definitions.
+struct PartingName {
+  const char* key;
+  Parting StepTally::*member;
+  const char* words;
+};
+constexpr std::array kPartings{PartingName{"twin", &StepTally::event, "a rollout with other steps"},
+                               PartingName{"chaotic", &StepTally::chaotic, "a rollout under gravity times 1 + 1e-9"},
+                               PartingName{"ill", &StepTally::ill, "1000 times the difference to that"}};
+constexpr std::string_view kParting = "parting.";
 
 /// Every number of a recording that is not one of a row or of a joint: visit(name, unit, definition, number).
 template <class OfRecording, class Visit>
@@ -49,8 +58,14 @@ void each_number(OfRecording& r, Visit visit) {
   visit("off_law", "", "joint-steps that ended off the law of their motor or stop", r.tally.off);
   visit("coarse_time", "s", "time in which the steps did not reach the accuracy", r.tally.coarse);
   visit("torque_error.estimated", "", "1: there is an estimate of the torque error", r.tally.estimated);
-  visit(kEventTime, "s", "when run and twin parted by more than the accuracy first; below 0: never", r.tally.event_time);
-  visit(kEventJoint, "", "number of the joint in which they did", r.tally.event_joint);
+  for (const PartingName& one : kPartings) {
+    const std::string name = std::string(kParting) + one.key;
+    auto& parting = r.tally.*one.member;
+    visit(name + ".time", "s",
+          std::string("when run and ") + one.words + ", parted by more than the accuracy first; below 0: never", parting.time);
+    visit(name + ".joint", "", "number of the joint in which they did", parting.joint);
+    visit(name + ".share", "", "RMS of the difference of its torques over their peak, of the worst joint", parting.share);
+  }
   visit(kEnded, "", "how it ended: 0 done, 1 diverged, 2 plugin, 3 stopped, 4 interrupted, 5 not run, 6 early",
         r.outcome.ended);
 }
@@ -65,7 +80,7 @@ void each_number_of(OfRecording& r, std::size_t j, Visit visit) {
 
 std::vector<Beside> tables(const Recording& r) {
   Trace run;
-  each_number(r, [&](const char* name, const char* unit, const char* definition, const auto& number) {
+  each_number(r, [&](const std::string& name, const char* unit, const std::string& definition, const auto& number) {
     run.columns.push_back({name, unit, definition});
     run.values.push_back(static_cast<double>(number));
   });
@@ -76,7 +91,10 @@ std::vector<Beside> tables(const Recording& r) {
       joints.values.push_back(number);
     });
   }
-  return {{"rest", r.rest}, {"ticks", r.ticks}, {"loads", r.loads}, {"poses", r.poses}, {"joints", joints}, {"run", run}};
+  std::vector<Beside> all{{"rest", r.rest},   {"ticks", r.ticks}, {"loads", r.loads},
+                          {"poses", r.poses}, {"joints", joints}, {"run", run}};
+  if (r.spread.rows() > 0) all.push_back({"spread", r.spread});
+  return all;
 }
 
 InputError unfit(const fs::path& file, const std::string& what) {
@@ -91,7 +109,7 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
     if (found == beside.end()) throw unfit(file, fmt::format("there is no table /recording/{}", name));
     return std::move(found->table);
   };
-  const auto value = [&](const Trace& table, std::size_t row, const char* name) {
+  const auto value = [&](const Trace& table, std::size_t row, const std::string& name) {
     const std::size_t column = table.find(name);
     if (column == table.columns.size() || row >= table.rows()) throw unfit(file, fmt::format("there is no number {}", name));
     return table.at(row, column);
@@ -100,6 +118,7 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   r.ticks = take("ticks");
   if (find("loads") != beside.end()) r.loads = take("loads");  // older folders do not have it
   if (find("poses") != beside.end()) r.poses = take("poses");  // nor that
+  if (find("spread") != beside.end()) r.spread = take("spread");
   const Trace joints = take("joints");
   const Trace run = take("run");
   r.joints.resize(joints.rows());
@@ -108,10 +127,9 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   for (std::size_t j = 0; j < joints.rows(); ++j) {
     each_number_of(r, j, [&](const char* name, const char*, const char*, double& number) { number = value(joints, j, name); });
   }
-  each_number(r, [&](const char* name, const char*, const char*, auto& number) {
+  each_number(r, [&](const std::string& name, const char*, const std::string&, auto& number) {
     using Number = std::remove_reference_t<decltype(number)>;
-    const bool added = std::ranges::any_of(std::array{kHinges, kEnded, kEventTime, kEventJoint},
-                                           [&](const char* one) { return name == std::string_view(one); });
+    const bool added = name == kHinges || name == kEnded || name.starts_with(kParting);
     if (added && run.find(name) == run.columns.size()) return;  // older folders do not have it
     const double read = value(run, 0, name);
     // Yes or no, a source, and counts, which a double holds to 2^53.
@@ -123,8 +141,10 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
       throw unfit(file, fmt::format("{} is {}", name, read));
     number = static_cast<Number>(read);
   });
-  if (r.tally.event_joint > 0 && r.tally.event_joint >= r.joints.size())
-    throw unfit(file, fmt::format("{} is {}", kEventJoint, r.tally.event_joint));
+  for (const PartingName& one : kPartings) {
+    const std::size_t joint = (r.tally.*one.member).joint;
+    if (joint > 0 && joint >= r.joints.size()) throw unfit(file, fmt::format("{}{}.joint is {}", kParting, one.key, joint));
+  }
   if (!std::isfinite(r.simulated) || r.simulated < 0) throw unfit(file, fmt::format("simulated is {}", r.simulated));
   if (!r.rest.columns.empty() && r.rest.rows() != r.trace.rows()) {
     throw unfit(file, fmt::format("{} rows in /recording/rest, {} in the trace", r.rest.rows(), r.trace.rows()));

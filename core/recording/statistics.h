@@ -58,14 +58,21 @@ inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(dou
     {&JointStatistics::created, "created", "J", "what the gear gave instead of losing"},
 }};
 
-/// What is known of a rollout's steps since the start.
+/// How far a rollout beside a run went from it (core/simulation/step_error.h).
+struct Parting {
+  double time = -1;       ///< s: when a torque differed by more than the accuracy first; below 0: never
+  std::size_t joint = 0;  ///< whose
+  double share = 0;       ///< RMS of the difference of a joint's torque over its peak, of the worst joint
+};
+
+/// Numbers of a rollout's steps since the start.
 struct StepTally {
   double solves = 0;                 ///< of the equations of motion; 0: not counted
   double off = 0;                    ///< joint-steps that ended off the law of their motor or stop
   double coarse = 0;                 ///< s in which the shortest steps that an integrator takes did not reach the accuracy
   bool estimated = false;            ///< whether there is an estimate of the torque error yet (core/simulation/step_error.h)
-  double event_time = -1;            ///< s: when the run and its twin parted by more than the accuracy first; below 0: never
-  std::size_t event_joint = 0;       ///< in which joint
+  Parting event;                     ///< of the rollout with other steps that is the farther; share: of the estimated error
+  Parting chaotic, ill;              ///< of the rollout under gravity times 1 + 1e-9, and of 1000 times that difference
   std::vector<double> torque_error;  ///< of each joint, RMS, N m
   std::vector<double> torque_peak;   ///< of each joint, largest torque where that error is asked for, N m
 };

@@ -23,7 +23,7 @@ struct Initial {
   void fields(Fields& f);
 };
 
-/// Whether a run has a twin, which tells what its steps cost in torque (core/simulation/step_error.h).
+/// The estimate of what a run's steps cost in torque (core/simulation/step_error.h).
 enum class Estimate { full, off };
 
 template <>
@@ -38,6 +38,7 @@ struct Physics {
   bool adaptive_step = false;  ///< `step: auto`: the integrator divides each step as `accuracy` asks
   double accuracy = 0.01;      ///< of the torques, relative; of integrators that choose their steps
   Estimate estimate = Estimate::full;
+  bool estimated_by_others = false;        ///< no setting: a run of a study, whose estimates of other points count for this one
   const Integrator* integrator = nullptr;  ///< of the engine's
   Vec3 gravity{0, 0, -9.81};               ///< m/s^2, world
   /// Whether the integrator chooses its steps by `accuracy`.

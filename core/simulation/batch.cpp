@@ -44,6 +44,7 @@ class Waiting {
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       if (i == 0 || can_share(first, waiting_[i].scenario)) group.push_back(i);
     }
+    if (estimated_by_rollouts(first)) group.resize(1);
     group.resize(std::min(group.size(), width(first.physics.engine->lanes, fair(group.size()), settings_.lanes)));
     std::vector<Rollout> pack;
     for (const std::size_t i : group) pack.push_back(std::move(waiting_[i]));

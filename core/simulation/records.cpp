@@ -67,15 +67,7 @@ Sample& Simulation::take_sample(Lane& lane, bool whole) {
   take_passive(lane, s);
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
   plant_->tally(l, s.tally);
-  if (step_error_ && lane.scenario.physics.estimate == Estimate::full) {
-    s.tally.estimated = step_error_->any(l);
-    s.tally.event_time = step_error_->event_time(l);
-    s.tally.event_joint = step_error_->event_joint(l);
-    for (std::size_t j = 0; j < layout_.joints; ++j) {
-      s.tally.torque_error[j] = step_error_->rms(j, l);
-      s.tally.torque_peak[j] = step_error_->peak(j, l);
-    }
-  }
+  if (step_error_ && lane.scenario.physics.estimate == Estimate::full) step_error_->put(l, s.tally);
   s.ledger = Ledger::of(lane.ledger, energy(lane) - lane.energy_at_start);
   return s;
 }
@@ -112,13 +104,16 @@ void Simulation::record_within_step() {
   if (!scenarios_[0].physics.adaptive_step) return;
   for (double at = 0;;) {
     const auto next = [&](const Lane& lane) {
-      return lane.closed ? std::numeric_limits<double>::infinity() : lane.clock.row_within(step_number(), at);
+      return lane.closed || !recorded(lane) ? std::numeric_limits<double>::infinity()
+                                            : lane.clock.row_within(step_number(), at);
     };
     double row = std::numeric_limits<double>::infinity();
     for (const auto& lane : lanes_) row = std::min(row, next(*lane));
     if (!std::isfinite(row)) return;
     std::ranges::copy(state_, saved_.begin());
-    const auto ends = [&](const Lane& lane) { return !lane.closed && lane.clock.ends_within(step_number(), row); };
+    const auto ends = [&](const Lane& lane) {
+      return recorded(lane) && !lane.closed && lane.clock.ends_within(step_number(), row);
+    };
     advance(row, ends);
     ended_.clear();
     for (const auto& lane : lanes_) {

@@ -27,10 +27,11 @@ bool can_share(const Scenario& a, const Scenario& b) {
   const auto same_drive = [](const Joint& x, const Joint& y) { return x.driven() == y.driven(); };
   const auto same_place = [](const ContactElement& x, const ContactElement& y) { return x.link == y.link; };
   const auto elements = [](const Scenario& s) { return contact_elements(*s.robot, s.contact.on); };
-  return a.physics.engine == b.physics.engine && a.physics.integrator == b.physics.integrator &&
-         a.physics.step == b.physics.step && a.physics.adaptive_step == b.physics.adaptive_step &&
-         a.control_period == b.control_period && a.actuator.entry == b.actuator.entry && a.base == b.base &&
-         a.contact.solver() == b.contact.solver() && std::ranges::equal(a.robot->links, b.robot->links, same_link) &&
+  return estimated_by_rollouts(a) == estimated_by_rollouts(b) && a.physics.engine == b.physics.engine &&
+         a.physics.integrator == b.physics.integrator && a.physics.step == b.physics.step &&
+         a.physics.adaptive_step == b.physics.adaptive_step && a.control_period == b.control_period &&
+         a.actuator.entry == b.actuator.entry && a.base == b.base && a.contact.solver() == b.contact.solver() &&
+         std::ranges::equal(a.robot->links, b.robot->links, same_link) &&
          std::ranges::equal(a.robot->joints, b.robot->joints, same_drive) &&
          std::ranges::equal(elements(a), elements(b), same_place);
 }
@@ -38,12 +39,14 @@ bool can_share(const Scenario& a, const Scenario& b) {
 Simulation::Simulation(std::span<const Scenario> lanes, Loads loads) : Simulation(lanes, loads, Role::run) {}
 
 Simulation::Simulation(std::span<const Scenario> lanes, Loads loads, Role role) try
-    : scenarios_(lanes.begin(), lanes.end()),
+    : scenarios_(side_by_side(lanes, role)),
+      recorded_(lanes.size()),
       loads_(loads),
       role_(role),
       h_(scenarios_.at(0).physics.step),
       layout_{scenarios_[0].robot->joints.size(), scenarios_.size()},
-      meter_(scenarios_) {
+      first_(layout_, recorded_),
+      meter_(std::span(scenarios_).first(recorded_)) {
   std::vector<const PluginSelection*> actuators;
   for (const Scenario& s : scenarios_) {
     if (!can_share(scenarios_[0], s)) throw std::invalid_argument("these scenarios cannot run side by side");
@@ -58,17 +61,18 @@ Simulation::Simulation(std::span<const Scenario> lanes, Loads loads, Role role) 
                                             fmt::join(widths, " or "), lanes_.size()));
   }
   actuator_ = make_actuator(actuators, info(*first.robot));
+  if (recorded_ != lanes_.size()) own_actuator_ = make_actuator(std::span(actuators).first(recorded_), info(*first.robot));
   plant_ = make_plant(first, plant_settings());
-  for (auto* values :
-       {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_, &available_, &largest_}) {
+  for (auto* values : {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_}) {
     values->assign(layout_.joints * lanes_.size(), 0.0);
   }
+  for (auto* values : {&available_, &largest_}) values->assign(layout_.joints * recorded_, 0.0);
   numbers_.assign(state_size(), 0.0);
   cut_state(numbers_);
   set_start();
-  if (role_ == Role::twin) return;
+  if (role_ == Role::companion) return;
   check_standing();
-  make_twin();
+  make_estimate();
 } catch (const PluginError& error) {
   throw InputError(lanes[0].place(std::string(word(error.kind)) + ".type"), error.what());
 }
@@ -91,7 +95,7 @@ PlantSettings Simulation::plant_settings() const {
   return settings;
 }
 
-/// Numbers that change, without those of the twin.
+/// Numbers that change, without those of the rollouts apart.
 std::size_t Simulation::state_size() const {
   std::size_t size = 1 + layout_.size() + plant_->history() + 2 * layout_.joints * lanes_.size();
   for (const auto& lane : lanes_) {
@@ -182,7 +186,7 @@ void Simulation::set_start() {
     for (std::size_t j = 0; actuator_ != nullptr && j < layout_.joints; ++j) {
       lane.limit[j] = actuator_->command_limit()[j * lanes_.size() + l];
     }
-    if (role_ == Role::run) set_recording(lane);
+    if (recorded(lane)) set_recording(lane);
   }
 }
 

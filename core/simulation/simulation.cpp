@@ -23,14 +23,17 @@ std::int64_t whole(double period, double step) { return std::llround(period / st
 SimulationError::SimulationError(Ended how, std::int64_t at_step, double at_time, std::string at, const std::string& what)
     : RunError(what), ended(how), step(at_step), time(at_time), where(std::move(at)) {}
 
+bool Simulation::recorded(const Lane& lane) const { return role_ == Role::run && lane.index < recorded_; }
 bool Simulation::control_tick(const Lane& lane) const { return !lane.closed && lane.clock.commands(step_number()); }
-bool Simulation::trace_tick(const Lane& lane) const { return !lane.closed && lane.clock.records(step_number()); }
+bool Simulation::trace_tick(const Lane& lane) const {
+  return recorded(lane) && !lane.closed && lane.clock.records(step_number());
+}
 bool Simulation::any(bool (Simulation::*tick)(const Lane&) const) const {
   return std::any_of(lanes_.begin(), lanes_.end(), [&](const auto& lane) { return (this->*tick)(*lane); });
 }
 
 void Simulation::step() try {
-  if (twin_) begin_twin();
+  if (step_error_) begin_window();
   if (any(&Simulation::trace_tick)) record();
   if (any(&Simulation::control_tick)) {
     sense();
@@ -38,7 +41,7 @@ void Simulation::step() try {
   }
   record_within_step();
   advance(h_, [](const Lane&) { return true; });
-  if (twin_) follow_twin();
+  if (step_error_) estimate();
   state_[0] += 1;
   check();
 } catch (const PluginError& error) {
@@ -46,7 +49,8 @@ void Simulation::step() try {
 }
 
 bool Simulation::done() const {
-  return step_number() >= steps_ || std::all_of(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane->closed; });
+  return step_number() >= steps_ ||
+         std::ranges::all_of(lanes_, [&](const auto& lane) { return lane->closed || !recorded(*lane); });
 }
 
 bool Simulation::run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) try {
@@ -70,7 +74,7 @@ void Simulation::ask_watch() {
   if (done() || time() < asked_ + kEvery - kSlack) return;
   asked_ += kEvery;
   for (const auto& lane : lanes_) {
-    if (lane->closed) continue;
+    if (lane->closed || !recorded(*lane)) continue;
     // Until the lane is closed these hold nothing.
     lane->recording.simulated = time();
     lane->recording.joints.clear();
@@ -98,11 +102,11 @@ void Simulation::guard(Lane& lane, Work work) try {
 }
 
 void Simulation::fail(Lane& lane, const SimulationError& error) {
-  if (role_ == Role::twin) {
+  if (!recorded(lane)) {
     lane.closed = true;
     return place_at_start(lane);
   }
-  if (lanes_.size() == 1) throw SimulationError(error);
+  if (recorded_ == 1) throw SimulationError(error);
   lane.outcome = error.outcome();
   end(lane);
 }
@@ -121,13 +125,15 @@ void Simulation::evaluate_motors(In speeds) {
   if (!plant_->evaluate_motors(command_, speeds, into)) actuator_->electrical(command_, speeds, into);
 }
 
-/// The torque that there is at these speeds in the direction of these torques, N m; infinity: the actuator states no limit.
+/// The torque that lanes which are recorded have at these speeds in the direction of these torques, N m; infinity: the
+/// actuator states no limit.
 void Simulation::evaluate_available(In speeds, In torques) {
   if (actuator_ == nullptr) return;
-  const In limit = actuator_->command_limit();
+  const Actuator& actuator = own_actuator_ ? *own_actuator_ : *actuator_;
+  const In limit = actuator.command_limit();
   for (std::size_t i = 0; i < largest_.size(); ++i)
     largest_[i] = std::isfinite(limit[i]) ? std::copysign(limit[i], torques[i]) : 0;
-  actuator_->effort(largest_, speeds, available_, slope_);
+  actuator.effort(largest_, speeds, available_, slope_);
   for (std::size_t i = 0; i < largest_.size(); ++i) {
     available_[i] =
         std::isfinite(limit[i]) ? std::copysign(1.0, torques[i]) * available_[i] : std::numeric_limits<double>::infinity();
@@ -162,10 +168,10 @@ void Simulation::sense() {
 void Simulation::command() {
   for (const auto& lane : lanes_) {
     if (!control_tick(*lane)) continue;
-    if (role_ == Role::run && lane->recording.control_ticks % lane->ticks_per_row == 0) record_tick(*lane);
+    if (recorded(*lane) && lane->recording.control_ticks % lane->ticks_per_row == 0) record_tick(*lane);
     guard(*lane, [&] { command(*lane); });
   }
-  if (role_ == Role::twin) return;
+  if (role_ == Role::companion) return;
   record_loads([](const Lane& lane) { return !lane.closed; });
   watch_stability();
 }
@@ -196,7 +202,7 @@ void Simulation::command(Lane& lane) {
 
 void Simulation::watch_stability() {
   for (const auto& lane : lanes_) {
-    if (!control_tick(*lane)) continue;
+    if (!recorded(*lane) || !control_tick(*lane)) continue;
     Recording& recording = lane->recording;
     const Stability now = plant_->stability(lane->index, command_, false);
     ++recording.control_ticks;
@@ -213,13 +219,22 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
   plant_->advance(command_, h);
   const StepEffort applied = plant_->applied();
   const std::size_t lanes = lanes_.size();
-  for (std::size_t l = 0; l < lanes; ++l) measured_[l] = measured(*lanes_[l]) ? 1 : 0;
-  for (const StepEffort::Part& part : applied.parts) {
-    evaluate_motors(part.speed);
+  for (std::size_t l = 0; l < recorded_; ++l) measured_[l] = measured(*lanes_[l]) ? 1 : 0;
+  for (const StepEffort::Part& of_all : applied.parts) {
+    if (lanes != recorded_ && !(of_all.instant || of_all.sum[0] != 0 || of_all.share[0] > 0)) continue;  // of others alone
+    evaluate_motors(of_all.speed);
+    StepEffort::Part part = of_all;
+    part.torque = first_.of(of_all.torque, FirstLanes::torque);
+    part.speed = first_.of(of_all.speed, FirstLanes::speed);
+    part.angle = first_.of(of_all.angle, FirstLanes::angle);
+    const Actuator::Electrical electrical{
+        first_.of(Out(voltage_), FirstLanes::voltage),       first_.of(Out(current_), FirstLanes::current),
+        first_.of(Out(saturation_), FirstLanes::saturation), first_.of(Out(power_in_), FirstLanes::power_in),
+        first_.of(Out(copper_), FirstLanes::copper),         first_.of(Out(gear_), FirstLanes::gear)};
     evaluate_available(part.speed, part.torque);
-    meter_.add(time(), part, setpoint_, {voltage_, current_, saturation_, power_in_, copper_, gear_}, available_, measured_);
+    meter_.add(time(), part, first_.of(setpoint_, FirstLanes::setpoint), electrical, available_, measured_);
     if (part.instant) continue;
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < recorded_; ++l) {
       const Out sums = lanes_[l]->ledger;
       for (std::size_t i = l; i < command_.size(); i += lanes) {
         sums[0] += part.sum[l] * power_in_[i];
@@ -228,7 +243,7 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
       }
     }
   }
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < recorded_; ++l) {
     const Out sums = lanes_[l]->ledger;
     sums[3] += applied.contact[l];
     sums[4] += applied.friction[l];

@@ -9,6 +9,7 @@
 
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
+#include "core/simulation/first_lanes.h"
 #include "core/simulation/meter.h"
 #include "core/simulation/plant.h"
 #include "core/simulation/probes.h"
@@ -29,13 +30,17 @@ struct RowsNeeded {
 /// robot's structure: links, joints, which link each contact element is on.
 bool can_share(const Scenario& a, const Scenario& b);
 
+/// Whether the torques of a run are estimated by whole rollouts beside it: it fills a pack of lanes by itself.
+bool estimated_by_rollouts(const Scenario& s);
+
 /// Whether Recording::loads is wanted: it takes the accelerations at every control tick.
 enum class Loads { left_out, recorded };
 
 /// Simulates one or more scenarios side by side, one per lane, each to its own end. All but what can_share asks may differ, and
-/// a lane's bits are those it has alone, whatever the others hold. Throws std::invalid_argument where they do not share it, or
-/// the engine has no such number of lanes. The constructor checks the step: InputError where h lambda > 1 for the standing
-/// robot, naming the largest step allowed and the joint or contact that sets it. step() allocates nothing, but at
+/// a lane's bits are those it has alone, whatever the others hold; but of several runs with an accuracy none is estimated (one
+/// alone takes lanes of its own for that, which the caller does not see). Throws std::invalid_argument where they do not share
+/// it, or the engine has no such number of lanes. The constructor checks the step: InputError where h lambda > 1 for the
+/// standing robot, naming the largest step allowed and the joint or contact that sets it. step() allocates nothing, but at
 /// control ticks where loads are recorded. A lane that leaves
 /// the numbers, or whose plugin throws, throws SimulationError if alone; beside others it ends there, with its outcome().
 class Simulation {
@@ -68,9 +73,11 @@ class Simulation {
 
  private:
   struct Lane;
-  enum class Role { run, twin };  ///< a twin records nothing, is not estimated itself, and throws nothing in a step
+  enum class Role { run, companion };  ///< companion: records nothing, is not estimated itself, throws nothing in a step
   Simulation(std::span<const Scenario> lanes, Loads loads, Role role);
 
+  static std::vector<Scenario> side_by_side(std::span<const Scenario> lanes, Role role);
+  [[nodiscard]] bool recorded(const Lane& lane) const;
   [[nodiscard]] bool control_tick(const Lane& lane) const;
   [[nodiscard]] bool trace_tick(const Lane& lane) const;
   [[nodiscard]] bool any(bool (Simulation::*tick)(const Lane&) const) const;
@@ -91,12 +98,14 @@ class Simulation {
   void set_start();
   void place_at_start(Lane& lane);
   void check_standing();
-  void make_twin();
-  [[nodiscard]] StepTwin twin_schedule() const;
-  [[nodiscard]] std::vector<Scenario> twins(const StepTwin& how) const;
-  void begin_twin();
-  void follow_twin();
-  void step_twin();
+  void make_estimate();
+  [[nodiscard]] TwinWindows twin_windows() const;
+  [[nodiscard]] std::vector<std::unique_ptr<Simulation>> rollouts_apart() const;
+  void begin_window();
+  void estimate();
+  void estimate_in_window(bool asked, double t);
+  void step_companion(int times);
+  In torques_now();
   void set_recording(Lane& lane);
   void ask_watch();
   void watch_stability();
@@ -120,7 +129,8 @@ class Simulation {
   [[nodiscard]] SimulationError stopped(const PluginError& error) const;
   [[nodiscard]] SimulationError diverged(const Lane& lane) const;
 
-  std::vector<Scenario> scenarios_;
+  std::vector<Scenario> scenarios_;  ///< of all lanes
+  std::size_t recorded_;             ///< the first of them are runs; the others go beside the first, for its estimate
   Loads loads_;
   Role role_;
   double h_;
@@ -129,15 +139,17 @@ class Simulation {
   std::unique_ptr<Plant> plant_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   StateLayout layout_;
-  std::vector<double> numbers_;                           ///< all that changes, that of the twin included; of a twin, empty
-  Out state_;                                             ///< the same; of a twin, a part of the first's
-  Out own_;                                               ///< without the twin's and those of step_error_
-  std::unique_ptr<Simulation> twin_;                      ///< nullptr: nothing to estimate
-  StepTwin how_;                                          ///< twin_ goes beside this
-  std::unique_ptr<StepError> step_error_;                 ///< with twin_
+  std::unique_ptr<Actuator> own_actuator_;                ///< of the lanes that are recorded; nullptr: of all
+  std::vector<double> numbers_;                           ///< all that changes, apart_'s included; of those, empty
+  Out state_;                                             ///< the same; of one apart, a part of the first's
+  Out own_;                                               ///< without those of apart_ and step_error_
+  std::vector<std::unique_ptr<Simulation>> apart_;        ///< rollouts beside this that are no lanes of it
+  TwinWindows how_;                                       ///< the twin goes beside this
+  std::unique_ptr<StepError> step_error_;                 ///< nullptr: nothing to estimate
   Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; joint * lanes + lane
   std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, available_,
-      largest_;                   ///< scratch, elementwise
+      largest_;                   ///< scratch, elementwise; the last two of lanes that are recorded
+  FirstLanes first_;              ///< of those
   std::vector<double> saved_;     ///< scratch: state_ while a row within a step is made
   std::vector<double> measured_;  ///< scratch: 1 for a lane whose figures a step counts for, else 0
   std::vector<Lane*> ended_;      ///< scratch: of those that end at that row

@@ -70,6 +70,7 @@ void field(const CheckedRun& run, Check& made);
 void periodic(const CheckedRun& run, Check& made);
 void evidence(const CheckedRun& run, Check& made);
 void torque_error(const CheckedRun& run, Check& made);
+void predictable(const CheckedRun& run, Check& made);
 void ledger(const CheckedRun& run, Check& made);
 void created(const CheckedRun& run, Check& made);
 void supply(const CheckedRun& run, Check& made);

@@ -9,6 +9,7 @@
 #include "report/analysis/motors.h"
 #include "report/verdict/checks.h"
 #include "report/verdict/number_texts.h"
+#include "report/verdict/spread.h"
 #include "report/verdict/trust.h"
 
 namespace gaitlab::report {
@@ -47,7 +48,29 @@ void torque_error(const CheckedRun& run, Check& made) {
   made.worst = run.joint(error.joint);
   made.text = fmt::format("the torque of joint {} is off by about {} of its peak, estimated from other steps", made.worst,
                           texts::rough_percent(made.value));
-  if (made.status == CheckStatus::warn) made.remedy = "take " + torque_remedy(run.scenario, error.share);
+  if (made.status == CheckStatus::pass) return;
+  made.remedy = "take " + torque_remedy(run.scenario, error.share);
+  const Parting& event = run.record.tally.event;
+  if (event.time < 0) return;
+  made.first = event.time;
+  made.first_part = run.joint(event.joint);
+}
+
+void predictable(const CheckedRun& run, Check& made) {
+  made.text = predictability_text(run.scenario, run.record);
+  const Predictability found = predictability(run.scenario, run.record);
+  if (found == Predictability::unknown) return;
+  const Parting& apart = parting(run.scenario, run.record);
+  made.value = apart.share;
+  made.limit = torque_error_limit(run.scenario);
+  made.source = "physics.accuracy";
+  warn_above(made.limit, made);
+  if (made.status == CheckStatus::pass) return;
+  made.part = Part::joint;
+  made.worst = made.first_part = run.joint(apart.joint);
+  made.from = made.to = made.first = apart.time;
+  if (run.record.spread.rows() > 0) made.text += "; " + spread_text(run.record.spread);
+  made.remedy = "judge several runs with other seeds or starts; no smaller step helps";
 }
 
 void ledger(const CheckedRun& run, Check& made) {

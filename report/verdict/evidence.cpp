@@ -97,15 +97,18 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
   const double coarse = s.physics.adapts() && r.simulated > 0 ? r.tally.coarse / r.simulated : 0;
   const bool driven = s.actuator.entry != nullptr && driven_joints(*s.robot) > 0;
   const std::vector<Series> asked = set_points(s, r);
+  const bool chaotic = predictability(s, r) == Predictability::chaotic;
   if (made.not_trusted = {makes_energy(s), "actuator.Kt"}; !made.not_trusted.empty()) return;
   const char* const steps = s.physics.adapts() ? "physics.accuracy" : "physics.step";
   if (driven && made.too_short.empty() && s.cpg.entry != nullptr && !asked.empty() && !moves(asked)) {
     made.not_trusted = {fmt::format("no set point changes: cpg {} moves no joint", s.cpg.entry->name), "cpg",
                         "look for its amplitudes, frames or equations"};
+  } else if (chaotic && r.spread.rows() == 0) {
+    made.not_trusted = {predictability_text(s, r) + "; `gaitlab run` tries how far its numbers spread", "physics"};
   } else if (error.estimated && !std::isfinite(error.share)) {
     made.not_trusted = {fmt::format("the error of the torque of joint {} is not a number", s.robot->joints[error.joint].name),
                         steps};
-  } else if (error.estimated && error.share > s.limits.torque_error) {
+  } else if (!chaotic && error.estimated && error.share > s.limits.torque_error) {  // else by the spread
     made.not_trusted = {fmt::format("the torque of joint {} is off by about {} of its peak, more than {}; take {}",
                                     s.robot->joints[error.joint].name, texts::rough_percent(error.share),
                                     texts::percent(s.limits.torque_error), torque_remedy(s, error.share)),
@@ -121,7 +124,15 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
                     texts::rough_percent(coarse), texts::rough_percent(s.physics.accuracy)),
         steps};
   }
-  if (driven && !error.estimated) unknown.emplace_back("the error of the torques");
+  if (!driven || error.estimated) return;
+  if (s.physics.estimated_by_others) {
+    unknown.emplace_back("the error of the torques, which is that of the study's other points");
+  } else if (s.physics.estimate == Estimate::off) {
+    if (made.not_trusted.empty())
+      made.not_trusted = {"the error of the torques is not estimated; take physics.estimate: full", "physics.estimate"};
+  } else {
+    unknown.emplace_back("the error of the torques");
+  }
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kMostShare = 10, kLeastShare = 1e-6;
 constexpr double kVisible = 1e-3;      // share of what is drawn
+constexpr double kMuchCreated = 0.05;  // of what is drawn: said beside a cost
 constexpr std::size_t kWidth = 64;     // columns beside the titles, of 80
 constexpr double kLeastTravel = 1e-3;  // m: the work of a robot that stays is divided by noise
 
@@ -120,8 +121,12 @@ Lines transport(const RunData& run) {
   if (!has_motors(run)) return {};
   if (!(run.scenario.robot->mass * run.scenario.physics.gravity.norm() > 0)) return {"cost of transport undefined: no weight"};
   if (s.distance < kLeastTravel) return {"cost of transport undefined: travelled less than 1 mm"};
-  return {
+  Lines lines{
       fmt::format("cost {:.3g} electrical, {:.3g} mechanical (J per N of weight and m)", s.cost_electrical, s.cost_mechanical)};
+  // What is drawn would be more by that, if gears lost what eq. 2 lets them give.
+  const double share = created(run.record) / run.record.ledger.electrical;
+  if (share > kMuchCreated) lines.push_back(fmt::format("the gears create {} of the energy drawn (eq. 2)", percent(share)));
+  return lines;
 }
 
 namespace {

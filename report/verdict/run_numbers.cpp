@@ -5,6 +5,7 @@
 
 #include "report/verdict/number_list.h"
 #include "report/verdict/number_texts.h"
+#include "report/verdict/spread.h"
 #include "report/verdict/trust.h"
 
 namespace gaitlab::report {
@@ -25,6 +26,23 @@ template <class Of>
 Json estimated(R run, Of of) {
   const TorqueError error = torque_error(run.record);
   return error.estimated ? Json(of(error)) : Json();
+}
+
+Json joint_of(R run, const Parting& parting) {
+  return parting.time < 0 ? Json() : Json(run.scenario.robot->joints[parting.joint].name);
+}
+
+const Parting& apart(R run) { return parting(run.scenario, run.record); }
+
+/// `of` null: rollouts under a disturbed gravity were not made.
+template <class Of>
+Json tried(R run, Of of) {
+  return predictability(run.scenario, run.record) == Predictability::unknown ? Json() : Json(of());
+}
+
+Json spread_of(R run, const char* column) {
+  const std::optional<Between> found = between(run.record.spread, column);
+  return found ? Json::array({found->low, found->high}) : Json();
 }
 
 Json torque_errors(R run) {
@@ -108,6 +126,49 @@ std::vector<SummaryNumber> run_numbers() {
        .unit = "N m",
        .definition = "RMS of the estimate, by joint.",
        .value = [](R r) { return estimated(r, [&](const TorqueError&) { return torque_errors(r); }); },
+       .list = true},
+      {.key = "torque_event.time",
+       .unit = "s",
+       .definition = "When a torque was first off by more than `accuracy` (1 % where the step is given) of its peak, by the "
+                     "estimate; `torque_event` is null where none was.",
+       .value = [](R r) { return r.record.tally.event.time < 0 ? Json() : Json(r.record.tally.event.time); }},
+      {.key = "torque_event.joint",
+       .definition = "Its joint.",
+       .words = true,
+       .value = [](R r) { return joint_of(r, r.record.tally.event); }},
+      {.key = "predictable.until",
+       .unit = "s",
+       .definition =
+           "When a torque changed first by more than `accuracy` under gravity times 1 + 1e-6 (in proportion to the change by "
+           "1 + 1e-9), or, where they change by more than that on the whole (RMS over the peak) by 1 + 1e-9, by that; the "
+           "duration where none did. `predictable` is null where it was not tried.",
+       .value = [](R r) { return tried(r, [&] { return apart(r).time < 0 ? r.record.simulated : apart(r).time; }); }},
+      {.key = "predictable.chaotic",
+       .definition = "Change of the torques under gravity times 1 + 1e-9: RMS over the joint's peak, of the worst joint.",
+       .value = [](R r) { return tried(r, [&] { return r.record.tally.chaotic.share; }); }},
+      {.key = "predictable.ill",
+       .definition = "The same times 1000: by 1 + 1e-6, in proportion.",
+       .value = [](R r) { return tried(r, [&] { return r.record.tally.ill.share; }); }},
+      {.key = "spread.torque_peak",
+       .unit = "N m",
+       .definition = "Of a motion that is not predictable: least and largest of four rollouts, under gravity times 1 and 1 +- "
+                     "1e-9 (1e-6 of an ill-conditioned one) and with half the accuracy: largest motor torque. `spread` is null "
+                     "elsewhere.",
+       .value = [](R r) { return spread_of(r, "torque_peak"); },
+       .list = true},
+      {.key = "spread.torque_rms",
+       .unit = "N m",
+       .definition = "The same of the largest RMS of a motor torque.",
+       .value = [](R r) { return spread_of(r, "torque_rms"); },
+       .list = true},
+      {.key = "spread.distance",
+       .unit = "m",
+       .definition = "The same of `distance`.",
+       .value = [](R r) { return spread_of(r, "distance"); },
+       .list = true},
+      {.key = "spread.margin",
+       .definition = "The same of the least margin of the checks that can fail.",
+       .value = [](R r) { return spread_of(r, kLeastMargin); },
        .list = true},
       {.key = "duration",
        .unit = "s",

@@ -80,14 +80,39 @@ std::string steps_text(const Scenario& scenario, const Recording& r) {
   if (error.estimated) {
     text += fmt::format("; torque error about {} (joint {})", texts::rough_percent(error.share),
                         scenario.robot->joints[error.joint].name);
-    if (r.tally.event_time >= 0 && error.share > torque_error_limit(scenario)) {
-      text += fmt::format(", beyond the accuracy first at {:.4g} s (joint {})", r.tally.event_time,
-                          scenario.robot->joints[r.tally.event_joint].name);
+    if (r.tally.event.time >= 0 && error.share > torque_error_limit(scenario)) {
+      text += fmt::format(", beyond the accuracy first at {:.4g} s (joint {})", r.tally.event.time,
+                          scenario.robot->joints[r.tally.event.joint].name);
     }
   } else if (scenario.actuator.entry != nullptr && !r.joints.empty()) {
     text += "; torque error not estimated";
   }
   return text;
+}
+
+Predictability predictability(const Scenario& s, const Recording& r) {
+  if (!s.physics.adapts() || !r.tally.estimated) return Predictability::unknown;
+  const double limit = torque_error_limit(s);
+  if (!(r.tally.chaotic.share <= limit)) return Predictability::chaotic;
+  return r.tally.ill.share <= limit ? Predictability::predictable : Predictability::ill;
+}
+
+const Parting& parting(const Scenario& s, const Recording& r) {
+  return predictability(s, r) == Predictability::chaotic ? r.tally.chaotic : r.tally.ill;
+}
+
+std::string predictability_text(const Scenario& s, const Recording& r) {
+  const Predictability found = predictability(s, r);
+  const Parting& apart = parting(s, r);
+  if (found == Predictability::unknown) return "rollouts under a disturbed gravity were not made";
+  const bool chaotic = found == Predictability::chaotic;
+  const std::string does =
+      chaotic ? fmt::format("gravity times 1 + 1e-9 changes the torques by {} of their peak", texts::rough_percent(apart.share))
+              : fmt::format("gravity times 1 + 1e-6 changes the torques by about {} of their peak (in proportion to 1 + 1e-9)",
+                            texts::rough_percent(apart.share));
+  if (found == Predictability::predictable) return does;
+  return fmt::format("from t = {:.4g} s on (joint {}) the motion is {}: {}", apart.time, s.robot->joints[apart.joint].name,
+                     chaotic ? "not predictable" : "ill-conditioned", does);
 }
 
 double least_energy(const Scenario& s) {

@@ -18,6 +18,15 @@ TorqueError torque_error(const Recording& record);
 /// The same of each joint; empty where it was not estimated.
 std::vector<double> torque_errors(const Recording& record);
 
+/// What a gravity that differs by a share of itself does to the torques of a run, beyond torque_error_limit: nothing by 1e-6;
+/// something by 1e-6 (in proportion to 1e-9), `ill`-conditioned; something by 1e-9, `chaotic`. unknown: it was not tried.
+enum class Predictability { unknown, predictable, ill, chaotic };
+Predictability predictability(const Scenario& scenario, const Recording& record);
+/// How far the run parted from the rollout under that gravity.
+const Parting& parting(const Scenario& scenario, const Recording& record);
+/// `from t = 0.66 s on the motion is not predictable: gravity times 1 + 1e-9 changes the torque of joint m0/active by 49 %`.
+std::string predictability_text(const Scenario& scenario, const Recording& record);
+
 /// Share that torque_error may have: 1 %, or the accuracy that the scenario asks for, if that is more.
 double torque_error_limit(const Scenario& scenario);
 

@@ -13,6 +13,8 @@
 #include "report/analysis/row_statistics.h"
 #include "report/analysis/states.h"
 #include "report/verdict/checks.h"
+#include "report/verdict/number_texts.h"
+#include "report/verdict/spread.h"
 
 namespace gaitlab::report {
 
@@ -43,6 +45,19 @@ const Check* worst_of(const std::vector<Check>& checks, const Counts& counts) {
 bool fails(const Check& check) { return check.status == CheckStatus::fail; }
 bool too_close(const Check& check) { return check.status == CheckStatus::too_close; }
 bool undone_by_no_time(const Check& check) { return fails(check) && check.span == CheckSpan::whole_run; }
+
+/// Of a motion that nobody can predict: where another rollout, as good as the run, comes to the other side of the failing
+/// limit, the status becomes `too close`.
+void take_spread(const Trace& spread, Check& made) {
+  const std::optional<Between> margins = between(spread, margin_column(made.id));
+  const bool judged = made.status != CheckStatus::not_judged && made.can_fail;
+  if (!judged || !margins || !(margins->low < 0 && margins->high >= 0)) return;
+  made.status = CheckStatus::too_close;
+  made.text +=
+      fmt::format("; the motion is not predictable: of {} rollouts that differ by next to nothing the margin is {} to {}",
+                  spread.rows(), texts::percent(margins->low), texts::percent(margins->high));
+  made.remedy = "judge several runs with other seeds or starts";
+}
 
 /// The reason why nothing that fails makes the gait infeasible, or why it is not feasible though nothing fails; empty: none.
 std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) {
@@ -159,6 +174,7 @@ Verdict verdict(const Scenario& scenario, const Recording& record, const Summary
     if (!states_of_ticks(record)) replace_end(check.definition, kAtTicks, ", at trace rows");
     if (!made.of_rows.empty()) replace_end(check.definition, kOverAllSteps, ", over the rows of the trace");
     kind.judge(run, check);
+    take_spread(record.spread, check);
     if (check.criteria.empty()) check.margin = Criterion{check.value, check.limit, check.unit, check.least}.margin();
     if (check.status == CheckStatus::not_judged || check.id == "outcome" || (kind.can_fail() && !check.can_fail))
       check.margin = kNone;

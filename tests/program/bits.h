@@ -25,7 +25,7 @@ inline std::string bits(const Recording& r) {
   }
   text += "\nerrors";
   for (const double x : r.tally.torque_error) text += fmt::format(" {:a}", x);
-  text += fmt::format("\nevent {:a} {}", r.tally.event_time, r.tally.event_joint);
+  text += fmt::format("\nevent {:a} {}", r.tally.event.time, r.tally.event.joint);
   return text;
 }
 

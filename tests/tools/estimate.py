@@ -7,7 +7,7 @@ Each draw is a robot of the library or a random tree with a gait, gains, limits,
 (random.Random(f"{seed}/{number}")), run at the default accuracy for 1 to 3 s. Its truth: torque at rows of 5 ms, RMS of the
 difference to integrator `extrapolated` at 20 us over the joint's peak, worst joint; there is none where that reference differs
 from the one at 50 us by more than a third of the truth or 2 %, or where a run ends early. Its difference: the same to a
-run at --ratio times the accuracy, what the twin of core/simulation/step_error.h is. error = c difference: log c is the median of
+run at --ratio times the accuracy, which is 0.5 or 3 of the rollouts of core/simulation/step_error.h. error = c difference: log c is the median of
 log(truth / difference) over draws with an even number, and the shares are of those with an odd one. Beside these stands what
 the program itself says. FOLDER keeps scenarios and traces, so that a draw is run once. Needs numpy (Debian: python3-numpy).
 """
@@ -150,7 +150,7 @@ class Runs:
             full = json.loads((out / "summary.json").read_text())
         except (OSError, ValueError):
             return (done.stderr.strip().splitlines() or ["nothing"])[0]
-        summary = {key: full.get(key) for key in ("outcome", "solves", "coarse_time", "torque_error", "wall_time")}
+        summary = {key: full.get(key) for key in ("outcome", "solves", "coarse_time", "torque_error", "predictable", "wall_time")}
         subprocess.run(["rm", "-rf", out])
         numpy.savez(kept, torque=torque, summary=json.dumps(summary))
         return torque, summary
@@ -191,7 +191,7 @@ def measure(program, reference, scenarios, folder, seed, number, ratio):
     row["truth"], row["apart"] = truth, apart(torque["run"], torque["twin"])[0]
     row["said"] = (found["run"][1]["torque_error"] or {}).get("worst") or ""
     row["solves"], row["twin_solves"] = found["run"][1]["solves"], found["twin"][1]["solves"]
-    row["doubt"] = doubt
+    row["doubt"], row["chaotic"] = doubt, (found["run"][1].get("predictable") or {}).get("chaotic", "")
     row["sure"] = int(doubt < 0.02 and doubt < max(truth / 3, 1e-4))
     return row
 
@@ -228,7 +228,8 @@ def main():
                                                given.ratio), range(given.first, given.first + given.draws)))
     if given.out:
         with open(given.out, "w", newline="") as file:
-            table = csv.DictWriter(file, ["number", "robot", "sure", "doubt", "truth", "apart", "said", "solves", "twin_solves", "why"])
+            table = csv.DictWriter(file, ["number", "robot", "sure", "doubt", "truth", "apart", "said", "chaotic", "solves",
+                                           "twin_solves", "why"])
             table.writeheader()
             table.writerows(rows)
     for row in rows:
@@ -243,6 +244,9 @@ def main():
     print(f"{len(sure)} of {len(rows)} draws have a sure reference; c = {c:.3g}, fitted on {len(fitted)}")
     print("fitted: " + shares([(c * row["apart"], row["truth"]) for row in fitted]))
     print("tested: " + shares([(c * row["apart"], row["truth"]) for row in tested]))
+    chaotic = [row for row in rows if row.get("chaotic") and row["chaotic"] > 0.01]
+    if chaotic:
+        print(f"{len(chaotic)} draws are told to be not predictable; of {sum(not row['sure'] for row in chaotic)} two references differ")
     said = [row for row in sure if row["said"]]
     if said:
         print(f"the program's own, all {len(said)}: " + shares([(row["said"], row["truth"]) for row in said]))

@@ -43,6 +43,7 @@ class Record:
             tables = h5["recording"]
             self.ticks, self.poses, self.joints, run = (Table(tables[name]) for name in ("ticks", "poses", "joints", "run"))
             self.loads = Table(tables["loads"]) if "loads" in tables else None
+            self.spread = Table(tables["spread"]) if "spread" in tables else None
             self.scenario = yaml.load(h5.attrs["scenario"].decode(), Loader)
             self.outcome = h5.attrs["outcome"].decode()
         self.run = {name: run[name][0] for name in run.columns}
@@ -138,6 +139,21 @@ class Record:
         peak, error = self.joints["torque_error_peak"], self.joints["torque_error"]
         largest = max(peak.max(), 0)
         return error / np.maximum(peak, 0.02 * largest) if largest > 0 else np.zeros(self.count)
+
+    def chaotic(self):
+        """Whether gravity times 1 + 1e-9 changes the torques by more than they may be off."""
+        accuracy = self.scenario["physics"].get("accuracy", 0) if self.adaptive else 0
+        share = self.run.get("parting.chaotic.share", 0)
+        return bool(self.adaptive and self.run["torque_error.estimated"] and not share <= max(0.01, accuracy))
+
+    def spread_numbers(self):
+        """Least and largest of the rollouts that differ by next to nothing."""
+        if self.spread is None:
+            return {}
+        out = {"rollouts": len(self.spread["distance"])}
+        for name, column in (("peak", "torque_peak"), ("rms", "torque_rms"), ("way", "distance"), ("margin", "margin")):
+            out |= {f"low_{name}": self.spread[column].min(), f"high_{name}": self.spread[column].max()}
+        return out
 
     # ---- energies
     def residual(self):

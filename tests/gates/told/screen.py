@@ -31,10 +31,12 @@ LINES = {
     "speed": r"{speed:.4f} m/s over a path of {path:.4f} m",
     "limit cycle": r"none found|from t = {cycle_from:.2f} s, period {period:.4f} s, repeats to {repeats:pct}",
     "transport": r"cost of transport undefined: (?:no weight|travelled less than 1 mm)|cost {electrical_cost:.3g} electrical, "
-                 r"{mechanical_cost:.3g} mechanical \(J per N of weight and m\)",
+                 r"{mechanical_cost:.3g} mechanical \(J per N of weight and m\)(?: the gears create {created_share:pct} of the energy "
+                 r"drawn \(eq\. 2\))?",
     "engine": r"\w+ \(\w+\)",
     "steps": r"step (?:auto \(at most \S+ s\)|\S+ s)(?:, accuracy {accuracy:rough})?(?:, {solves:.0f} solves)? ?(?:;? ?torque error about "
-             r"{torque_error:rough} \(joint {inaccurate}\)|;? ?torque error not estimated)?",
+             r"{torque_error:rough} \(joint {inaccurate}\)(?:, beyond the accuracy first at {event:.4g} s \(joint {event_joint}\))?"
+             r"|;? ?torque error not estimated)?",
     "energy": r"{drawn:.4g} J drawn; {missing:.2g} J unaccounted for(?: \({missing_share:.2g} %\))? = {copper:.4g} copper"
               r"(?: [+-] {gear:.3g} gear)?(?: [+-] {stored:.3g} stored)?(?: [+-] {contact:.3g} contact)?"
               r"(?: [+-] {friction:.3g} friction)?(?: [+-] {stops:.3g} stops)?(?: [+-] {hinges:.3g} hinges)?"
@@ -88,9 +90,11 @@ def numbers(judged):
         n["electrical_cost"] = r.joints["electrical"].sum() / whole if whole else 0.0
         n["mechanical_cost"] = r.joints["shaft_positive"].sum() / whole if whole else 0.0
         n["created"] = r.joints["created"].sum()
+        n["created_share"] = n["created"] / run["energy.electrical"] if run["energy.electrical"] else np.nan
     errors = r.torque_errors()
     if len(errors):
-        n |= {"torque_error": errors.max(), "inaccurate": {r.names[int(np.argmax(errors))]}}
+        n |= {"torque_error": errors.max(), "inaccurate": {r.names[int(np.argmax(errors))]}, "event": run["parting.twin.time"],
+              "event_joint": r.names[int(run["parting.twin.joint"])]}
     n |= {"accuracy": r.scenario["physics"].get("accuracy", np.nan), "solves": run["solves"], "drawn": run["energy.electrical"],
           "missing": abs(r.residual()), "missing_share": 100 * abs(r.residual()) / r.energy_scale(), "copper": run["energy.copper"]}
     n |= {name: abs(run["energy." + name]) for name in ("gear", "stored", "contact", "friction", "stops", "hinges")}

@@ -146,6 +146,11 @@ JUDGED = {
     "evidence": r"judged over (?:{periods:d} periods? of {period:.4g} s|{held:.3g} periods of {period:.4g} s; the motion does not "
                 r"settle|these {simulated:.3g} s; the set points do not repeat)(?:; not known: {unknown:words})?",
     "torque_error": r"the torque of joint {worst} is off by about {value:rough} of its peak, estimated from other steps",
+    "predictable": r"(?:from t = {from:.4g} s on \(joint {worst}\) the motion is (?:not predictable|ill-conditioned): )?gravity times "
+                   r"{times:words} changes the torques by (?:about )?{value:rough} of their peak"
+                   r"(?: \(in proportion to 1 \+ 1e-9\))?(?:; of {rollouts:d} rollouts that differ by next "
+                   r"to nothing the torque peaks at {low_peak:.3g} to {high_peak:.3g} N m \(RMS {low_rms:.3g} to {high_rms:.3g}\), the "
+                   r"travel is {low_way:length} to {high_way:length}, the least margin (?:{low_margin:pct} to {high_margin:pct}|no number))?",
     "ledger": r"{value:pct} of the energy is unaccounted for(?:: {missing:.3g} J, of {drawn:.3g} J drawn)?",
     "created": r"gears that are driven backwards give {value:pct} of the energy too much \(eq\. 2\)"
                r"(?:; take actuator\.efficiency_model: directional)?",
@@ -167,6 +172,9 @@ MISSING = (r"{simulated:.3g} s are {held:.2g} of a gait's 3 periods of {period:.
            r"|the motor of joint {creator} makes energy: efficiency x Kt {x:.4g} N m/A exceeds Ks {y:.4g} V s/rad; take Kt = Ks"
            r"|no set point changes: cpg {cpg} moves no joint(?:; look for its amplitudes, frames or equations)?"
            r"|the torque of joint {inaccurate} is off by about {off:rough} of its peak, more than {most:pct}; take .*"
+           r"|from t = {parted:.4g} s on \(joint {unpredictable}\) the motion is not predictable: gravity times {times:words} changes the "
+           r"torques by {change:rough} of their peak; .*"
+           r"|the error of the torques is not estimated; take physics\.estimate: full"
            r"|{residual:pct} of the energy is unaccounted for, more than {kept:pct}; take .*"
            r"|in {coarse:rough} of the time the shortest steps do not reach the accuracy {accuracy:rough}; look for .*")
 # A check that is not judged says why; a number in such a sentence is recomputed, too.
@@ -185,9 +193,12 @@ NOT_JUDGED = (
     r"|the robot goes {way:length}: less than {least_way:length} is not walking"
     r"|the robot goes {value:.3g} m (?:per period|in the judged time), less than {limit:.3g} m"
     r"|the set points do not repeat|the run is too short|the error of the torques was not estimated in this run"
+    r"|rollouts under a disturbed gravity were not made"
     r"|the steps do not follow an accuracy|no rate was recorded"
     r"|loads were not recorded: .*|what all steps did was not recorded: .*|the robot has no size, or the run has no control ticks")
-EXPRESSIONS = {check: Expression(text) for check, text in JUDGED.items()}
+SPREAD = (r"(?:; the motion is not predictable: of {rollouts:d} rollouts that differ by next to nothing the margin is "
+          r"{margin_low:pct} to {margin_high:pct})?")
+EXPRESSIONS = {check: Expression(text if check == "outcome" else f"(?:{text}){SPREAD}") for check, text in JUDGED.items()}
 WHY_NOT = Expression(NOT_JUDGED)
 LACKS = Expression(MISSING)
 RESTS_ON = Expression(JUDGED["evidence"].removeprefix("judged over "))

@@ -89,7 +89,8 @@ class Evidence:
     def nobody_knows(self, record):
         """What is no evidence for or against the word, in the order in which it is named."""
         ground = record.floating and not self.unborne and np.isnan(self.share)
-        torques = record.driven.any() and not record.torque_errors().max(initial=0) > 0 and self.untrusted != "makes energy"
+        off = record.scenario["physics"].get("estimate") == "off"
+        torques = not off and record.driven.any() and not record.torque_errors().max(initial=0) > 0 and self.untrusted != "makes energy"
         return ["the ground's share of the weight"] * bool(ground) + ["the error of the torques"] * bool(torques)
 
     def distrust(self, record):
@@ -101,12 +102,17 @@ class Evidence:
         if record.driven.any() and self.long_enough and cpg and not (asked != asked[0]).any():
             return "moves nothing"
         error = record.torque_errors()
-        if len(error) and error.max() > record.limits["torque_error"]:
+        if record.chaotic():
+            if record.spread is None:
+                return "not predictable"
+        elif len(error) and error.max() > record.limits["torque_error"]:
             return "torque error"
         if record.driven.any() and not abs(record.residual()) / record.energy_scale() <= RESIDUAL:
             return "energy"
         if record.adaptive and record.run["coarse_time"] / record.end > COARSE:
             return "coarse"
+        if record.driven.any() and not record.torque_errors().max(initial=0) > 0 and record.scenario["physics"].get("estimate") == "off":
+            return "no estimate"
         return ""
 
 
@@ -128,8 +134,26 @@ def torque_error(record):
     j = int(np.argmax(error))
     accuracy = record.scenario["physics"].get("accuracy", 0) if record.adaptive else 0
     limit = record.limits["torque_error"]
-    return Told(graded(error[j], min(max(0.01, accuracy), limit), np.inf), error[j], limit, margin=margin(error[j], limit),
+    told = Told(graded(error[j], min(max(0.01, accuracy), limit), np.inf), error[j], limit, margin=margin(error[j], limit),
                 worst=record.names[j], ties=[record.names[j]])
+    if told.status == "warn" and record.run["parting.twin.time"] >= 0:
+        told.first, told.first_part = record.run["parting.twin.time"], record.names[int(record.run["parting.twin.joint"])]
+    return told
+
+
+def predictable(record):
+    """What rollouts under a disturbed gravity changed: of 1e-9, where that is more than the limit, else of 1e-6."""
+    if not record.adaptive or not record.run["torque_error.estimated"]:
+        return Told()
+    limit = max(0.01, record.scenario["physics"].get("accuracy", 0))
+    name = "chaotic" if record.chaotic() else "ill"
+    share, joint = record.run[f"parting.{name}.share"], record.names[int(record.run[f"parting.{name}.joint"])]
+    told = Told(graded(share, limit, np.inf), share, limit, margin=margin(share, limit),
+                also={"times": "1 + 1e-9" if name == "chaotic" else "1 + 1e-6"} | record.spread_numbers())
+    if told.status == "warn":
+        told.worst, told.ties, told.first_part = joint, [joint], joint
+        told.start = told.end = told.first = record.run[f"parting.{name}.time"]
+    return told
 
 
 def ledger(record):

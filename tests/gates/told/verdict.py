@@ -10,9 +10,9 @@ from told.shapes import Collisions, depths
 from told.window import Window, limit_cycle
 
 GROUPS = {"motor": ("voltage", "current", "envelope", "speed", "heat", "gear_peak", "gear_continuous"),
-          "trust": ("periodic", "evidence", "torque_error", "ledger", "created", "supply", "step", "coarse", "law")}
+          "trust": ("periodic", "evidence", "torque_error", "predictable", "ledger", "created", "supply", "step", "coarse", "law")}
 WHOLE = {"outcome", "fall", "upright", "gear_peak", "stops", "setpoints", "start", "collision", "dock_tension", "dock_shear",
-         "dock_bending", "dock_torsion", "in_ground", "field", "torque_error", "ledger", "created", "supply", "step", "coarse", "law"}
+         "dock_bending", "dock_torsion", "in_ground", "field", "torque_error", "predictable", "ledger", "created", "supply", "step", "coarse", "law"}
 CAN_FAIL = {"outcome", "fall", "progress", "upright", "voltage", "current", "speed", "heat", "gear_peak", "gear_continuous",
             "tracking", "stops", "collision", "dock_tension", "dock_shear", "dock_bending", "dock_torsion", "in_ground"}
 
@@ -103,7 +103,8 @@ class Judged:
             "dock_bending": bodies.dock(r, "bending"), "dock_torsion": bodies.dock(r, "torsion"), "battery": Told(),
             "in_ground": in_ground(r), "slip": bodies.slip(r, w), "airborne": bodies.airborne(r, w),
             "stability": bodies.stability(r, w), "field": bodies.field(r, w), "periodic": trust.periodic(r, w, e),
-            "evidence": Told(), "torque_error": trust.torque_error(r), "ledger": trust.ledger(r), "created": trust.created(r),
+            "evidence": Told(), "torque_error": trust.torque_error(r),
+            "predictable": trust.predictable(r), "ledger": trust.ledger(r), "created": trust.created(r),
             "supply": trust.supply(r), "step": trust.step(r), "coarse": trust.coarse(r), "law": trust.law(r)}
         complete = e.long_enough and e.borne and not e.untrusted
         self.checks["evidence"] = Told("pass" if complete else "not judged", w.end - w.start, also=self.missing())
@@ -115,6 +116,16 @@ class Judged:
             told.doubt = w.cycle.doubt()
             if told.status == "not judged" or check == "outcome":
                 told.margin = np.nan
+            self.spread(check, told)
+
+    def spread(self, check, told):
+        """Of a motion that nobody can predict: too close, where rollouts as good as the run come to both sides of the limit."""
+        margins = None if self.record.spread is None else self.record.spread[f"margin.{check}"]
+        if margins is None or told.status == "not judged" or not told.can_fail or np.isnan(margins).any():
+            return
+        if margins.min() < 0 <= margins.max():
+            told.status = "too close"
+            told.also = told.also | {"rollouts": len(margins), "margin_low": margins.min(), "margin_high": margins.max()}
 
     def missing(self):
         """The numbers of the sentence on what is missing."""
@@ -127,6 +138,9 @@ class Judged:
             "inaccurate": r.names[j] if r.count else None,
             "most": r.limits["torque_error"], "residual": abs(r.residual()) / r.energy_scale(), "kept": 0.05,
             "coarse": r.run["coarse_time"] / r.end if r.end else np.nan, "accuracy": r.scenario["physics"].get("accuracy", np.nan),
+            "parted": r.run.get("parting.chaotic.time", np.nan), "times": "1 + 1e-9",
+            "change": r.run.get("parting.chaotic.share", np.nan),
+            "unpredictable": r.names[int(r.run.get("parting.chaotic.joint", 0))] if r.count else None,
             "creator": r.names[creators[0]] if len(creators) else None, "cpg": (r.scenario.get("cpg") or {}).get("type"),
             "x": r.torque_constant[creators[0]] if len(creators) else np.nan,
             "y": r.speed_constant[creators[0]] if len(creators) else np.nan}

@@ -16,7 +16,13 @@ using Json = nlohmann::ordered_json;
 
 struct Walk {
   Scenario scenario = shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=0.5"});
-  Recording record = run(scenario);
+  Recording record = [this] {
+    Recording made = run(scenario);
+    for (const char* column : {"torque_peak", "torque_rms", "distance", "margin"})
+      made.spread.columns.push_back({column, "", ""});
+    made.spread.values = {1, 2, 3, 4};  // of a run that is predictable there are none, and the group is null
+    return made;
+  }();
   Summary summary = summarise(scenario, record, 1);
   Json json = Json::parse(to_json(summary, scenario, record));
 };

@@ -102,7 +102,8 @@ TEST(RunWarnings, AreSilentOnShippedScenarios) {
 /// A robot without joints runs with the default columns, and has no energy balance of motors that could be off.
 TEST(RunWarnings, AreSilentOnAStone) {
   const Scenario stone = scenario(
-      "gaitlab: 1\nrobot: {modules: {name: rigid, bodies: {block: {mass: 1, com: [0, 0, 0], inertia: [1, 1, 1, 0, 0, 0]}}}}\n"
+      "gaitlab: 1\nrobot: {base: fixed, modules: {name: rigid, bodies: {block: {mass: 1, com: [0, 0, 0], inertia: [1, 1, 1, 0, "
+      "0, 0]}}}}\n"
       "contact: {on: none}\nduration: 0.1\n");
   EXPECT_EQ(warnings_of(stone), "");
   EXPECT_EQ(messages(stone, run(stone)), std::vector<std::string>{});

@@ -1,0 +1,180 @@
+// The rollouts beside a run, from which the error of its torques is estimated: how they are made, stepped and compared.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/plugin/plugin_instance.h"
+#include "core/simulation/lane.h"
+#include "core/simulation/simulation.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kEventShare = 0.01;  // of a torque's peak, of integrators without an accuracy
+constexpr double kChaotic = 1e-9;     // of gravity
+/// What multiplies a difference of torque, by Companion.
+constexpr std::array<double, kDifferences> kFactors{StepError::kOfFiner, StepError::kOfCoarser, 1, 1000};
+
+/// Steps of h in as many control periods as last for `seconds`.
+std::int64_t whole_periods(double seconds, double h, std::int64_t control_every) {
+  const double periods = seconds / (h * static_cast<double>(control_every));
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(periods - 1e-9))) * control_every;
+}
+
+/// Of a run with an accuracy.
+std::vector<Scenario> companions(const Scenario& s) {
+  std::vector<Scenario> all(kCompanions, s);
+  all[static_cast<std::size_t>(Companion::twin)].physics.accuracy *= StepError::kFiner;
+  all[static_cast<std::size_t>(Companion::coarse)].physics.accuracy *= StepError::kCoarser;
+  all[static_cast<std::size_t>(Companion::chaotic)].physics.gravity *= 1 + kChaotic;
+  return all;
+}
+
+}  // namespace
+
+bool estimated_by_rollouts(const Scenario& s) {
+  return s.physics.estimate == Estimate::full && s.physics.adapts() && s.actuator.entry != nullptr && !s.robot->joints.empty();
+}
+
+std::vector<Scenario> Simulation::side_by_side(std::span<const Scenario> lanes, Role role) {
+  std::vector<Scenario> all(lanes.begin(), lanes.end());
+  if (role != Role::run || lanes.size() != 1 || !estimated_by_rollouts(lanes[0])) return all;
+  const auto& widths = lanes[0].physics.engine->lanes;
+  if (std::ranges::find(widths, 1 + kCompanions) == widths.end()) return all;
+  std::ranges::move(companions(lanes[0]), std::back_inserter(all));
+  return all;
+}
+
+/// What fits a whole run is compared every kApart or less; windows are of a fixed step.
+TwinWindows Simulation::twin_windows() const {
+  const Physics& physics = scenarios_[0].physics;
+  const std::int64_t control_every = std::llround(scenarios_[0].control_period / h_);
+  TwinWindows how;
+  for (std::int64_t n = 1; n <= control_every; ++n) {
+    if (control_every % n == 0 && static_cast<double>(n) * h_ <= StepError::kApart * (1 + 1e-9)) how.compare = n;
+  }
+  if (physics.adapts()) return how;
+  const double ratio = 1 << physics.integrator->order;
+  // An explicit step of twice the length may be too long for the robot.
+  const bool longer = control_every % 2 == 0 && !(standing_.rate > 0);
+  how.steps = longer ? 2 : -2;
+  how.factor = (longer ? 1 : ratio) * StepError::kSafety / (ratio - 1);
+  how.window = whole_periods(longer ? 0.18 : 0.09, h_, control_every);
+  how.cycle = (longer ? 5 : 20) * how.window;
+  how.settle = whole_periods(StepError::kGrowth, h_, control_every);
+  return how;
+}
+
+/// The twin of windows has as many lanes as the run. Rollouts beside a run that has an accuracy are lanes of its own pack, or,
+/// on a processor without such lanes, simulations of one lane each: the bits are the same.
+std::vector<std::unique_ptr<Simulation>> Simulation::rollouts_apart() const {
+  std::vector<std::unique_ptr<Simulation>> all;
+  const auto add = [&](std::span<const Scenario> lanes) {
+    all.emplace_back(new Simulation(lanes, Loads::left_out, Role::companion));
+  };
+  if (!scenarios_[0].physics.adapts()) {
+    std::vector<Scenario> twins = scenarios_;
+    for (Scenario& one : twins) {
+      one.physics.step = how_.steps > 0 ? one.physics.step * how_.steps : one.physics.step / -how_.steps;
+    }
+    add(twins);
+  } else if (lanes_.size() == recorded_) {
+    for (const Scenario& one : companions(scenarios_[0])) add({&one, 1});
+  }
+  return all;
+}
+
+/// Where there are motors, and a state that can be copied. Several runs with an accuracy side by side are not estimated: each
+/// needs lanes of its own.
+void Simulation::make_estimate() {
+  const Physics& physics = scenarios_[0].physics;
+  const bool wanted = std::ranges::any_of(scenarios_, [](const Scenario& s) { return s.physics.estimate == Estimate::full; });
+  const bool possible = physics.adapts() ? recorded_ == 1 : physics.integrator->order > 0 && plant_->state_is_complete();
+  if (!wanted || !possible || actuator_ == nullptr || layout_.joints == 0) return;
+  how_ = twin_windows();
+  apart_ = rollouts_apart();
+  std::vector<double> accuracy;
+  for (std::size_t l = 0; l < recorded_; ++l)
+    accuracy.push_back(physics.adapts() ? scenarios_[l].physics.accuracy : kEventShare);
+  const StateLayout layout{layout_.joints, recorded_};
+  step_error_ = std::make_unique<StepError>(layout, accuracy);
+
+  // One array for all that changes: this, the sums, the rollouts apart.
+  const std::size_t own = own_.size();
+  const std::size_t sums = StepError::size(layout);
+  std::size_t size = own + sums;
+  for (const auto& one : apart_) size += one->own_.size();
+  std::vector<double> numbers(size);
+  cut_state(numbers);
+  step_error_->bind(Out(numbers).subspan(own, sums));
+  std::size_t at = own + sums;
+  for (const auto& one : apart_) {
+    one->cut_state(Out(numbers).subspan(at));
+    one->numbers_ = {};
+    at += one->own_.size();
+  }
+  numbers_ = std::move(numbers);
+}
+
+/// Before a step: at the start of a window the twin goes on from here.
+void Simulation::begin_window() {
+  if (!how_.begins(step_number())) return;
+  Simulation& twin = *apart_.front();
+  std::ranges::copy(own_, twin.own_.begin());
+  twin.state_[0] = static_cast<double>(std::llround(time() / twin.h_));
+  for (std::size_t l = 0; l < lanes_.size(); ++l) twin.lanes_[l]->closed = lanes_[l]->closed;
+}
+
+/// Motor torques of all lanes now.
+In Simulation::torques_now() {
+  actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
+  return torque_;
+}
+
+/// After a step, before it is counted.
+void Simulation::estimate() {
+  const std::int64_t step = step_number();
+  const std::int64_t at = how_.at(step);
+  const bool asked = (at + 1) % how_.compare == 0;
+  if (asked) {
+    torques_now();
+    step_error_->see(first_.of(In(torque_), FirstLanes::torque), first_.of(In(slope_), FirstLanes::speed));
+  }
+  const double t = static_cast<double>(step + 1) * h_;
+  if (how_.steps != 0) return estimate_in_window(asked, t);
+  for (const auto& one : apart_) one->step_companion(1);
+  In torque;
+  for (std::size_t k = 0; asked && k < kDifferences; ++k) {
+    if (k < kCompanions) torque = apart_.empty() ? first_.from(torque_, recorded_ + k) : apart_[k]->torques_now();
+    step_error_->compare(static_cast<Companion>(k), torque, kFactors[k], 1, t);
+  }
+}
+
+void Simulation::estimate_in_window(bool asked, double t) {
+  const std::int64_t step = step_number();
+  const bool together = how_.steps < 0 || how_.at(step) % how_.steps == how_.steps - 1;
+  if (!how_.runs(step) || !together) return;
+  apart_.front()->step_companion(std::max(1, -how_.steps));
+  if (!asked || !how_.compares(step)) return;
+  const double weight = step < how_.cycle ? StepError::kStart : 1;
+  step_error_->compare(Companion::twin, apart_.front()->torques_now(), how_.factor, weight, t);
+}
+
+/// step() of a rollout beside a run: nothing is recorded, and a lane that leaves the numbers, or whose plugin throws, waits at
+/// its start.
+void Simulation::step_companion(int times) try {
+  for (int i = 0; i < times; ++i) {
+    if (any(&Simulation::control_tick)) {
+      sense();
+      command();
+    }
+    plant_->advance(command_, h_);
+    state_[0] += 1;
+    check();
+  }
+} catch (const PluginError& error) {  // the run goes on
+  for (const auto& lane : lanes_) fail(*lane, stopped(error));
+}
+
+}  // namespace gaitlab

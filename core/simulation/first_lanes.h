@@ -1,0 +1,39 @@
+// Entries of the first lanes of a pack, of arrays joint * lanes + lane.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "core/plugin/fields.h"
+#include "core/simulation/state_layout.h"
+
+namespace gaitlab {
+
+/// Copies of them, each in a place that the caller names; the arrays themselves where all lanes are wanted. The methods
+/// allocate nothing.
+class FirstLanes {
+ public:
+  enum Place { torque, speed, angle, setpoint, voltage, current, saturation, power_in, copper, gear, places };
+
+  FirstLanes(const StateLayout& layout, std::size_t lanes) : layout_(layout), lanes_(lanes) {
+    for (auto& copy : copies_) copy.assign(layout.joints * lanes, 0.0);
+  }
+  [[nodiscard]] bool all() const { return lanes_ == layout_.lanes; }
+  In of(In values, Place place) { return all() ? values : In(copy(values, 0, copies_[place])); }
+  Out of(Out values, Place place) { return all() ? values : copy(values, 0, copies_[place]); }
+  /// As many lanes from `lane` on.
+  In from(In values, std::size_t lane) { return copy(values, lane, copies_[torque]); }
+
+ private:
+  Out copy(In values, std::size_t lane, std::vector<double>& to) const {
+    for (std::size_t j = 0; j < layout_.joints; ++j) {
+      for (std::size_t l = 0; l < lanes_; ++l) to[j * lanes_ + l] = values[j * layout_.lanes + lane + l];
+    }
+    return to;
+  }
+
+  StateLayout layout_;
+  std::size_t lanes_;
+  std::array<std::vector<double>, places> copies_;
+};
+
+}  // namespace gaitlab

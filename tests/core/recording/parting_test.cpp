@@ -1,0 +1,73 @@
+// What rollouts beside a run did, in its folder: read back as it was written, and refused where it cannot be.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/errors.h"
+#include "core/recording/recording_file.h"
+#include "tests/folder.h"
+
+namespace gaitlab {
+namespace {
+
+struct StoredPartings : testing::Test {
+  StoredPartings() {
+    made.trace = {{{"t", "s", ""}}, {0, 1}};
+    made.joints.resize(2);
+    made.tally.torque_error.assign(2, 0.0);
+    made.tally.torque_peak.assign(2, 1.0);
+    made.tally.event = {0.25, 1, 0.03};
+    made.tally.chaotic = {-1, 0, 1e-9};
+    made.tally.ill = {0.5, 0, 0.125};
+  }
+  [[nodiscard]] Recording read() const {
+    write_recording(made, {"", 0, "", "done"}, "h5", own.path());
+    return read_recording(own.path()).recording;
+  }
+  Recording made;
+  test::Folder own;
+};
+
+TEST_F(StoredPartings, AreReadBack) {
+  made.spread = {{{"distance", "m", "travel"}, {"margin.heat", "", "margin"}}, {0.1, 0.5, 0.2, -0.5}};
+  const Recording there = read();
+  for (const auto member : {&StepTally::event, &StepTally::chaotic, &StepTally::ill}) {
+    EXPECT_EQ((there.tally.*member).time, (made.tally.*member).time);
+    EXPECT_EQ((there.tally.*member).joint, (made.tally.*member).joint);
+    EXPECT_EQ((there.tally.*member).share, (made.tally.*member).share);
+  }
+  EXPECT_EQ(there.spread.values, made.spread.values);
+  ASSERT_EQ(there.spread.columns.size(), 2U);
+  EXPECT_EQ(there.spread.columns[1].name, "margin.heat");
+}
+
+TEST_F(StoredPartings, NameAJointThatThereIs) {
+  made.tally.ill.joint = 2;
+  try {
+    (void)read();
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is corrupt: parting.ill.joint is 2"), std::string::npos) << error.what();
+  }
+}
+
+/// Folders of the time before have neither.
+TEST_F(StoredPartings, AreNoneInOlderFolders) {
+  write_recording(made, {"", 0, "", "done"}, "h5", own.path());
+  const StoredTrace stored = read_h5(own.path() / "trace.h5");
+  std::vector<Beside> beside = stored.beside;
+  Trace& run = std::ranges::find(beside, "run", &Beside::name)->table;
+  for (std::size_t k = run.columns.size(); k-- > 0;) {
+    if (!run.columns[k].name.starts_with("parting.")) continue;
+    run.columns.erase(run.columns.begin() + static_cast<std::ptrdiff_t>(k));
+    run.values.erase(run.values.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  write_h5(stored.trace, stored.origin, own.path() / "trace.h5", beside);
+  const Recording there = read_recording(own.path()).recording;
+  EXPECT_LT(there.tally.event.time, 0);
+  EXPECT_EQ(there.tally.ill.share, 0);
+  EXPECT_EQ(there.spread.rows(), 0U);
+}
+
+}  // namespace
+}  // namespace gaitlab
