@@ -124,9 +124,10 @@ std::vector<std::string> changes(const StoredScenario& stored, const Past& past,
                                 fmt::join(changed_settings(past.scenario, stored.text), "\n    ")));
   }
   const std::string now = resolved(scenario);
-  if (plugins.empty() && now != stored.text)  // their hashes stand in it
+  if (plugins.empty() && now != stored.text) {  // their hashes stand in it
     found.push_back(fmt::format("scenario: resolved again it is another:\n    {}",
                                 fmt::join(changed_settings(stored.text, now), "\n    ")));
+  }
   if (!past.summary_hash.empty() && !is_hash(past.summary_hash, past.trace)) {
     found.push_back(fmt::format("trace: {} is not the one that summary.json was made from{}", past.file.filename().string(),
                                 is_hash(past.summary_hash, again.trace) ? "; the run again gives that one" : ""));

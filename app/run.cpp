@@ -88,9 +88,10 @@ void note_time(const Scenario& scenario, Simulation& simulation) {
 void take_spread(const Scenario& scenario, Recording& recording, const report::Summary& summary, bool quiet) {
   const report::Predictability found = report::predictability(scenario, recording);
   if (found != report::Predictability::chaotic && found != report::Predictability::ill) return;
-  if (!quiet)
+  if (!quiet) {
     say(scenario.file, "note",
         report::predictability_text(scenario, recording) + "; three more rollouts show how far its numbers spread");
+  }
   const report::Verdict own = report::verdict(scenario, recording, summary, report::overlaps(scenario, recording));
   recording.spread = report::spread(scenario, recording, summary, own, stopped());
 }

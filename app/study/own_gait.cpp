@@ -77,9 +77,10 @@ std::string text(const studies::Plan& plan, const Scenario& own, const std::vect
       given.error.estimated ? ", its torque error is about " + report::texts::rough_percent(given.error.share) : "";
   const bool known = given.objective && all.size() > 1 && all[1].objective;
   const bool much = given.error.estimated && !(given.error.share <= report::torque_error_limit(own));
-  if (!known)
+  if (!known) {
     return much ? "the torque error of the scenario's own gait is about " + report::texts::rough_percent(given.error.share)
                 : "";
+  }
   const double ratio = std::pow(2, std::max(1, own.physics.integrator->order));
   const double half = *all[1].objective;
   const Cost cost{half + (half - *given.objective) / (ratio - 1)};

@@ -49,7 +49,8 @@ void torque_error(const CheckedRun& run, Check& made) {
   made.text = fmt::format("the torque of joint {} is off by about {} of its peak, estimated from other steps", made.worst,
                           texts::rough_percent(made.value));
   if (made.status == CheckStatus::pass) return;
-  made.remedy = "take " + torque_remedy(run.scenario, error.share);
+  const bool chaotic = predictability(run.scenario, run.record) == Predictability::chaotic;  // then no step helps
+  if (!chaotic) made.remedy = "take " + torque_remedy(run.scenario, error.share);
   const Parting& event = run.record.tally.event;
   if (event.time < 0) return;
   made.first = event.time;

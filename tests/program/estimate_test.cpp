@@ -79,6 +79,8 @@ TEST(Estimate, FindsWhatNobodyCanPredict) {
   const auto torque = report::between(r.spread, "torque_rms");
   ASSERT_TRUE(torque);
   EXPECT_LT(torque->low, torque->high);
+  const auto error = std::ranges::find(lonely.checks, "torque_error", &report::Check::id);
+  EXPECT_EQ(error->remedy, "") << "no step helps";
   EXPECT_EQ(judged().reason.find("not predictable: gravity"), std::string::npos) << judged().reason;
 }
 
