@@ -133,7 +133,7 @@ std::vector<SummaryNumber> motion_numbers() {
        .words = true,
        .value = [](R r) { return r.summary.stability_source; }},
       {.key = "trace_hash",
-       .definition = "FNV-1a, 64 bit, over the names and the bytes of all columns.",
+       .definition = "Hash of the names and the bytes of all columns, behind the number of its format.",
        .words = true,
        .value = [](R r) { return hash(r.record.trace); },
        .compare = {250}},
