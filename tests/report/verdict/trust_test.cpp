@@ -57,6 +57,24 @@ TEST_F(Doubts, NameTheJointWhoseTorqueIsOff) {
   EXPECT_EQ(only(), "0 warnings");
 }
 
+TEST_F(Doubts, NameAMotionThatNobodyCanPredict) {
+  r.tally.ill.share = 0.01;  // what the torques may be off by
+  EXPECT_EQ(predictability(s, r), Predictability::predictable);
+  r.tally.ill = {0.5, 1, 0.0101};
+  EXPECT_EQ(predictability(s, r), Predictability::ill);
+  EXPECT_EQ(
+      only(),
+      "from t = 0.5 s on (joint m0/passive) the motion is ill-conditioned: gravity times 1 + 1e-6 changes the torques by "
+      "about 1 % of their peak (in proportion to 1 + 1e-9); judge several runs with other seeds or starts; no smaller step "
+      "helps");
+  r.tally.chaotic = {0.75, 0, 0.01};
+  EXPECT_EQ(predictability(s, r), Predictability::ill);
+  r.tally.chaotic.share = 0.0101;
+  EXPECT_EQ(predictability(s, r), Predictability::chaotic);
+  s = hexapod({"physics.engine=articulated", "physics.step=1e-3"});
+  EXPECT_EQ(predictability(s, r), Predictability::unknown) << "a given step has a twin alone";
+}
+
 TEST_F(Doubts, OfferAStepThatFits) {
   r.tally.torque_error[0] = 0.04;
   s = hexapod({"physics.engine=articulated", "physics.step=1e-3"});
