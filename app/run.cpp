@@ -84,8 +84,9 @@ void note_time(const Scenario& scenario, Simulation& simulation) {
   if (time.seconds > kLongRun) say(scenario.file, "note", to_string(time));
 }
 
-/// Of a motion that nobody can predict: other rollouts, as good as this.
-void take_spread(const Scenario& scenario, Recording& recording, const report::Summary& summary, bool quiet) {
+/// Of a motion that nobody can predict: other rollouts, as good as this. Without them, for want of memory or because a plugin
+/// throws, the run is written all the same.
+void take_spread(const Scenario& scenario, Recording& recording, const report::Summary& summary, bool quiet) try {
   const report::Predictability found = report::predictability(scenario, recording);
   if (found != report::Predictability::chaotic && found != report::Predictability::ill) return;
   if (!quiet) {
@@ -94,6 +95,8 @@ void take_spread(const Scenario& scenario, Recording& recording, const report::S
   }
   const report::Verdict own = report::verdict(scenario, recording, summary, report::overlaps(scenario, recording));
   recording.spread = report::spread(scenario, recording, summary, own, stopped());
+} catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch)
+} catch (const PluginError&) {     // NOLINT(bugprone-empty-catch)
 }
 
 }  // namespace

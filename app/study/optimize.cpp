@@ -119,9 +119,11 @@ int optimize_study(const OptimizeArguments& a) {
   const fs::path folder = studies::study_folder(a.out, "optimize-" + plan.study().name, holds_study(head));
   head.command = search_goes_on(a, folder);
   const studies::Lock lock(folder / "lock");
+  std::error_code none;
+  const bool begins = !std::filesystem::exists(folder / studies::kJournalFile, none);
   Journal journal(folder / studies::kJournalFile, head, taken_build(a));
   keep_runs(plan, journal, folder, a.quiet);
-  if (journal.rows() == 0) print_own_gait(plan, a.quiet);
+  if (begins) print_own_gait(plan, a.quiet);
 
   const SearchEnd end = run_study(plan, journal, remembering(executor, answers), a);
   const auto interrupted = [&] {

@@ -48,9 +48,10 @@ int sweep_study(const SweepArguments& a) {
   if (!shard.whole()) fs::create_directory(folder / "shards", none);
   fs::path lock_file = file;
   const studies::Lock lock(shard.whole() ? folder / "lock" : lock_file.replace_extension("lock"));
+  const bool begins = !fs::exists(file, none);  // a plugin that crashes in the own gait ends the first start alone
   Journal journal(file, head, taken_build(a));
   keep_runs(plan, journal, folder, a.quiet);
-  if (journal.rows() == 0 && shard.index == 0) print_own_gait(plan, a.quiet);
+  if (begins && shard.index == 0) print_own_gait(plan, a.quiet);
 
   studies::Standing standing;
   {
