@@ -1,4 +1,4 @@
-// A run at a glance: joints over time, coloured by the share of what their motors have.
+// Overview picture of a run: joints over time, coloured by the used share of the available torque.
 #pragma once
 #include <string>
 
@@ -6,9 +6,9 @@
 
 namespace gaitlab::report {
 
-/// A PNG as a data: URL for a page, one px per joint (the first on top) and `columns` px over the whole run, each the largest
-/// share of Recording::ticks in it: pale 0, dark red 1. "" where the run has no joints or its folder does not know the shares.
-/// The same run, the same bytes.
+/// A PNG as a data: URL for a page, one px per joint (the first at the top) and `columns` px over the whole run, each the
+/// largest share of Recording::ticks in it: pale 0, dark red 1. "" if the run has no joints or its folder lacks the shares. The
+/// same run gives the same bytes.
 std::string heat_image(const Recording& record, std::size_t columns);
 
 }  // namespace gaitlab::report

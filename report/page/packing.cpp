@@ -41,7 +41,7 @@ std::string Packing::text() const { return base64(deflated(bytes_, kLevel)); }
 double quantum_of(double magnitude, double largest_quantum) {
   const double wanted = magnitude / 1000;
   if (!std::isfinite(wanted) || !(wanted > 1e-12) || wanted >= largest_quantum) return largest_quantum;
-  // Quotients of whole powers of ten, so that 1e-5 is the double that is written so.
+  // Quotients of integer powers of ten, so that 1e-5 is the nearest double.
   double below = 1;
   while (wanted * below < 1) below *= 10;
   const double digit = wanted * below;

@@ -1,4 +1,4 @@
-// report.html: a run as one file that a browser opens, with nothing beside it.
+// report.html: a run as one self-contained file for a browser.
 #pragma once
 #include <string>
 #include <string_view>
@@ -7,8 +7,8 @@
 
 namespace gaitlab::report {
 
-/// The page without a run, made by report/page: each of the marks /*TITLE*/, /*META*/ and /*DATA*/ stands in it once
-/// (cmake/page.cmake sees to that).
+/// The page without a run, made by report/page: it contains each of the marks /*TITLE*/, /*META*/ and /*DATA*/ once
+/// (cmake/page.cmake ensures that).
 std::string_view page_template();
 
 /// The page of a run.

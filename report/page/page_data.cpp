@@ -31,7 +31,7 @@ std::string plugin_name(const PluginSelection& plugin) {
   return plugin.entry == nullptr ? "none" : std::string(plugin.entry->name);
 }
 
-/// Of the gait, where it has one for all joints.
+/// Frequency of the gait, if all joints have the same.
 Json frequency(const PluginSelection& cpg) {
   const SettingsNumbers settings(cpg);
   const SettingsNumbers::Found* found = settings.find("frequency");
@@ -40,11 +40,11 @@ Json frequency(const PluginSelection& cpg) {
   return std::ranges::all_of(found->value.each, same) ? Json(found->value[0]) : Json();
 }
 
-/// Every text within.
-void leave_folders_out(Json& json, const std::vector<PluginFile>& plugins) {
-  if (json.is_string()) json = without_folders(json.get<std::string>(), plugins);
+/// Removes folders from every text within.
+void leave_folders_out(Json& json, const Scenario& scenario) {
+  if (json.is_string()) json = without_folders(json.get<std::string>(), scenario);
   if (!json.is_structured()) return;
-  for (Json& within : json) leave_folders_out(within, plugins);
+  for (Json& within : json) leave_folders_out(within, scenario);
 }
 
 Json joints_json(const Scenario& scenario, const RobotTree& tree, const Motors& motors) {
@@ -105,7 +105,7 @@ Json phases_json(const Recording& r, const MotionCycle& cycle, std::size_t joint
   return all;
 }
 
-/// Less what is of the clock.
+/// Without numbers of the clock.
 Json summary_json(const RunData& run) {
   Json all = numbers_json(run);
   for (const SummaryNumber& number : summary_numbers()) {
@@ -114,7 +114,7 @@ Json summary_json(const RunData& run) {
   return all;
 }
 
-/// The joint that is at a limit of its motor for most of the judged time; null: none is.
+/// The joint that is longest at a limit of its motor in the judged time; null: none is.
 Json longest_json(const Robot& robot, const Judged& judged) {
   for (const std::size_t j : judged.order) {
     const JudgedJoint& joint = judged.joints[j];
@@ -179,6 +179,9 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
     missing.push_back(fmt::format(
         "one row of every {} is shown, to keep the page small; verdict and numbers are of the whole recording", stride));
   }
+  if (const std::size_t heights = height_stride(scenario.ground); heights > 1) {
+    missing.push_back(fmt::format("one height of every {} in x and in y is drawn; the robot walked on all", heights));
+  }
 
   Json meta;
   meta["format"] = 1;
@@ -218,7 +221,7 @@ PageData page_data(const Scenario& scenario, const Recording& r, const Summary& 
   meta["missing"] = missing;
   meta["scenario"] = resolved(scenario);
   meta["channels"] = channels_json(packing);
-  leave_folders_out(meta, scenario.plugins);
+  leave_folders_out(meta, scenario);
 
   return {scenario.name, json_text(meta), std::move(data)};
 }

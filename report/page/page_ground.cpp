@@ -14,23 +14,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostHeights = 200;  // a side
+constexpr std::size_t kMostDrawn = 200;  // heights per side
 
-const char* ground_name(Ground::Kind kind) {
-  switch (kind) {
-    case Ground::Kind::none:
-      return "none";
-    case Ground::Kind::plane:
-      return "plane";
-    case Ground::Kind::boxes:
-      return "boxes";
-    default:
-      return "heightfield";
-  }
+/// The page's word for the way in which it draws the ground.
+const char* drawn_as(const Ground& ground) { return ground.relief() != nullptr ? Heightfield::kType.name : ground.type().name; }
+
+std::size_t height_stride(const Heightfield& field) {
+  return (std::max(field.columns, field.rows()) + kMostDrawn - 1) / kMostDrawn;
 }
 
 Json heights(const Heightfield& field) {
-  const std::size_t stride = (std::max(field.columns, field.rows()) + kMostHeights - 1) / kMostHeights;
+  const std::size_t stride = height_stride(field);
   Json values = Json::array();
   std::size_t nx = 0;
   std::size_t ny = 0;
@@ -49,21 +43,23 @@ Json heights(const Heightfield& field) {
 
 }  // namespace
 
+std::size_t height_stride(const Ground& ground) { return ground.relief() == nullptr ? 1 : height_stride(*ground.relief()); }
+
 Json page_ground(const Scenario& scenario, const Recording& r) {
   const Ground& ground = scenario.ground;
   Json boxes = Json::array();
-  for (std::size_t b = 0; b < ground.boxes.size(); ++b) {
-    const Box& box = ground.boxes[b];
+  for (std::size_t b = 0; b < ground.boxes().size(); ++b) {
+    const Box& box = ground.boxes()[b];
     const bool moves = !r.series(fmt::format("box.{}.x", b)).empty();
     boxes.push_back(
         {{"pose", json_of(Pose{box.R, box.center})}, {"size", json_of(box.size)}, {"moves", moves ? Json(b) : Json(-1)}});
   }
-  const bool any = ground.kind != Ground::Kind::none;
-  return {{"kind", ground_name(ground.kind)},
+  const Heightfield* relief = ground.relief();
+  return {{"kind", drawn_as(ground)},
           {"height", 0},
-          {"friction", any ? Json(ground.friction) : Json()},
+          {"friction", ground.exists() ? Json(ground.friction) : Json()},
           {"boxes", boxes},
-          {"heightfield", ground.kind == Ground::Kind::heightfield ? heights(ground.field) : Json()}};
+          {"heightfield", relief == nullptr ? Json() : heights(*relief)}};
 }
 
 }  // namespace gaitlab::report

@@ -1,4 +1,4 @@
-// The ground as a page draws it.
+// The ground in a page.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
@@ -7,7 +7,9 @@
 
 namespace gaitlab::report {
 
-/// Plane, boxes (with the number of the columns of those that move) and heights, thinned to at most 200 x 200 points.
+/// Stride of the heights that are drawn in x and in y, so that there are at most 200 x 200; 1 for other grounds.
+std::size_t height_stride(const Ground& ground);
+/// Plane, boxes (with the number of the columns of moving ones) and heights.
 nlohmann::ordered_json page_ground(const Scenario& scenario, const Recording& record);
 
 }  // namespace gaitlab::report

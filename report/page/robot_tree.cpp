@@ -32,7 +32,7 @@ const char* kind_name(Shape::Kind kind) {
 
 std::string key_of(const ModuleType& type, std::size_t body) { return type.name + "/" + type.bodies[body].name; }
 
-/// How many docks a module is away from the first one.
+/// Number of docks between a module and the first one.
 std::size_t docks_away(const Robot& robot, std::size_t module) {
   std::size_t count = 0;
   for (int parent = robot.modules[module].parent; parent >= 0; ++count)
@@ -50,7 +50,7 @@ Json json_of(const Pose& pose) {
 }
 
 RobotTree::RobotTree(const Robot& robot) : robot_(robot), order_(robot.bodies.size()), place_(robot.bodies.size()) {
-  // Links come behind their parents; within one, modules behind those that they are docked to.
+  // Parent links come first; within a link, a module comes after the one that it is docked to.
   std::vector<std::size_t> away;
   for (std::size_t m = 0; m < robot.modules.size(); ++m) away.push_back(docks_away(robot, m));
   std::iota(order_.begin(), order_.end(), 0);
@@ -61,7 +61,7 @@ RobotTree::RobotTree(const Robot& robot) : robot_(robot), order_(robot.bodies.si
   for (std::size_t i = 0; i < order_.size(); ++i) place_[order_[i]] = i;
 }
 
-/// No two bodies of a module are of one link: a hinge lies between them.
+/// Two bodies of a module are never in one link: a hinge is between them.
 std::size_t RobotTree::body_in(std::size_t module, std::size_t link) const {
   std::size_t body = robot_.modules[module].first_body;
   while (robot_.bodies[body].link != link) ++body;

@@ -1,4 +1,4 @@
-// A robot as a page draws it: a tree of bodies with their shapes and faces, in JSON.
+// A robot in a page: a tree of bodies with their shapes and faces, in JSON.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
@@ -12,22 +12,22 @@ nlohmann::ordered_json json_of(const Vec3& v);
 /// [x, y, z, qw, qx, qy, qz]
 nlohmann::ordered_json json_of(const Pose& pose);
 
-/// The bodies of a robot in an order in which every body but the base comes behind the one it hangs on. Places in that order
-/// are what `parent` and `body` of the page mean.
+/// The bodies of a robot in an order in which each body comes after its parent. `parent` and `body` in the page are indices in
+/// that order.
 class RobotTree {
  public:
   explicit RobotTree(const Robot& robot);
-  /// Place of a body of Robot::bodies.
+  /// Index of a body of Robot::bodies.
   [[nodiscard]] std::size_t place(std::size_t body) const { return place_[body]; }
   /// The body of Robot::bodies that a joint moves.
   [[nodiscard]] std::size_t moved_by(std::size_t joint) const;
 
-  /// A body's pose is its parent's * pre * turn(axis, angle of joint) * post; of the base without a parent.
+  /// Bodies. A body's pose is its parent's * pre * turn(axis, angle of joint) * post; for the base without a parent's.
   [[nodiscard]] nlohmann::ordered_json bodies() const;
-  /// By `type/body`, as BodyType and FaceType have them.
+  /// Shapes and faces by `type/body`, as in BodyType and FaceType.
   [[nodiscard]] nlohmann::ordered_json geometry() const;
   [[nodiscard]] nlohmann::ordered_json faces() const;
-  /// One for each module but the first, in the order of their numbers.
+  /// One dock for each module except the first, in the order of their numbers.
   [[nodiscard]] nlohmann::ordered_json docks() const;
 
  private:

@@ -14,15 +14,15 @@ namespace gaitlab::report {
 
 namespace {
 
-/// Columns that are rounded alike.
+/// Columns with a common rounding.
 struct SignalKind {
-  const char *pattern, *unit;  ///< nullptr: of the command
-  double quantum;              ///< the largest
-  bool fine = false;           ///< less for small magnitudes
-  bool spare = false;          ///< left out where it is 0 all the time
+  const char *pattern, *unit;  ///< nullptr: unit of the command
+  double quantum;              ///< largest quantum
+  bool fine = false;           ///< a smaller quantum for small magnitudes
+  bool spare = false;          ///< left out if always 0
 };
 
-// Units, too: a CSV file holds none.
+// With units, which a CSV file does not contain.
 constexpr SignalKind kQuantities[] = {{"t", "s", 1e-6},
                                       {"base.?", "m", 2e-5},
                                       {"base.q?", "", 1e-5},
@@ -62,7 +62,7 @@ void set_quanta(std::span<Signal> group, std::size_t rows, const SignalKind& qua
   for (Signal& signal : group) signal.quantum = quantum_of(largest, quantity.quantum);
 }
 
-/// `dock.3.shear` of module 3 is `dock.2.shear` of a page: the first module has no dock.
+/// `dock.3.shear` of module 3 is `dock.2.shear` on a page: the first module has no dock.
 std::string page_name(const std::string& column) {
   constexpr std::string_view kDock = "dock.";
   if (!column.starts_with(kDock)) return column;
@@ -79,7 +79,7 @@ void add_columns(std::span<const Trace* const> tables, const SignalKind& quantit
     for (std::size_t i = 0; i < table->columns.size() && table->rows() > 0; ++i) {
       const std::string& name = table->columns[i].name;
       if (!glob(quantity.pattern, name)) continue;
-      if (table != tables.front() && name == "t") continue;  // the same in every table
+      if (table != tables.front() && name == "t") continue;  // equal in all tables
       Signal signal{page_name(name), quantity.unit == nullptr ? command_unit : quantity.unit, 1, {*table, i}, {}};
       if (!quantity.spare || magnitude(signal, rows) > 0) all.push_back(std::move(signal));
     }
@@ -87,7 +87,7 @@ void add_columns(std::span<const Trace* const> tables, const SignalKind& quantit
   set_quanta(std::span(all).subspan(first), rows, quantity);
 }
 
-/// A channel has no gaps: where a signal is not known all the time, another says when it is.
+/// Adds a signal for the times at which another is known, because a channel has no gaps.
 void add_known(const std::string& name, std::size_t rows, std::vector<Signal>& all) {
   const auto found = std::ranges::find(all, name, &Signal::name);
   if (found == all.end()) return;
@@ -149,8 +149,10 @@ std::vector<std::string> left_out(const Scenario& scenario, const std::vector<Si
   std::vector<std::string> missing;
   if (!shown.empty()) missing.push_back(fmt::format("trace.columns leaves out {}", fmt::join(shown, ", ")));
   if (!has("dock.*") && scenario.robot->modules.size() > 1) {
-    missing.emplace_back(scenario.contact.solver() ? "the loads of docks are not known under contact.law: bullet"
-                                                   : "the loads of docks were not recorded");
+    missing.emplace_back(
+        scenario.contact.model().element_forces
+            ? "the loads of docks were not recorded"
+            : fmt::format("the loads of docks are not known under contact.law: {}", scenario.contact.model().text));
   }
   if (has("foot.*") && !has("foot.*.fx")) missing.emplace_back("of feet the vertical load on their modules is known alone");
   return missing;

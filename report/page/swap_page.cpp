@@ -15,7 +15,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr std::size_t kPictureColumns = 240;  // px of a picture: as it is shown, so that no pixel is divided
+constexpr std::size_t kPictureColumns = 240;  // px of a picture: equals its size on the page, so that no pixel is divided
 constexpr double kRobotWidth = 560;           // px
 
 constexpr const char* kStyle = R"(
@@ -41,7 +41,7 @@ td:last-child small { white-space: normal; min-width: 86px; }
 .robot { max-width: 100%; margin: 0 0 16px; border-radius: 10px; }
 )";
 
-/// A minus sign where a number begins with a hyphen.
+/// Replaces a hyphen before a number by a minus sign.
 std::string typeset(const std::string& text) {
   std::string set;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -57,14 +57,14 @@ std::size_t picture_height(std::size_t joints) { return joints * std::max<std::s
 
 using Run = const RunData&;
 
-/// A number of the table of the terminal; of a cell with two numbers each has a column here.
+/// A number of the terminal's table; a cell with two numbers has a column for each here.
 struct Shown {
   const char *head, *under;
   std::string (*text)(Run run);
   std::string (*small)(Run run) = nullptr;  ///< below it
 };
 
-/// No sign of a zero.
+/// A number without the sign of zero.
 std::string fixed(double value, int digits, bool sign = false) {
   std::string text = sign ? fmt::format("{:+.{}f}", value, digits) : fmt::format("{:.{}f}", value, digits);
   return text.find_first_not_of("+-0.") == std::string::npos ? text.substr(text.find('0')) : text;
@@ -95,7 +95,7 @@ constexpr Shown kShown[] = {
     {"limit cycle", "", cycle_text, cycle_small},
 };
 
-/// The robot at the end of the first run that came to its end, from the side of its way; empty: none did.
+/// Picture of the robot at the end of the first completed run, from the side of its path; empty: none.
 std::string robot_picture(const std::vector<SwapEntry>& entries) {
   for (const SwapEntry& entry : entries) {
     const RunData& run = entry.named.run;
@@ -106,7 +106,6 @@ std::string robot_picture(const std::vector<SwapEntry>& entries) {
     FigureInput input = views_input(run.scenario, run.record, from);
     input.views_title = from.view;
     input.views_legend = false;
-    input.minus = true;
     View view = view_at(run.scenario, run.record, from, run.record.rows() - 1, 0);
     view.joint.reset();
     input.views.push_back(std::move(view));

@@ -11,11 +11,11 @@ namespace gaitlab::report {
 struct SwapEntry {
   NamedRun named;
   const Verdict& verdict;
-  std::string page;  ///< file of its own page, beside this one
+  std::string page;  ///< file of the run's page, beside this one
 };
 
-/// One file without scripts and requests: the robot at the end of the first run, and a row per CPG with its verdict, joints
-/// over time as a picture, and the numbers of `swap`'s table. No number is of the clock.
+/// A page in one file without scripts and requests: the robot at the end of the first run, and a row per CPG with its verdict,
+/// a picture of joints over time, and the numbers of `swap`'s table. No number is of the clock.
 std::string swap_page(const std::string& name, const std::vector<SwapEntry>& entries);
 
 }  // namespace gaitlab::report

@@ -1,4 +1,5 @@
-// How far the centre of mass is inside the polygon of the feet that carry, and how high, over time.
+// Plot of the stability margin over time (distance of the centre of mass to the edge of the support polygon), and of
+// the height of the centre of mass.
 import { element } from "./dom";
 import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
@@ -13,11 +14,18 @@ export class Balance implements Panel {
 
   paint(): void {
     this.plot?.destroy();
-    const { recording, ink } = this.desk, margin = recording.find("stability"), height = recording.find("com.z"), { ghost } = this.desk, other = ghost?.values("stability"), high = height && ghost?.values("com.z");
+    const { recording, ink } = this.desk;
+    const margin = recording.find("stability");
+    const height = recording.find("com.z");
+    const { ghost } = this.desk;
+    const other = ghost?.values("stability");
+    const high = height && ghost?.values("com.z");
     if (!margin) return;
     this.plot = new TimePlot(element("balance"), this.desk, {
       label: "Distance of the centre of mass to the edge of the support polygon, and its height, over time",
-      left: { name: "margin (m)", colour: ink.green }, ...(height ? { right: { name: "height (m)", colour: ink.sky } } : {}), levels: [{ value: 0, axis: "left", colour: ink.line }],
+      left: { name: "margin (m)", colour: ink.green },
+      ...(height ? { right: { name: "height (m)", colour: ink.sky } } : {}),
+      levels: [{ value: 0, axis: "left", colour: ink.line }],
       curves: [
         { values: margin, label: "margin", colour: ink.green, axis: "left" },
         ...(height ? [{ values: height, label: "height", colour: ink.sky, axis: "right" as const }] : []),
@@ -25,10 +33,18 @@ export class Balance implements Panel {
         ...(high ? [second(high, `height, ${ghost!.label}`, ink.sky, "right")] : []),
       ],
     });
-    keys("balance-key", [["", "--green", "from the edge of the support polygon, inside positive (left)"], ["", "--sky", height ? "height (right)" : ""], ["dash", "--ink2", other || high ? `${ghost!.label}: dashed` : ""]]);
+    keys("balance-key", [
+      ["", "--green", "from the edge of the support polygon, inside positive (left)"],
+      ["", "--sky", height ? "height (right)" : ""],
+      ["dash", "--ink2", other || high ? `${ghost!.label}: dashed` : ""],
+    ]);
     this.seek(this.desk.state.t);
   }
 
-  zoom(): void { this.plot?.zoom(); }
-  seek(t: number): void { this.plot?.seek(t); }
+  zoom(): void {
+    this.plot?.zoom();
+  }
+  seek(t: number): void {
+    this.plot?.seek(t);
+  }
 }

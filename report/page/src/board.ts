@@ -1,4 +1,4 @@
-// A canvas that fills its parent, and what every drawing on one needs: ticks, axes, a frame.
+// Canvas that fills its parent, and its common parts: ticks, axes, frame, playhead.
 import type { Ink } from "./colour";
 import { fixed } from "./numbers";
 import type { Span } from "./panel";
@@ -6,13 +6,18 @@ import type { Span } from "./panel";
 export type Pen = CanvasRenderingContext2D;
 export type Draw = (pen: Pen, width: number, height: number) => void;
 
-export const font = (px: number, weight = 400): string => `${weight} ${px}px ${getComputedStyle(document.body).fontFamily}`;
+export const font = (px: number, weight = 400): string =>
+  `${weight} ${px}px ${getComputedStyle(document.body).fontFamily}`;
 
 export class Board {
   readonly canvas = document.createElement("canvas");
   private painted = { width: 0, height: 0 };
 
-  constructor(private readonly host: HTMLElement, label: string, private readonly draw: Draw) {
+  constructor(
+    private readonly host: HTMLElement,
+    label: string,
+    private readonly draw: Draw,
+  ) {
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", label);
     host.prepend(this.canvas);
@@ -23,7 +28,9 @@ export class Board {
   }
 
   paint(): void {
-    const { width, height } = this.host.getBoundingClientRect(), ratio = window.devicePixelRatio || 1, pen = this.canvas.getContext("2d");
+    const { width, height } = this.host.getBoundingClientRect();
+    const ratio = window.devicePixelRatio || 1;
+    const pen = this.canvas.getContext("2d");
     if (width < 2 || height < 2 || !pen) return;
     this.painted = { width, height };
     this.canvas.width = Math.round(width * ratio);
@@ -42,8 +49,11 @@ export interface Ticks {
 
 /** Ticks 1, 2 or 5 apart times a power of ten, about `count` of them. */
 export function ticks(lo: number, hi: number, count: number): Ticks {
-  const raw = Math.max(hi - lo, 1e-12) / Math.max(count, 1), power = 10 ** Math.floor(Math.log10(raw));
-  const step = ([1, 2, 5, 10].find((m) => m * power >= raw * (1 - 1e-9)) ?? 10) * power, first = Math.ceil(lo / step - 1e-9), at: number[] = [];
+  const raw = Math.max(hi - lo, 1e-12) / Math.max(count, 1);
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = ([1, 2, 5, 10].find((m) => m * power >= raw * (1 - 1e-9)) ?? 10) * power;
+  const first = Math.ceil(lo / step - 1e-9);
+  const at: number[] = [];
   for (let k = first; k * step <= hi + 1e-9 * step; k++) at.push(k * step);
   const decimals = Math.min(Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), 6);
   return { at, text: (v) => fixed(v, decimals) };
@@ -61,11 +71,12 @@ export interface Scale {
   Y: (v: number) => number;
 }
 
-/** Grid, numbers and names of two axes. */
+/** Draws the grid, numbers and names of two axes. Returns their scale. */
 export function frame(pen: Pen, ink: Ink, box: Box, x: Span, y: Span, names: { x: string; y: string }): Scale {
-  const X = (v: number) => box.left + (v - x[0]) / (x[1] - x[0]) * (box.right - box.left);
-  const Y = (v: number) => box.bottom - (v - y[0]) / (y[1] - y[0]) * (box.bottom - box.top);
-  const across = ticks(x[0], x[1], Math.max(2, (box.right - box.left) / 72)), up = ticks(y[0], y[1], Math.max(2, (box.bottom - box.top) / 38));
+  const X = (v: number) => box.left + ((v - x[0]) / (x[1] - x[0])) * (box.right - box.left);
+  const Y = (v: number) => box.bottom - ((v - y[0]) / (y[1] - y[0])) * (box.bottom - box.top);
+  const across = ticks(x[0], x[1], Math.max(2, (box.right - box.left) / 72));
+  const up = ticks(y[0], y[1], Math.max(2, (box.bottom - box.top) / 38));
   pen.font = font(11);
   pen.fillStyle = ink.muted;
   pen.strokeStyle = ink.grid;
@@ -106,7 +117,17 @@ export function line(pen: Pen, x0: number, y0: number, x1: number, y1: number): 
   pen.stroke();
 }
 
-/** Seconds along the foot of a drawing. */
+/** Draws within a box only. */
+export function clipped(pen: Pen, box: Box, draw: () => void): void {
+  pen.save();
+  pen.beginPath();
+  pen.rect(box.left, box.top, box.right - box.left, box.bottom - box.top);
+  pen.clip();
+  draw();
+  pen.restore();
+}
+
+/** Draws the seconds along the lower edge of a drawing. */
 export function timeAxis(pen: Pen, ink: Ink, left: number, width: number, y: number, [from, to]: Span): void {
   const marks = ticks(from, to, width / 64);
   pen.font = font(11);
@@ -114,9 +135,18 @@ export function timeAxis(pen: Pen, ink: Ink, left: number, width: number, y: num
   pen.textAlign = "center";
   pen.textBaseline = "top";
   for (const [i, t] of marks.at.entries()) {
-    const x = left + (t - from) / (to - from) * width, text = marks.text(t) + (i === marks.at.length - 1 ? " s" : ""), half = pen.measureText(text).width / 2;
+    const x = left + ((t - from) / (to - from)) * width;
+    const text = marks.text(t) + (i === marks.at.length - 1 ? " s" : "");
+    const half = pen.measureText(text).width / 2;
     pen.fillText(text, Math.min(Math.max(x, left + half), left + width - half), y);
   }
+}
+
+/** Moves a playhead to a time; hides it outside of the span. */
+export function placeHead(head: HTMLElement, t: number, [from, to]: Span, left: number, width: number): void {
+  const x = (t - from) / (to - from);
+  head.style.display = x >= 0 && x <= 1 ? "" : "none";
+  head.style.transform = `translateX(${left + x * width}px)`;
 }
 
 /** A text cut to a width, with an ellipsis. */

@@ -1,4 +1,5 @@
-// The packed numbers: of each channel, first differences of integers, zigzag, LEB128; channel after channel; zlib; base64.
+// Decoder of the packed channels: first differences of integers in zigzag and LEB128, one channel after another, then
+// zlib and base64.
 import type { Channel } from "./format";
 
 export type Values = Float32Array;
@@ -11,8 +12,10 @@ export function unpack(channels: readonly Channel[], bytes: Uint8Array): Map<str
     const values = new Float32Array(count);
     let sum = 0;
     for (let i = 0; i < count; i++) {
-      // Not with <<: that would end at 32 bits.
-      let zigzag = 0, shift = 1, byte: number;
+      // Multiplied, because << is limited to 32 bits.
+      let zigzag = 0;
+      let shift = 1;
+      let byte: number;
       do {
         if (at === bytes.length) throw new Error(`its data end within channel ${name}`);
         byte = bytes[at++];

@@ -1,40 +1,86 @@
-// The table of checks. A row opens what was held against what, and goes to its joint and time.
+// Table of checks. A click on a row opens its definition and source, and shows its joint and time.
 import { element, icon, make } from "./dom";
-import type { Check, Status } from "./format";
+import type { Check, Status, Verdict } from "./format";
 import { plural, quantity, sentence, span } from "./numbers";
 import type { Desk } from "./panel";
 import { moment, partName, show } from "./places";
 
 const marks: Record<Status, string> = {
-  pass: "M3 8.5l3.4 3.4L13 4.6", warn: "M8 2.6L14.4 13.4H1.6zM8 7v2.6M8 11.5v.1", fail: "M4 4l8 8M12 4l-8 8", "too close": "M2.6 6.6c1.8-2 3.6-2 5.4 0s3.6 2 5.4 0M2.6 11c1.8-2 3.6-2 5.4 0s3.6 2 5.4 0", "not judged": "M5.6 6a2.5 2.5 0 1 1 3.6 2.3c-.8.4-1.2.9-1.2 1.7M8 12.6v.1",
+  pass: "M3 8.5l3.4 3.4L13 4.6",
+  warn: "M8 2.6L14.4 13.4H1.6zM8 7v2.6M8 11.5v.1",
+  fail: "M4 4l8 8M12 4l-8 8",
+  "too close": "M2.6 6.6c1.8-2 3.6-2 5.4 0s3.6 2 5.4 0M2.6 11c1.8-2 3.6-2 5.4 0s3.6 2 5.4 0",
+  "not judged": "M5.6 6a2.5 2.5 0 1 1 3.6 2.3c-.8.4-1.2.9-1.2 1.7M8 12.6v.1",
 };
-const words: Record<Status, string> = { pass: "pass", warn: "warning", fail: "fail", "too close": "too close", "not judged": "not judged" };
-/** On a figure that nobody but the project states. */
+const words: Record<Status, string> = {
+  pass: "pass",
+  warn: "warning",
+  fail: "fail",
+  "too close": "too close",
+  "not judged": "not judged",
+};
+/** True for a limit that uses a value chosen by this project, without a published source. */
 export const rests = (source: string): boolean => /^(.* of the scenario; the rest: )?chosen/.test(source);
-/** What is found without being held against anything: it has neither passed nor failed. */
+/** Findings without a limit, which neither pass nor fail. */
 const notes = new Set(["stability"]);
 const noted = (check: Check): boolean => notes.has(check.id) && check.status === "pass";
 const given = (status: Status): string => `is-${status.replace(" ", "-")}`;
-const groups: Record<string, string> = { run: "The run", motor: "Motors", motion: "Motion", structure: "Structure", ground: "Ground", trust: "Can the numbers be believed?" };
+const groups: Record<string, string> = {
+  run: "The run",
+  motor: "Motors",
+  motion: "Motion",
+  structure: "Structure",
+  ground: "Ground",
+  trust: "Are the numbers accurate?",
+};
 
-/** The same check of every run; undefined where one was not checked for it. */
+/** The same check of every run; undefined for a run without it. */
 type Row = (Check | undefined)[];
 
 export function checks(desk: Desk): void {
-  const { runs, ghost } = desk, body = element<HTMLTableSectionElement>("checks"), verdicts = runs.map((r) => r.recording.meta.verdict);
-  const ids = new Map<string, Row>(); // the second run's own stand behind those of their group
-  verdicts.forEach((v, n) => v.checks.forEach((c) => ids.set(c.id, Object.assign(ids.get(c.id) ?? runs.map(() => undefined), { [n]: c }))));
-  const rows = [...ids.values()], first = (row: Row) => row.find((c) => c)!, order = [...new Set(rows.map((r) => first(r).group))];
+  const verdicts = desk.runs.map((r) => r.recording.meta.verdict);
+  const columns = nameColumns(desk);
+  fill(desk, rowsOf(verdicts), columns);
+  const chosen = verdicts.some((v) => v.checks.some((c) => c.limit !== null && rests(c.source)));
+  element("checks-note").textContent = chosen
+    ? "* uses a value that is chosen, not the manufacturer's; expand a row to see which"
+    : "";
+  element("counts").textContent = verdicts.map((v, n) => labelOf(desk, n) + counted(v)).join("; ");
+}
+
+/** All checks of the first run; then additional checks of the second run. */
+function rowsOf(verdicts: readonly Verdict[]): Row[] {
+  const rows = new Map<string, Row>();
+  verdicts.forEach((v, n) =>
+    v.checks.forEach((c) => rows.set(c.id, Object.assign(rows.get(c.id) ?? verdicts.map(() => undefined), { [n]: c }))),
+  );
+  return [...rows.values()];
+}
+
+/** Replaces the column of values by a column per run if there are two. Returns the number of columns. */
+function nameColumns({ ghost }: Desk): number {
   const head = element<HTMLTableElement>("checks").closest("table")!.tHead!.rows[0];
   if (ghost) {
     const columns = ghost.overlay.labels.map((label) => make("th", label));
-    columns.forEach((c) => { c.scope = "col"; });
+    columns.forEach((c) => {
+      c.scope = "col";
+    });
     head.cells[2].replaceWith(...columns);
   }
-  const tried = new Set<string>(), folded: HTMLTableRowElement[] = [], open = rows.filter((row) => worst(row) === "not judged");
-  for (const group of order) {
-    const name = make("th", groups[group] ?? group), title = make("tr.group", name), own = rows.filter((row) => first(row).group === group);
-    name.colSpan = head.cells.length;
+  return head.cells.length;
+}
+
+/** Adds the rows group by group, and folds the checks that were not judged if there are several. */
+function fill(desk: Desk, rows: Row[], columns: number): void {
+  const body = element<HTMLTableSectionElement>("checks");
+  const tried = new Set<string>();
+  const folded: HTMLTableRowElement[] = [];
+  const open = rows.filter((row) => worst(row) === "not judged");
+  for (const group of new Set(rows.map((r) => first(r).group))) {
+    const name = make("th", groups[group] ?? group);
+    const title = make("tr.group", name);
+    const own = rows.filter((row) => first(row).group === group);
+    name.colSpan = columns;
     name.scope = "colgroup";
     body.append(title);
     if (own.every((row) => open.includes(row))) folded.push(title);
@@ -44,18 +90,33 @@ export function checks(desk: Desk): void {
       body.append(...made);
     }
   }
-  if (open.length > 1) body.append(fold(open.map(first), folded, head.cells.length));
-  const chosen = verdicts.some((v) => v.checks.some((c) => c.limit !== null && rests(c.source)));
-  element("checks-note").textContent = chosen ? "* rests on a figure that is chosen, not a maker's; a row that is opened says which" : "";
-  element("counts").textContent = verdicts.map(({ checks: all, counts: { pass, warn, fail, "too close": close, "not judged": unknown } }, n) => `${ghost ? `${ghost.overlay.labels[n]}: ` : ""}${
-    [[fail, "failed"], [close, "too close"], [warn, warn === 1 ? "warning" : "warnings"], [pass - all.filter(noted).length, "passed"], [unknown, "not judged"]].filter(([k]) => k).map(([k, word]) => `${k} ${word}`).join(", ")}`).join("; ");
+  if (open.length > 1) body.append(fold(open.map(first), folded, columns));
 }
 
-/** One line for the checks that were not judged, which shows and hides them. */
+/** Numbers of failed, passed and other checks of a run, as text. */
+function counted({ checks: all, counts }: Verdict): string {
+  const { pass, warn, fail, "too close": close, "not judged": unknown } = counts;
+  return [
+    [fail, "failed"],
+    [close, "too close"],
+    [warn, warn === 1 ? "warning" : "warnings"],
+    [pass - all.filter(noted).length, "passed"],
+    [unknown, "not judged"],
+  ]
+    .filter(([k]) => k)
+    .map(([k, word]) => `${k} ${word}`)
+    .join(", ");
+}
+
+/** A row that shows and hides the checks that were not judged. */
 function fold(open: Check[], rows: HTMLTableRowElement[], columns: number): HTMLTableRowElement {
-  const button = make("button.link", `${plural(open.length, "check")} not judged`), cell = make("td", button), line = make("tr.fold", make("td.mark", icon(marks["not judged"])), cell);
+  const button = make("button.link", `${plural(open.length, "check")} not judged`);
+  const cell = make("td", button);
+  const line = make("tr.fold", make("td.mark", icon(marks["not judged"])), cell);
   const set = (shown: boolean) => {
-    rows.forEach((row) => { row.hidden = !shown; });
+    rows.forEach((row) => {
+      row.hidden = !shown;
+    });
     button.setAttribute("aria-expanded", String(shown));
   };
   cell.colSpan = columns - 1;
@@ -69,17 +130,25 @@ function fold(open: Check[], rows: HTMLTableRowElement[], columns: number): HTML
   return line;
 }
 
-const worst = (row: Row): Status => (["fail", "too close", "warn", "pass", "not judged"] as const).find((s) => row.some((c) => c?.status === s)) ?? "not judged";
+const first = (row: Row): Check => row.find((c) => c)!;
+const worst = (row: Row): Status =>
+  (["fail", "too close", "warn", "pass", "not judged"] as const).find((s) => row.some((c) => c?.status === s)) ??
+  "not judged";
 const aloud = (check: Check): boolean => check.status !== "pass" && check.status !== "not judged";
 
-/** What an opened row says of one run; `label`: which, where there are two. */
+/** Explanation of one run in an opened row; `label` names the run if there are two. */
 function more(check: Check, label: string, called: string, text: string): HTMLElement[] {
-  const { from, to, definition, source } = check, where = [called, from !== null ? span(from, to ?? from) : ""].filter(Boolean).join(", ");
-  return [...(where ? [make("p", make("b", label + where))] : []), ...(aloud(check) ? [] : [make("p", label + sentence(text))]),
-    ...(definition ? [make("p", sentence(definition))] : []), ...(source ? [make("p", sentence(`limit: ${source}`))] : [])];
+  const { from, to, definition, source } = check;
+  const where = [called, from !== null ? span(from, to ?? from) : ""].filter(Boolean).join(", ");
+  return [
+    ...(where ? [make("p", make("b", label + where))] : []),
+    ...(aloud(check) ? [] : [make("p", label + sentence(text))]),
+    ...(definition ? [make("p", sentence(definition))] : []),
+    ...(source ? [make("p", sentence(`limit: ${source}`))] : []),
+  ];
 }
 
-/** What to set, or what helps in general. */
+/** Advice for a failed check: a setting, or else a general remedy. */
 function remedy({ status, group, remedy: own, advice }: Check): string {
   const tried = (own || (group === "run" ? "" : advice)).replace(/^take /, "").replace(/[.]$/, "");
   return (status === "fail" || status === "too close") && tried ? `Try: ${tried}.` : "";
@@ -87,51 +156,92 @@ function remedy({ status, group, remedy: own, advice }: Check): string {
 
 function limitOf(check: Check): string {
   const { limit, least, unit, source } = check;
-  return limit === null ? (noted(check) ? "a note" : check.status === "pass" ? "–" : "no limit") : (least ? "≥ " : "") + quantity(limit, unit) + (rests(source) ? "*" : "");
+  return limit === null
+    ? noted(check)
+      ? "a note"
+      : check.status === "pass"
+        ? "–"
+        : "no limit"
+    : (least ? "≥ " : "") + quantity(limit, unit) + (rests(source) ? "*" : "");
 }
 
-function drawn(desk: Desk, row: Row, tried: Set<string>): HTMLTableRowElement[] {
-  const two = desk.ghost?.overlay.labels, label = (n: number) => (two ? `${two[n]}: ` : ""), first = row.find((c) => c)!, status = worst(row), mark = (c: Check) => (noted(c) ? [make("span.sr", "a note")] : [icon(marks[c.status]), make("span.sr", words[c.status])]);
-  const called = (c: Check, n: number) => (c.worst === null ? "" : partName(desk.runs[n].recording.meta, c.part, c.worst));
-  const open = make("button.link", first.title || first.id), added = make("div.more"), limits = [...new Set(row.flatMap((c) => (c ? [limitOf(c)] : [])))];
-  open.type = "button";
-  open.setAttribute("aria-expanded", "false");
-  // Of two runs the definition stands once.
-  row.forEach((c, n) => { if (c) added.append(...more(n > 0 && row[0] ? { ...c, definition: "", source: c.source === row[0].source ? "" : c.source } : c, label(n), called(c, n), c.text)); });
-  added.hidden = true;
-  const values = row.map((c) => {
-    const cell = make("td.value", ...(two && c ? [...mark(c), " "] : []), !c ? "–" : c.value === null ? "not judged" : quantity(c.value, c.unit));
-    if (two && c) cell.classList.add(given(c.status));
-    return cell;
+const labelOf = (desk: Desk, n: number): string => (desk.ghost ? `${desk.ghost.overlay.labels[n]}: ` : "");
+
+/** Definitions and sources in an opened row; two runs share one definition. */
+function explanation(desk: Desk, row: Row): Node[] {
+  return row.flatMap((c, n) => {
+    if (!c) return [];
+    const called = c.worst === null ? "" : partName(desk.runs[n].recording.meta, c.part, c.worst);
+    const source = row[0] && c.source === row[0].source ? "" : c.source;
+    return more(n > 0 && row[0] ? { ...c, definition: "", source } : c, labelOf(desk, n), called, c.text);
   });
-  const head = make("tr", make("td.mark", ...(two ? [] : mark(first))), make("td.what", open), ...values, make("td.limit", limits.join("; ")));
-  // The same advice stands once.
-  const advised = (advice: string) => {
+}
+
+/** Sentences under a check; `tried` holds the advice that an earlier row gave. */
+function findings(c: Check, label: string, tried: Set<string>): HTMLElement[] {
+  const found: HTMLElement[] = [];
+  const advice = label + remedy(c);
+  if (aloud(c)) found.push(make("p.why", label + sentence(c.text)));
+  if (c.missing) found.push(make("p.short", `${label}Missing: ${c.missing}`));
+  if (remedy(c) && !tried.has(advice)) {
     tried.add(advice);
-    return make("p.try", advice);
+    found.push(make("p.try", advice));
+  }
+  return found;
+}
+
+/** Rows of the table for one check: its values, and below them its findings and its explanation. */
+function drawn(desk: Desk, row: Row, tried: Set<string>): HTMLTableRowElement[] {
+  const status = worst(row);
+  const open = make("button.link", first(row).title || first(row).id);
+  const added = make("div.more", ...explanation(desk, row));
+  const found = row.flatMap((c, n) => (c ? findings(c, labelOf(desk, n), tried) : []));
+  const head = summary(row, open, !!desk.ghost);
+  const text = make("td", ...found, added);
+  const detail = make("tr", make("td"), text);
+  text.colSpan = head.cells.length - 1;
+  open.type = "button";
+  const expand = (on: boolean) => {
+    added.hidden = !on;
+    detail.hidden = !on && !found.length;
+    open.setAttribute("aria-expanded", String(on));
   };
-  const told = row.flatMap((c, n) => (c ? [...(aloud(c) ? [make("p.why", label(n) + sentence(c.text))] : []), ...(c.missing ? [make("p.short", `${label(n)}Missing: ${c.missing}`)] : []), ...(remedy(c) && !tried.has(label(n) + remedy(c)) ? [advised(label(n) + remedy(c))] : [])] : []));
-  const text = make("td", ...told, added), detail = make("tr", make("td"), text);
-  text.colSpan = 2 + values.length;
-  detail.hidden = !told.length;
-  const run = desk.runs[Math.max(row.findIndex((c) => c?.status === status), 0)], place = row.find((c) => c?.status === status) ?? first;
+  const at = row.findIndex((c) => c?.status === status);
+  const run = desk.runs[Math.max(at, 0)];
+  const place = row[at] ?? first(row);
   for (const one of [head, detail]) {
     one.className = given(status);
     one.classList.toggle("detail", one === detail);
     one.addEventListener("click", () => {
-      const shown = !added.hidden;
+      const on = added.hidden;
       element("checks").dispatchEvent(new Event("close"));
-      added.hidden = shown;
-      detail.hidden = shown && !told.length;
-      open.setAttribute("aria-expanded", String(!shown));
+      expand(on);
       show(run, place.part, place.worst, moment(run, place));
     });
   }
-  element("checks").addEventListener("close", () => {
-    added.hidden = true;
-    detail.hidden = !told.length;
-    open.setAttribute("aria-expanded", "false");
-  });
-  head.dataset.check = first.id;
+  expand(false);
+  element("checks").addEventListener("close", () => expand(false));
   return [head, detail];
+}
+
+/** Mark, title, values and limits of a check; for two runs the marks are beside the values. */
+function summary(row: Row, title: HTMLElement, two: boolean): HTMLTableRowElement {
+  const mark = (c: Check) =>
+    noted(c) ? [make("span.sr", "a note")] : [icon(marks[c.status]), make("span.sr", words[c.status])];
+  const value = (c: Check | undefined): HTMLElement => {
+    const text = !c ? "–" : c.value === null ? "not judged" : quantity(c.value, c.unit);
+    const cell = make("td.value", ...(two && c ? [...mark(c), " "] : []), text);
+    if (two && c) cell.classList.add(given(c.status));
+    return cell;
+  };
+  const limits = new Set(row.flatMap((c) => (c ? [limitOf(c)] : [])));
+  const made = make(
+    "tr",
+    make("td.mark", ...(two ? [] : mark(first(row)))),
+    make("td.what", title),
+    ...row.map(value),
+    make("td.limit", [...limits].join("; ")),
+  );
+  made.dataset.check = first(row).id;
+  return made;
 }

@@ -1,54 +1,120 @@
-// Colours that carry meaning; the rest is style.css. Okabe and Ito, as in the figures of report/plot/svg.h, darkened for contrast.
+// Colours with a meaning, from the palette of Okabe and Ito as in the figures (report/plot/svg.h), darkened for
+// contrast. style.css contains the others.
 
 export type Theme = "light" | "dark";
 type Rgb = [number, number, number];
 
-/** What drawings take from style.css. */
+/** Theme and colours of style.css for drawings. */
 export interface Ink {
   theme: Theme;
-  ink: string; ink2: string; muted: string; line: string; grid: string; track: string; panel: string; accent: string;
-  hatch: string; cloud: string; veil: string; band: string;
-  blue: string; vermillion: string; green: string; orange: string; sky: string; purple: string; fail: string;
+  ink: string;
+  ink2: string;
+  muted: string;
+  line: string;
+  grid: string;
+  track: string;
+  panel: string;
+  accent: string;
+  hatch: string;
+  cloud: string;
+  veil: string;
+  band: string;
+  blue: string;
+  vermillion: string;
+  green: string;
+  orange: string;
+  sky: string;
+  purple: string;
+  fail: string;
 }
 
-const names = ["ink", "ink2", "muted", "line", "grid", "track", "panel", "accent", "hatch", "cloud", "veil", "band", "blue",
-  "vermillion", "green", "orange", "sky", "purple", "fail"] as const;
+const names = [
+  "ink",
+  "ink2",
+  "muted",
+  "line",
+  "grid",
+  "track",
+  "panel",
+  "accent",
+  "hatch",
+  "cloud",
+  "veil",
+  "band",
+  "blue",
+  "vermillion",
+  "green",
+  "orange",
+  "sky",
+  "purple",
+  "fail",
+] as const;
 
 export function inkOf(page: HTMLElement): Ink {
   const style = getComputedStyle(page);
-  const colours = Object.fromEntries(names.map((n) => [n, style.getPropertyValue(`--${n}`).trim()])) as Record<typeof names[number], string>;
+  const colours = Object.fromEntries(names.map((n) => [n, style.getPropertyValue(`--${n}`).trim()])) as Record<
+    (typeof names)[number],
+    string
+  >;
   return { theme: page.dataset.theme === "dark" ? "dark" : "light", ...colours };
 }
 
 const ramps: Record<Theme, [number, Rgb][]> = {
-  light: [[0, [236, 239, 242]], [0.25, [254, 226, 178]], [0.5, [252, 178, 92]], [0.8, [222, 84, 28]], [1, [140, 0, 34]]],
-  dark: [[0, [33, 39, 46]], [0.25, [92, 62, 30]], [0.5, [176, 98, 24]], [0.8, [232, 104, 38]], [1, [255, 158, 122]]],
+  light: [
+    [0, [236, 239, 242]],
+    [0.25, [254, 226, 178]],
+    [0.5, [252, 178, 92]],
+    [0.8, [222, 84, 28]],
+    [1, [140, 0, 34]],
+  ],
+  dark: [
+    [0, [33, 39, 46]],
+    [0.25, [92, 62, 30]],
+    [0.5, [176, 98, 24]],
+    [0.8, [232, 104, 38]],
+    [1, [255, 158, 122]],
+  ],
 };
 
-/** Share of a limit, 0 to 1. Lightness runs one way, so it also reads in grey. */
+/** Colour of a share of a limit, 0 to 1. Its lightness is monotonic, so that it is also readable in grey. */
 export function load(theme: Theme, share: number): Rgb {
-  const ramp = ramps[theme], x = Math.min(Math.max(share, 0), 1);
+  const ramp = ramps[theme];
+  const x = Math.min(Math.max(share, 0), 1);
   let k = 1;
   while (k < ramp.length - 1 && ramp[k][0] < x) k++;
-  const [x0, a] = ramp[k - 1], [x1, b] = ramp[k], f = (x - x0) / (x1 - x0);
+  const [x0, a] = ramp[k - 1];
+  const [x1, b] = ramp[k];
+  const f = (x - x0) / (x1 - x0);
   return a.map((v, c) => Math.round(v + (b[c] - v) * f)) as Rgb;
 }
 
 const ends: Record<Theme, [less: Rgb, none: Rgb, more: Rgb]> = {
-  light: [[0, 92, 152], [241, 243, 245], [168, 48, 0]],
-  dark: [[120, 196, 246], [28, 34, 40], [255, 148, 92]],
+  light: [
+    [0, 92, 152],
+    [241, 243, 245],
+    [168, 48, 0],
+  ],
+  dark: [
+    [120, 196, 246],
+    [28, 34, 40],
+    [255, 148, 92],
+  ],
 };
 
-/** Less, -1, to more, 1: two hues that also those tell apart who see red and green alike. */
+/** Colour of a difference, -1 to 1: two hues that are distinguishable with every kind of colour vision. */
 export function difference(theme: Theme, x: number): Rgb {
-  const [less, none, more] = ends[theme], f = Math.min(Math.abs(x), 1) ** 0.8, end = x < 0 ? less : more;
+  const [less, none, more] = ends[theme];
+  const f = Math.min(Math.abs(x), 1) ** 0.8;
+  const end = x < 0 ? less : more;
   return none.map((v, c) => Math.round(v + (end[c] - v) * f)) as Rgb;
 }
 
 export const css = (rgb: Rgb): string => `rgb(${rgb.join(",")})`;
 
-const stops = (colours: [at: number, colour: Rgb][]): string => `linear-gradient(90deg,${colours.map(([x, c]) => `${css(c)} ${100 * x}%`).join(",")})`;
+const stops = (colours: [at: number, colour: Rgb][]): string =>
+  `linear-gradient(90deg,${colours.map(([x, c]) => `${css(c)} ${100 * x}%`).join(",")})`;
 
 /** The ramps as gradients of CSS, for legends. */
 export const gradient = (theme: Theme): string => stops(ramps[theme]);
-export const differenceGradient = (theme: Theme): string => stops([-1, -0.5, 0, 0.5, 1].map((x) => [(x + 1) / 2, difference(theme, x)]));
+export const differenceGradient = (theme: Theme): string =>
+  stops([-1, -0.5, 0, 0.5, 1].map((x) => [(x + 1) / 2, difference(theme, x)]));

@@ -1,53 +1,90 @@
-// What the docks hold, worst first; without loads: which face sits on which.
+// Table of the docks with their loads, worst first; without loads: the two faces at each dock.
 import { element, make } from "./dom";
 import { number } from "./numbers";
 import type { Desk } from "./panel";
 import { dockName } from "./places";
 import type { Recording } from "./recording";
 
-const kinds = [["tension", "N"], ["shear", "N"], ["bending", "N m"], ["torsion", "N m"]] as const;
+const kinds = [
+  ["tension", "N"],
+  ["shear", "N"],
+  ["bending", "N m"],
+  ["torsion", "N m"],
+] as const;
+type Kind = (typeof kinds)[number];
 const few = 12;
 
 export function docks(desk: Desk): void {
-  const { recording, ghost } = desk, { meta } = recording, table = element<HTMLTableElement>("docks");
-  const shown = kinds.filter(([k]) => recording.has(`dock.0.${k}`));
-  if (!shown.length) {
-    element("docks-note").textContent = "The recording has no loads of docks.";
+  const table = element<HTMLTableElement>("docks");
+  const note = element("docks-note");
+  const shown = kinds.filter(([k]) => desk.recording.has(`dock.0.${k}`));
+  if (shown.length) {
+    const below = desk.ghost ? `; below, thin: ${desk.ghost.label}` : "";
+    note.textContent = `largest of the rows in the judged window${below}`;
+    const columns = shown.map(([kind, unit]) => make("th", kind, make("small", ` ${unit}`)));
+    table.append(make("thead", make("tr", make("th", "dock"), ...columns)), loads(desk, shown));
+  } else {
+    note.textContent = "The recording has no loads of docks.";
     table.append(...joins(desk));
-    shorten(table);
-    return;
   }
-  element("docks-note").textContent = `largest of the rows in the judged window${ghost ? `; below, thin: ${ghost.label}` : ""}`;
-  const peaks = meta.docks.map((_, n) => shown.map(([kind]) => peak(recording, n, kind)));
-  const second = meta.docks.map((_, n) => (ghost && ghost.number("dock", n) >= 0 && ghost.recording.has(`dock.0.${kinds[0][0]}`) ? shown.map(([kind]) => peak(ghost.recording, ghost.number("dock", n), kind)) : null));
-  const largest = shown.map((_, k) => Math.max(...peaks.map((p) => p[k]), ...second.map((p) => p?.[k] ?? 0), 1e-6)), by = shown.findIndex(([k]) => k === "bending");
-  const order = meta.docks.map((_, n) => n).sort((a, b) => peaks[b][Math.max(by, 0)] - peaks[a][Math.max(by, 0)]);
-  const load = (value: number, k: number) => number(value, 3, shown[k][1]);
-  const bar = (value: number, most: number, ...text: HTMLElement[]): HTMLElement => {
-    const fill = make("i");
-    fill.style.width = `${(100 * value / most).toFixed(1)}%`;
-    return make("span.bar", fill, ...text);
-  };
-  const body = make("tbody", ...order.map((n) => make("tr", head(desk, n), ...shown.map((_, k) => {
-      const theirs = second[n]?.[k], cell = make("td", bar(peaks[n][k], largest[k], make("span", load(peaks[n][k], k) + (theirs === undefined ? "" : ` · ${load(theirs, k)}`))));
-      if (theirs !== undefined) cell.append(bar(theirs, largest[k]));
-      return cell;
-    }))));
-  table.append(make("thead", make("tr", make("th", "dock"), ...shown.map(([kind, unit]) => make("th", kind, make("small", ` ${unit}`))))), body);
   shorten(table);
 }
 
+/** A row per dock with its largest loads, by bending if it is recorded. */
+function loads(desk: Desk, shown: readonly Kind[]): HTMLElement {
+  const { docks: all } = desk.recording.meta;
+  const own = all.map((_, n) => peaks(desk.recording, n, shown));
+  const second = all.map((_, n) => peaksOfSecond(desk, n, shown));
+  const largest = shown.map((_, k) => Math.max(...own.map((p) => p[k]), ...second.map((p) => p?.[k] ?? 0), 1e-6));
+  const by = Math.max(
+    shown.findIndex(([k]) => k === "bending"),
+    0,
+  );
+  const order = all.map((_, n) => n).sort((a, b) => own[b][by] - own[a][by]);
+  const cells = (n: number) => shown.map(([, unit], k) => cell(unit, largest[k], own[n][k], second[n]?.[k]));
+  return make("tbody", ...order.map((n) => make("tr", head(desk, n), ...cells(n))));
+}
+
+/** A load as number and bar, `largest` as the full width; for two runs both. */
+function cell(unit: string, largest: number, own: number, second?: number): HTMLElement {
+  const text = (value: number) => number(value, 3, unit);
+  const bar = (value: number, ...words: HTMLElement[]): HTMLElement => {
+    const fill = make("i");
+    fill.style.width = `${((100 * value) / largest).toFixed(1)}%`;
+    return make("span.bar", fill, ...words);
+  };
+  const made = make("td", bar(own, make("span", text(own) + (second === undefined ? "" : ` · ${text(second)}`))));
+  if (second !== undefined) made.append(bar(second));
+  return made;
+}
+
+const peaks = (recording: Recording, dock: number, shown: readonly Kind[]): number[] =>
+  shown.map(([kind]) => peak(recording, dock, kind));
+
+/** Peaks at the same dock in the second run; null if that run has none. */
+function peaksOfSecond({ ghost }: Desk, dock: number, shown: readonly Kind[]): number[] | null {
+  const theirs = ghost?.number("dock", dock) ?? -1;
+  return ghost && theirs >= 0 && ghost.recording.has(`dock.0.${kinds[0][0]}`)
+    ? peaks(ghost.recording, theirs, shown)
+    : null;
+}
 function peak(recording: Recording, dock: number, kind: string): number {
   let most = 0;
-  recording.channel(`dock.${dock}.${kind}`).forEach((v, i) => { if (i >= recording.judged) most = Math.max(most, kind === "tension" ? v : Math.abs(v)); });
+  recording.channel(`dock.${dock}.${kind}`).forEach((v, i) => {
+    if (i >= recording.judged) most = Math.max(most, kind === "tension" ? v : Math.abs(v));
+  });
   return most;
 }
 
-/** A dozen rows, and a button for all. */
+/** Shows the first dozen rows, and a button for all. */
 function shorten(table: HTMLTableElement): void {
   const rows = [...table.tBodies[0].rows];
   if (rows.length <= few) return;
-  const all = make("button", `All ${rows.length} docks`), show = (shown: boolean) => rows.slice(few).forEach((r) => { r.hidden = !shown; });
+  const all = make("button", `All ${rows.length} docks`);
+  const show = (shown: boolean) =>
+    rows.slice(few).forEach((r) => {
+      r.hidden = !shown;
+    });
   all.type = "button";
   all.addEventListener("click", () => {
     show(true);
@@ -59,13 +96,16 @@ function shorten(table: HTMLTableElement): void {
 }
 
 function head(desk: Desk, n: number): HTMLTableCellElement {
-  const { docks: all, modules } = desk.recording.meta, { name, module, parent, face, parent_face } = all[n], cell = make("th", marker(desk, n, dockName(name)));
+  const { docks: all, modules } = desk.recording.meta;
+  const { name, module, parent, face, parent_face } = all[n];
+  const cell = make("th", marker(desk, n, dockName(name)));
   cell.scope = "row";
-  cell.title = `face ${face} of ${modules[module]?.name ?? name} on face ${parent_face} of ${modules[parent]?.name ?? "?"}`;
+  const own = `face ${face} of ${modules[module]?.name ?? name}`;
+  cell.title = `${own} on face ${parent_face} of ${modules[parent]?.name ?? "?"}`;
   return cell;
 }
 
-/** A button that marks a dock in 3D. */
+/** Button that marks a dock in 3D. */
 function marker(desk: Desk, n: number, text: string): HTMLElement {
   const button = make("button.link", text);
   button.type = "button";
@@ -76,15 +116,24 @@ function marker(desk: Desk, n: number, text: string): HTMLElement {
   return button;
 }
 
-/** Rows that say which face sits on which. */
+/** Head and rows of a table with the two faces at each dock. */
 export function joins(desk: Desk): HTMLElement[] {
   const { docks: all, modules } = desk.recording.meta;
   return [
     make("thead", make("tr", make("th", "module"), make("th", "its face"), make("th", "on face"), make("th", "of"))),
-    make("tbody", ...all.map((d, n) => {
-      const name = make("th", marker(desk, n, modules[d.module]?.name ?? d.name));
-      name.scope = "row";
-      return make("tr", name, make("td", String(d.face)), make("td", String(d.parent_face)), make("td", modules[d.parent]?.name ?? "–"));
-    })),
+    make(
+      "tbody",
+      ...all.map((d, n) => {
+        const name = make("th", marker(desk, n, modules[d.module]?.name ?? d.name));
+        name.scope = "row";
+        return make(
+          "tr",
+          name,
+          make("td", String(d.face)),
+          make("td", String(d.parent_face)),
+          make("td", modules[d.parent]?.name ?? "–"),
+        );
+      }),
+    ),
   ];
 }

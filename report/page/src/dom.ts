@@ -1,4 +1,4 @@
-// Elements of page.html, and new ones; text is always text, never markup.
+// Access to elements of page.html, and creation of new ones. Text is never interpreted as markup.
 
 export function element<T extends HTMLElement = HTMLElement>(id: string): T {
   const found = document.getElementById(id);
@@ -8,8 +8,11 @@ export function element<T extends HTMLElement = HTMLElement>(id: string): T {
 
 type Child = Node | string;
 
-/** make("td.num", "12") is <td class="num">12</td>. */
-export function make<K extends keyof HTMLElementTagNameMap>(tag: K | `${K}.${string}`, ...children: Child[]): HTMLElementTagNameMap[K] {
+/** Creates an element: make("td.num", "12") is <td class="num">12</td>. */
+export function make<K extends keyof HTMLElementTagNameMap>(
+  tag: K | `${K}.${string}`,
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
   const [name, ...classes] = tag.split(".");
   const made = document.createElement(name as K);
   if (classes.length) made.className = classes.join(" ");
@@ -27,7 +30,7 @@ export function icon(paths: string, box = 16): SVGSVGElement {
   return svg;
 }
 
-/** Leaves the panel around an element out, and says why at the end of the page. */
+/** Hides the panel around an element, and lists it with the reason at the end of the page. */
 export function leaveOut(host: HTMLElement, why: string): void {
   const panel = host.closest<HTMLElement>(".panel");
   if (!panel) return;

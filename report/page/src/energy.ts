@@ -1,6 +1,7 @@
-// Where the energy went, and the electrical power over time.
+// Panel of the energy: sinks of the electrical energy, electrical power and energies over time.
 import type { Values } from "./channels";
 import { element, leaveOut, make } from "./dom";
+import type { Meta } from "./format";
 import { keys } from "./keyline";
 import { number, percent, quantity } from "./numbers";
 import type { Desk, Panel } from "./panel";
@@ -8,77 +9,154 @@ import type { Recording } from "./recording";
 import { second, TimePlot } from "./timeplot";
 
 const sinks: [key: string, name: string, colour: string][] = [
-  ["copper", "heat in the windings", "--vermillion"], ["gear", "gears", "--orange"], ["friction", "feet that slide", "--green"], ["contact", "impacts", "--sky"],
-  ["stops", "hinge stops", "--fail"], ["stored", "stored", "--blue"], ["residual", "unaccounted", "--muted"],
+  ["copper", "heat in the windings", "--vermillion"],
+  ["gear", "gears", "--orange"],
+  ["friction", "feet that slide", "--green"],
+  ["contact", "impacts", "--sky"],
+  ["stops", "hinge stops", "--fail"],
+  ["stored", "stored", "--blue"],
+  ["residual", "unaccounted", "--muted"],
 ];
+
+/** Row of the ledger: name, bar, energy, share of the sum; empty without a sum. */
+function bar(name: string, value: number, sum: number | null, colour: string, opacity: string): HTMLElement[] {
+  if (!sum) return [];
+  const fill = make("i");
+  const width = Math.min(100, 100 * Math.abs(value / sum)).toFixed(1);
+  fill.style.cssText = `width:${width}%;background:var(${colour})`;
+  fill.style.opacity = opacity;
+  return [
+    make("span", name),
+    make("span.bar", fill),
+    make("span.n", quantity(value, "J")),
+    make("span.n", percent(value / sum, 2)),
+  ];
+}
+
+/** Reason to leave the panel out. */
+function lacking({ motors, summary }: Meta): string {
+  if (!motors.length) return "the joints have no motors.";
+  return summary.energy ? "the motors draw nothing." : "the summary has no energies.";
+}
+
+/** Energy that the motors of a run draw, and its average power. */
+function total({ duration }: Meta, drawn: number | null, label?: string): HTMLElement {
+  const words = ` drawn in ${number(duration)} s, ${quantity((drawn ?? 0) / duration, "W")} on average`;
+  return make(
+    "p",
+    ...(label === undefined ? [] : [`${label}: `]),
+    ...(drawn ? [make("b", quantity(drawn, "J")), words] : ["its energy is unknown"]),
+  );
+}
 
 export class Energy implements Panel {
   private plots: TimePlot[] = [];
-  private readonly powers: (Values | null)[]; // of each run, by its own rows
+  private readonly powers: (Values | null)[]; // per run, by its rows
 
   constructor(private readonly desk: Desk) {
-    const { recording, runs } = desk, { meta } = recording, host = element("energy");
-    this.powers = runs.map((r) => power(r.recording));
+    this.powers = desk.runs.map((r) => power(r.recording));
     element("power").hidden = !this.powers[0];
     element("energies").hidden = element("energies-key").hidden = !this.sums.length;
-    const all = runs.map((r) => r.recording.meta), drawn = all.map((m) => m.summary.energy?.electrical ?? null);
+    this.list();
+  }
+
+  /** Lists the energies of both runs as numbers and bars. */
+  private list(): void {
+    const { recording, runs, ghost } = this.desk;
+    const { energy } = recording.meta.summary;
+    const host = element("energy");
+    const all = runs.map((r) => r.recording.meta);
+    const drawn = all.map((m) => m.summary.energy?.electrical ?? null);
     if (!drawn[0]) {
-      leaveOut(host, !meta.motors.length ? "the joints have no motors." : meta.summary.energy ? "the motors draw nothing." : "the summary has no energies.");
+      leaveOut(host, lacking(recording.meta));
       return;
     }
-    all.forEach((m, n) => {
-      const sum = drawn[n], words = ` drawn in ${number(m.duration)} s, ${quantity((sum ?? 0) / m.duration, "W")} on average`;
-      host.append(make("p", ...(desk.ghost ? [`${desk.ghost.overlay.labels[n]}: `] : []), ...(sum ? [make("b", quantity(sum, "J")), words] : ["nothing is known of its energy"])));
-    });
-    const rows = sinks.filter(([key]) => all.some((m, n) => Math.abs(m.summary.energy?.[key] ?? 0) > 1e-4 * Math.abs(drawn[n] ?? Infinity)));
-    host.append(make("div.ledger", ...rows.flatMap(([key, name, colour]) => all.flatMap((m, n) => {
-      const value = m.summary.energy?.[key] ?? 0, sum = drawn[n], fill = make("i");
-      if (!sum) return [];
-      fill.style.cssText = `width:${Math.min(100, 100 * Math.abs(value / sum)).toFixed(1)}%;background:var(${colour})`;
-      if (n) fill.style.opacity = "0.55";
-      return [make("span", n ? desk.ghost!.label : name), make("span.bar", fill), make("span.n", quantity(value, "J")), make("span.n", percent(value / sum, 2))];
-    }))));
-    const created = meta.summary.energy?.created ?? 0;
-    if (created > 0.02 * drawn[0]) host.append(make("p.note", `Gears that the load drives backwards gave ${quantity(created, "J")} too much (equation 2).`));
+    host.append(...all.map((m, n) => total(m, drawn[n], ghost?.overlay.labels[n])));
+    const rows = sinks.filter(([key]) =>
+      all.some((m, n) => Math.abs(m.summary.energy?.[key] ?? 0) > 1e-4 * Math.abs(drawn[n] ?? Infinity)),
+    );
+    const bars = rows.flatMap(([key, name, colour]) =>
+      all.flatMap((m, n) =>
+        bar(n ? ghost!.label : name, m.summary.energy?.[key] ?? 0, drawn[n], colour, n ? "0.55" : ""),
+      ),
+    );
+    host.append(make("div.ledger", ...bars));
+    const created = energy?.created ?? 0;
+    if (created > 0.02 * drawn[0]) {
+      host.append(
+        make("p.note", `Gears that the load drives backwards gave ${quantity(created, "J")} too much (equation 2).`),
+      );
+    }
   }
 
   paint(): void {
-    const { desk, powers: [own, theirs] } = this, { ink, recording, ghost } = desk;
+    const { desk } = this;
+    const [own, theirs] = this.powers;
+    const { ink, recording, ghost } = desk;
     this.plots.forEach((p) => p.destroy());
     this.plots = [];
     if (own) {
-      this.plots.push(new TimePlot(element("power"), desk, {
-        label: "Electrical power of all joints over time", left: { name: "power (W)" }, levels: [{ value: 0, axis: "left", colour: ink.line }],
-        curves: [{ values: own, label: "power", colour: ink.orange, width: 1.4, axis: "left" }, ...(theirs ? [second(ghost!.atRows(theirs), `power, ${ghost!.label}`, ink.purple, "left")] : [])],
-      }));
+      this.plots.push(
+        new TimePlot(element("power"), desk, {
+          label: "Electrical power of all joints over time",
+          left: { name: "power (W)" },
+          levels: [{ value: 0, axis: "left", colour: ink.line }],
+          curves: [
+            { values: own, label: "power", colour: ink.orange, width: 1.4, axis: "left" },
+            ...(theirs ? [second(ghost!.atRows(theirs), `power, ${ghost!.label}`, ink.purple, "left")] : []),
+          ],
+        }),
+      );
     }
     if (this.sums.length) {
-      this.plots.push(new TimePlot(element("energies"), desk, {
-        label: "Energy from the start on: drawn by the motors, and where it went", left: { name: "energy (J)" }, levels: [{ value: 0, axis: "left", colour: ink.line }],
-        curves: this.sums.map(([key, name, colour]) => ({ values: recording.channel(`energy.${key}`), label: name, colour: getComputedStyle(document.documentElement).getPropertyValue(colour), axis: "left" })),
-      }));
-      keys("energies-key", this.sums.map(([, name, colour]) => ["", colour, name]));
+      this.plots.push(
+        new TimePlot(element("energies"), desk, {
+          label: "Energy from the start on: drawn by the motors, and its use",
+          left: { name: "energy (J)" },
+          levels: [{ value: 0, axis: "left", colour: ink.line }],
+          curves: this.sums.map(([key, name, colour]) => ({
+            values: recording.channel(`energy.${key}`),
+            label: name,
+            colour: getComputedStyle(document.documentElement).getPropertyValue(colour),
+            axis: "left",
+          })),
+        }),
+      );
+      keys(
+        "energies-key",
+        this.sums.map(([, name, colour]) => ["", colour, name]),
+      );
     }
     this.seek(desk.state.t);
   }
 
-  zoom(): void { this.plots.forEach((p) => p.zoom()); }
-  seek(t: number): void { this.plots.forEach((p) => p.seek(t)); }
+  zoom(): void {
+    this.plots.forEach((p) => p.zoom());
+  }
+  seek(t: number): void {
+    this.plots.forEach((p) => p.seek(t));
+  }
 
-  // Of the energies that the trace has, those that are drawn over time.
+  // Recorded energies for the plot over time.
   private get sums(): typeof sinks {
-    return ([["electrical", "drawn", "--ink2"], ...sinks] as typeof sinks).filter(([key]) => this.desk.recording.has(`energy.${key}`));
+    return ([["electrical", "drawn", "--ink2"], ...sinks] as typeof sinks).filter(([key]) =>
+      this.desk.recording.has(`energy.${key}`),
+    );
   }
 }
 
-/** Electrical power of all joints; null where nothing is known of it, or nothing is drawn. */
+/** Electrical power of all joints; null if a voltage or current is not recorded, or the motors draw nothing. */
 function power(recording: Recording): Values | null {
-  const { joints } = recording.meta, known = (j: number) => recording.has(`joint.${j}.voltage`) && recording.has(`joint.${j}.current`);
+  const { joints } = recording.meta;
+  const known = (j: number) => recording.has(`joint.${j}.voltage`) && recording.has(`joint.${j}.current`);
   if (!joints.every(({ motor }, j) => motor === null || known(j))) return null;
   const sum = new Float32Array(recording.rows);
   joints.forEach((_, j) => {
-    const u = recording.channel(`joint.${j}.voltage`), i = recording.channel(`joint.${j}.current`);
-    sum.forEach((_w, k) => { sum[k] += u[k] * i[k]; });
+    const u = recording.channel(`joint.${j}.voltage`);
+    const i = recording.channel(`joint.${j}.current`);
+    sum.forEach((_w, k) => {
+      sum[k] += u[k] * i[k];
+    });
   });
   return sum.some((p) => p !== 0) ? sum : null;
 }

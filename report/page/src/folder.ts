@@ -1,6 +1,7 @@
-// The folder of a run, for commands to paste: that of this page, where it still lies there. No page holds its folder's name.
+// Folder of a run, for commands to paste. It follows from the address of the page, because the file does not contain
+// the name of its folder.
 
-/** As a shell takes it; FOLDER where the page is not at the place of a run's page, so that nobody knows. */
+/** Folder, quoted for a shell; FOLDER if the page was renamed or is not a local file. */
 export function folder(): string {
   const [, path] = /^(.*)\/(?:report|compare)\.html$/.exec(decodeURIComponent(location.pathname)) ?? [];
   if (location.protocol !== "file:" || !path) return "FOLDER";

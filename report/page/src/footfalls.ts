@@ -1,11 +1,16 @@
-// When each foot carries load, darker: more; beside it the duty factor of the judged window.
-import { Board, fitted, font, timeAxis, type Pen } from "./board";
+// Plot of the footfalls: load of each foot over time, darker for more, and the duty factor in the judged window.
+import { Board, fitted, font, placeHead, timeAxis, type Pen } from "./board";
 import type { Values } from "./channels";
 import { element, leaveOut } from "./dom";
+import type { Meta } from "./format";
 import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
+import type { Recording } from "./recording";
 
-const left = 116, right = 46, foot = 22, threshold = 0.02; // of the weight
+const left = 116;
+const right = 46;
+const foot = 22;
+const threshold = 0.02; // share of the weight that counts as load
 
 interface Foot {
   name: string;
@@ -23,73 +28,125 @@ export class Footfalls implements Panel {
   private readonly most: number;
 
   constructor(private readonly desk: Desk) {
-    const { recording } = desk, from = recording.judged;
+    const { recording, ghost } = desk;
     this.on = threshold * recording.meta.weight;
-    this.feet = recording.meta.feet.flatMap(({ title: name }, n) => {
-      const load = recording.find(`foot.${n}.fz`);
-      if (!load) return [];
-      let rows = 0;
-      for (let i = from; i < load.length; i++) rows += load[i] > this.on ? 1 : 0;
-      return [{ name, number: n, load, duty: rows / Math.max(1, load.length - from) }];
-    });
+    this.feet = feetOf(recording, this.on);
     this.most = Math.max(1e-9, ...this.feet.map((f) => f.load.reduce((a, b) => Math.max(a, b), 0)));
     this.head = this.host.querySelector<HTMLElement>(".playhead");
     if (!this.feet.length) {
-      leaveOut(this.host, recording.meta.ground.kind === "none" ? "there is no ground." : recording.meta.contacts.length ? "no foot carries load, or the recording has no contacts (trace.columns)." : "nothing of the robot touches the ground.");
+      leaveOut(this.host, lacking(recording.meta));
       return;
     }
-    if (desk.ghost) keys("foot-key", [["band", "--green", desk.ghost.overlay.labels[0]], ["band", "--purple", `${desk.ghost.label}, below`]]);
-    this.host.style.height = `${foot + Math.max(Math.min(220, 60 * this.feet.length), Math.min(330, this.feet.length * 26))}px`;
-    this.board = new Board(this.host, "When each foot carries load", (pen, width, height) => this.draw(pen, width, height));
-    this.host.addEventListener("click", (e) => {
-      const r = this.host.getBoundingClientRect(), x = (e.clientX - r.left - left) / (r.width - left - right), [a, b] = desk.state.span;
-      if (x >= 0 && x <= 1) desk.goTo(a + x * (b - a));
-    });
+    if (ghost) {
+      keys("foot-key", [
+        ["band", "--green", ghost.overlay.labels[0]],
+        ["band", "--purple", `${ghost.label}, below`],
+      ]);
+    }
+    const feet = this.feet.length;
+    this.host.style.height = `${foot + Math.max(Math.min(220, 60 * feet), Math.min(330, 26 * feet))}px`;
+    this.board = new Board(this.host, "Load of each foot over time", (pen, width, height) =>
+      this.draw(pen, width, height),
+    );
+    this.host.addEventListener("click", (e) => this.click(e));
   }
 
-  paint(): void { this.board?.paint(); }
-  zoom(): void { this.board?.paint(); }
+  paint(): void {
+    this.board?.paint();
+  }
+  zoom(): void {
+    this.board?.paint();
+  }
 
   seek(t: number): void {
     if (!this.board || !this.head) return;
-    const [from, to] = this.desk.state.span, x = (t - from) / (to - from);
-    this.head.style.display = x >= 0 && x <= 1 ? "" : "none";
-    this.head.style.transform = `translateX(${left + x * (this.host.clientWidth - left - right)}px)`;
+    placeHead(this.head, t, this.desk.state.span, left, this.host.clientWidth - left - right);
+  }
+
+  private click(e: MouseEvent): void {
+    const r = this.host.getBoundingClientRect();
+    const x = (e.clientX - r.left - left) / (r.width - left - right);
+    const [from, to] = this.desk.state.span;
+    if (x >= 0 && x <= 1) this.desk.goTo(from + x * (to - from));
   }
 
   private draw(pen: Pen, fullWidth: number, fullHeight: number): void {
-    const { feet, desk } = this, { ink, recording, state } = desk, width = Math.floor(fullWidth - left - right), height = fullHeight - foot, each = height / feet.length, [from, to] = state.span;
-    const edges = Array.from({ length: width + 1 }, (_, x) => recording.row(from + (to - from) * x / width));
+    const { feet, desk } = this;
+    const { ink, recording, state } = desk;
+    const width = Math.floor(fullWidth - left - right);
+    const height = fullHeight - foot;
+    const each = height / feet.length;
+    const edges = recording.columns(state.span, width);
     let last = -99;
-    feet.forEach(({ name, load, duty, number }, r) => {
-      const top = r * each, gap = Math.min(5, each * 0.16), middle = top + each / 2;
-      // Two runs share a row: the second one has its lower third.
-      const second = desk.ghost?.values(`foot.${number}.fz`) ?? null, tall = each - 2 * gap, upper = desk.ghost ? 0.62 * tall : tall;
-      pen.fillStyle = ink.track;
-      pen.fillRect(left, top + gap, width, tall);
-      const blocks = (values: Values, colour: string, on: number, most: number, y: number, h: number) => {
-        pen.fillStyle = colour;
-        for (let x = 0; x < width; x++) {
-          let held = 0;
-          for (let i = edges[x], end = Math.max(edges[x] + 1, edges[x + 1]); i < end; i++) if (values[i] > held) held = values[i];
-          if (held <= on) continue;
-          pen.globalAlpha = 0.35 + 0.65 * Math.min(1, held / (0.6 * most));
-          pen.fillRect(left + x, y, 1, h);
-        }
-        pen.globalAlpha = 1;
-      };
-      blocks(load, ink.green, this.on, this.most, top + gap, upper);
-      if (second) blocks(second, ink.purple, threshold * desk.ghost!.recording.meta.weight, this.most, top + gap + upper + 1, tall - upper - 1);
+    feet.forEach((one, r) => {
+      const middle = r * each + each / 2;
+      this.row(pen, one, edges, r * each, each);
       if (middle - last < 11.5) return;
       last = middle;
-      pen.font = font(11);
-      pen.textBaseline = "middle";
-      pen.fillStyle = ink.ink2;
-      pen.textAlign = "right";
-      pen.fillText(fitted(pen, name, left - 12), left - 8, Math.max(middle, 6));
-      pen.fillText(`${Math.round(100 * duty)} %`, fullWidth - 2, Math.max(middle, 6));
+      this.name(pen, one, fullWidth, middle);
     });
     timeAxis(pen, ink, left, width, height + 7, state.span);
     this.seek(state.t);
   }
+
+  // Two runs share a row: the lower third shows the second one.
+  private row(pen: Pen, { load, number }: Foot, edges: number[], y: number, each: number): void {
+    const { ink, ghost } = this.desk;
+    const gap = Math.min(5, each * 0.16);
+    const top = y + gap;
+    const tall = each - 2 * gap;
+    const upper = ghost ? 0.62 * tall : tall;
+    const second = ghost?.values(`foot.${number}.fz`) ?? null;
+    pen.fillStyle = ink.track;
+    pen.fillRect(left, top, edges.length - 1, tall);
+    pen.fillStyle = ink.green;
+    this.blocks(pen, load, this.on, edges, top, upper);
+    if (second) {
+      pen.fillStyle = ink.purple;
+      this.blocks(pen, second, threshold * ghost!.recording.meta.weight, edges, top + upper + 1, tall - upper - 1);
+    }
+  }
+
+  // A block per column of pixels in which the load exceeds `on`.
+  private blocks(pen: Pen, load: Values, on: number, edges: number[], y: number, height: number): void {
+    for (let x = 0; x + 1 < edges.length; x++) {
+      let held = 0;
+      for (let i = edges[x], end = Math.max(edges[x] + 1, edges[x + 1]); i < end; i++) {
+        if (load[i] > held) held = load[i];
+      }
+      if (held <= on) continue;
+      pen.globalAlpha = 0.35 + 0.65 * Math.min(1, held / (0.6 * this.most));
+      pen.fillRect(left + x, y, 1, height);
+    }
+    pen.globalAlpha = 1;
+  }
+
+  private name(pen: Pen, { name, duty }: Foot, width: number, middle: number): void {
+    pen.font = font(11);
+    pen.textBaseline = "middle";
+    pen.fillStyle = this.desk.ink.ink2;
+    pen.textAlign = "right";
+    pen.fillText(fitted(pen, name, left - 12), left - 8, Math.max(middle, 6));
+    pen.fillText(`${Math.round(100 * duty)} %`, width - 2, Math.max(middle, 6));
+  }
+}
+
+/** Feet with a recorded load; `on`: the least load that counts for the duty factor, N. */
+function feetOf(recording: Recording, on: number): Foot[] {
+  const { meta, judged } = recording;
+  return meta.feet.flatMap(({ title: name }, n) => {
+    const load = recording.find(`foot.${n}.fz`);
+    if (!load) return [];
+    let rows = 0;
+    for (let i = judged; i < load.length; i++) rows += load[i] > on ? 1 : 0;
+    return [{ name, number: n, load, duty: rows / Math.max(1, load.length - judged) }];
+  });
+}
+
+/** Reason to leave the panel out. */
+function lacking({ ground, contacts }: Meta): string {
+  if (ground.kind === "none") return "there is no ground.";
+  return contacts.length
+    ? "no foot carries load, or the recording has no contacts (trace.columns)."
+    : "nothing of the robot touches the ground.";
 }

@@ -1,4 +1,4 @@
-// Arrows in 3D: the forces of the ground on the feet.
+// Arrows in 3D for the contact forces on the feet.
 import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Scene, Vector3 } from "three";
 import type { Theme } from "./colour";
 import type { Recording } from "./recording";
@@ -19,19 +19,33 @@ export class Forces {
   private readonly scale: number;
   private readonly head: number;
 
-  constructor(private readonly recording: Recording, scene: Scene, unit: number, size: number) {
+  constructor(
+    private readonly recording: Recording,
+    scene: Scene,
+    unit: number,
+    size: number,
+  ) {
     const { feet, weight } = recording.meta;
-    // A third of the weight, or what one foot of many carries, is as long as a few modules; the largest is never out of the picture.
+    // A third of the weight, or the mean load of a foot of many, is as long as a few modules. The longest arrow fits
+    // into the picture.
     const long = Math.min(size, 14 * unit);
-    this.scale = Math.min(0.18 * long / (Math.max(weight, 1e-9) / Math.max(3, feet.length / 2)), 0.32 * long / this.largest());
+    this.scale = Math.min(
+      (0.18 * long) / (Math.max(weight, 1e-9) / Math.max(3, feet.length / 2)),
+      (0.32 * long) / this.largest(),
+    );
     this.head = 0.4 * unit;
     const shaft = new CylinderGeometry(0.052 * unit, 0.052 * unit, 1, 10).translate(0, 0.5, 0);
     const tip = new ConeGeometry(0.15 * unit, this.head, 14).translate(0, this.head / 2, 0);
     this.arrows = feet.flatMap((_, n) => {
       const values = (names: string[]) => names.map((c) => recording.find(`foot.${n}.${c}`));
-      const point = values(["x", "y", "z"]), force = values(["fx", "fy", "fz"]), fz = force[2];
+      const point = values(["x", "y", "z"]);
+      const force = values(["fx", "fy", "fz"]);
+      const fz = force[2];
       if (!fz || point.some((p) => !p)) return [];
-      const none = new Float32Array(recording.rows), group = new Group(), a = new Mesh(shaft, this.material), b = new Mesh(tip, this.material);
+      const none = new Float32Array(recording.rows);
+      const group = new Group();
+      const a = new Mesh(shaft, this.material);
+      const b = new Mesh(tip, this.material);
       a.renderOrder = b.renderOrder = 5;
       group.add(a, b);
       scene.add(group);
@@ -39,7 +53,7 @@ export class Forces {
     });
   }
 
-  /** N, of any foot in any row. */
+  /** Largest force on a foot in the whole run, N. */
   private largest(): number {
     let most = 1e-9;
     this.recording.meta.feet.forEach((_, n) => {
@@ -49,12 +63,17 @@ export class Forces {
     return most;
   }
 
-  get any(): boolean { return this.arrows.length > 0; }
+  get any(): boolean {
+    return this.arrows.length > 0;
+  }
 
   set(t: number, shown: boolean): void {
-    const up = new Vector3(0, 1, 0), at = (values: Values[]) => new Vector3(...values.map((v) => this.recording.at(v, t)) as [number, number, number]);
+    const up = new Vector3(0, 1, 0);
+    const at = (values: Values[]) =>
+      new Vector3(...(values.map((v) => this.recording.at(v, t)) as [number, number, number]));
     for (const { group, shaft, tip, force, point } of this.arrows) {
-      const f = at(force), n = f.length();
+      const f = at(force);
+      const n = f.length();
       group.visible = shown && n > 0.005 * this.recording.meta.weight;
       if (!group.visible) continue;
       group.position.copy(at(point));
@@ -64,5 +83,7 @@ export class Forces {
     }
   }
 
-  paint(theme: Theme): void { this.material.color.set(theme === "dark" ? 0x2cc597 : 0x007a59); }
+  paint(theme: Theme): void {
+    this.material.color.set(theme === "dark" ? 0x2cc597 : 0x007a59);
+  }
 }

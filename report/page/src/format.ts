@@ -1,4 +1,5 @@
-// What the program writes into the page: report/page/page_data.cpp. SI units; what is not known is null, what does not apply is [].
+// Types of the data in the page, which report/page/page_data.cpp writes. SI units; an unknown number is null, a list
+// that does not apply is [].
 
 export type Vec3 = [number, number, number];
 /** x, y, z, then the quaternion w, x, y, z. */
@@ -7,8 +8,8 @@ export type Pose = [number, number, number, number, number, number, number];
 export interface Joint {
   name: string;
   module: number;
-  body: number; // that it moves; index in bodies
-  lo: number | null; // null: it turns freely
+  body: number; // moved by the joint; index in bodies
+  lo: number | null; // null: no stops
   hi: number | null;
   motor: number | null; // index in motors
 }
@@ -26,7 +27,7 @@ export interface Body {
   post: Pose;
 }
 
-/** box: x y z; cylinders, along y: radius, length, 0 (the half one bulges towards +x); sphere: radius, 0, 0. */
+/** Sizes: box x, y, z; cylinders along y: radius, length, 0 (half_cylinder: towards +x); sphere: radius, 0, 0. */
 export interface Shape {
   kind: "box" | "cylinder" | "half_cylinder" | "sphere";
   pose: Pose;
@@ -52,7 +53,7 @@ export interface Dock {
 export interface GroundBox {
   pose: Pose;
   size: Vec3;
-  moves: number; // -1: never; else the N of the channels box.N.*
+  moves: number; // N of the channels box.N.*; -1: fixed
 }
 
 /** Heights row by row: x runs fastest. */
@@ -73,15 +74,15 @@ export interface Ground {
 }
 
 export interface Foot {
-  name: string; // of the body
-  title: string; // of its leg in figures: m5 rear left; else the name
+  name: string; // name of the body
+  title: string; // name of the leg in figures (m5 rear left), else of the body
   module: number;
   body: number;
 }
 
-/** The torque that is available between `least` and `most` at each of the speeds; no samples: no limit is known. */
+/** Available torques: from `least` to `most` at each speed; no samples: the limit is unknown. */
 export interface Motor {
-  unit: "V" | "N m"; // of its command
+  unit: "V" | "N m"; // unit of the command
   command: number | null;
   current: number | null;
   continuous: number | null; // A
@@ -95,7 +96,7 @@ export interface Motor {
 export type Status = "pass" | "warn" | "fail" | "too close" | "not judged";
 export type Part = "none" | "joint" | "body" | "dock" | "foot";
 
-/** value, limit, unit and margin are those of the criterion that decides. */
+/** Result of a check; value, limit, unit and margin belong to the criterion that decides it. */
 export interface Check {
   id: string;
   group: string;
@@ -105,19 +106,19 @@ export interface Check {
   can_fail: boolean;
   value: number | null;
   limit: number | null;
-  least: boolean; // the limit is the least that is allowed
-  unit: string; // "": a share
-  margin: number | null; // share of the limit that is left; negative: beyond it
-  error: number | null; // share by which the value may be off
-  part: Part; // of worst and first_part
-  worst: string | null; // a dock by its module
-  parts: number; // beyond the limit
-  from: number | null; // s: when the worst part was
+  least: boolean; // true for a lower limit
+  unit: string; // "" for a share
+  margin: number | null; // as a share of the limit; negative beyond it
+  error: number | null; // relative error of the value
+  part: Part; // kind of worst and first_part
+  worst: string | null; // name of the worst part; for a dock the name of its module
+  parts: number; // number of parts beyond the limit
+  from: number | null; // s: start of the time of the worst part beyond the limit
   to: number | null;
-  first: number | null; // s: when any part was beyond the limit first
+  first: number | null; // s: first time of a part beyond the limit
   first_part: string | null;
-  remedy: string; // what to set; "": no setting is known to help
-  advice: string; // what helps in general
+  remedy: string; // setting that helps, if one is known
+  advice: string; // general remedy
   missing: string;
   definition: string;
   source: string;
@@ -127,24 +128,24 @@ export interface Check {
 export interface Verdict {
   format: 2;
   verdict: "feasible" | "infeasible" | "failed" | "not judged";
-  reason: string; // of `not judged`
-  why: string; // behind the word, as the terminal has it; "" of feasible
-  decided_by: string | null; // id of the check that `failed` and `infeasible` rest on
-  tightest: string | null; // id of the check that can fail with the least margin
-  rests_on: string; // `3 periods of 4 s`
-  /** The joint that is at limits of its motor for the largest share of the judged time. */
+  reason: string; // reason of `not judged`
+  why: string; // text after the verdict, as on the terminal; "" for feasible
+  decided_by: string | null; // id of the check that decides `failed` or `infeasible`
+  tightest: string | null; // id of the check with the smallest margin, among checks that can fail
+  rests_on: string; // evidence: `3 periods of 4 s`
+  /** Joint at limits of its motor for the largest share of the judged time. */
   longest: { joint: string; voltage: number; current: number } | null;
-  /** The first joint of the run at a limit of its motor, however shortly; s. */
+  /** First joint at a limit of its motor, for however short a time; s. */
   first: { joint: string; time: number } | null;
   window: { from: number; to: number };
   counts: Record<Status, number>;
   checks: Check[];
-  chosen_motors?: boolean; // figures of the motors are chosen, not a maker's
-  chosen_docks?: boolean; // the same of what docks hold
-  demand?: { doubt: string; joints: Demand[] }; // only where somebody asked
+  chosen_motors?: boolean; // data of the motors are chosen, not the manufacturer's
+  chosen_docks?: boolean; // strengths of the docks are chosen
+  demand?: { doubt: string; joints: Demand[] }; // only with --demand
 }
 
-/** Largest magnitudes of a joint in a run whose motors have no limits. */
+/** Largest magnitudes of a joint in a run without motor limits. */
 export interface Demand {
   joint: string;
   voltage: number | null;
@@ -153,7 +154,7 @@ export interface Demand {
   speed: number | null;
 }
 
-/** Of summary.json, what the page reads. */
+/** Part of summary.json that the page uses. */
 export interface Summary {
   speed?: number | null;
   distance?: number | null;
@@ -168,22 +169,22 @@ export type Channel = [name: string, unit: string, quantum: number, count: numbe
 /** Amplitude and phase of a first harmonic, rad. */
 export type Harmonic = [amplitude: number, phase: number];
 
-/** A signal of the second run that left its band around the first one's. */
+/** Signal of the second run that left its band around the signal of the first run. */
 export interface Stray {
-  signal: string; // a channel
+  signal: string; // name of the channel
   unit: string;
   ratio: number; // RMS of the difference, in bands
-  tolerance: number; // in the unit: how far it may be away at a time
+  tolerance: number; // largest permitted difference at a time, in the unit
   from: number | null; // s: the first time beyond the tolerance
 }
 
-/** A second run, which is laid over the page's own: report/page/page_overlay.h. */
+/** Second run on the page (report/page/page_overlay.h). */
 export interface Overlay {
   labels: [own: string, second: string];
-  differs: string[]; // settings
-  strayed: string | null; // a run that strayed from its golden; null: a page of two runs
+  differs: string[]; // settings that differ
+  strayed: string | null; // reason why a run failed against its golden; null: a page of two runs
   strays: Stray[];
-  differences: Channel[]; // second less own, of each stray by its signal
+  differences: Channel[]; // second run minus first, per stray signal
   run: Meta;
 }
 
@@ -198,7 +199,7 @@ export interface Meta {
   period: number;
   rows: number;
   duration: number;
-  outcome: string; // "done"; "not run": a robot that was only checked; else why the run ended early
+  outcome: string; // "done"; "not run" for a robot that was only checked; else the reason of an early end
   mass: number;
   weight: number;
   modules: { name: string; type: string }[];

@@ -1,4 +1,4 @@
-// The run that is laid over the page's own one: by the clock of that one, and under its numbers of joints, feet and docks.
+// Second run of the page, by the time of the first run and by the first run's numbers of joints, feet and docks.
 import type { Values } from "./channels";
 import type { Overlay, Stray } from "./format";
 import { Loads } from "./loads";
@@ -12,100 +12,162 @@ export class Ghost {
   readonly loads: Loads;
   readonly overlay: Overlay;
   private phase = false;
-  private readonly numbers: Record<Kind, number[]>; // of the page's own things in this run; -1: it has none of that name
+  /** Numbers in the second run by numbers in the first; -1: the second run has none of that name. */
+  private readonly numbers: Record<Kind, number[]>;
   private readonly known = new Map<string, Values | null>();
 
   readonly recording: Recording;
 
-  constructor(private readonly second: Second, private readonly own: Recording) {
+  constructor(
+    private readonly second: Second,
+    private readonly own: Recording,
+  ) {
     const { recording } = second;
     this.recording = recording;
     this.overlay = own.meta.overlay!;
     this.loads = new Loads(recording);
-    const { joints, feet, docks } = own.meta, places = (ours: { name: string }[], theirs: { name: string }[]) => ours.map(({ name }) => theirs.findIndex((one) => one.name === name));
-    this.numbers = { joint: places(joints, recording.meta.joints), foot: places(feet, recording.meta.feet), dock: places(docks, recording.meta.docks) };
+    const { joints, feet, docks } = own.meta;
+    const places = (ours: { name: string }[], theirs: { name: string }[]) =>
+      ours.map(({ name }) => theirs.findIndex((one) => one.name === name));
+    this.numbers = {
+      joint: places(joints, recording.meta.joints),
+      foot: places(feet, recording.meta.feet),
+      dock: places(docks, recording.meta.docks),
+    };
   }
 
-  /** The number of the same joint, foot or dock in this run, -1 without one. */
-  number(kind: Kind, ours: number): number { return this.numbers[kind][ours] ?? -1; }
+  /** The number of the same joint, foot or dock in the second run, -1 without one. */
+  number(kind: Kind, ours: number): number {
+    return this.numbers[kind][ours] ?? -1;
+  }
 
-  /** The page's own joint of this run's, -1 without one. */
-  jointBack(theirs: number): number { return this.numbers.joint.indexOf(theirs); }
+  /** The number of a joint of the second run in the first, -1 without one. */
+  jointBack(theirs: number): number {
+    return this.numbers.joint.indexOf(theirs);
+  }
 
-  get label(): string { return this.overlay.labels[1]; }
+  get label(): string {
+    return this.overlay.labels[1];
+  }
 
-  /** Whether both runs can be shown at the same phase of their gaits. */
-  get periodic(): boolean { return this.reference >= 0; }
-  get aligned(): boolean { return this.phase; }
+  /** True if both runs have a limit cycle, so that they can be shown at the same phase. */
+  get periodic(): boolean {
+    return this.reference >= 0;
+  }
+  get aligned(): boolean {
+    return this.phase;
+  }
   set aligned(on: boolean) {
     this.phase = on && this.periodic;
     this.known.clear();
   }
 
-  /** This run's time at a time of the page. */
-  time(t: number): number { return this.phase ? this.map(this.own, this.recording, t) : t; }
-  /** The page's time at a time of this run. */
-  back(t: number): number { return this.phase ? this.map(this.recording, this.own, t) : t; }
-  /** Whether this run has that time of the page. */
+  /** Time of the second run at a time of the page. */
+  time(t: number): number {
+    return this.phase ? this.map(this.own, this.recording, t) : t;
+  }
+  /** Time of the page at a time of the second run. */
+  back(t: number): number {
+    return this.phase ? this.map(this.recording, this.own, t) : t;
+  }
+  /** True if the second run covers a time of the page. */
   covers(t: number): boolean {
     const own = this.time(t);
     return own > -1e-9 && own < this.recording.end + 1e-6;
   }
 
-  /** A channel of the page's own run in this one, at the page's rows; NaN where this run does not reach. null: it has none. */
+  /** Channel of the second run by the first run's name, at the page's rows; NaN beyond its end; null: no channel. */
   values(name: string): Values | null {
     const known = this.known.get(name);
     if (known !== undefined) return known;
-    const [kind, number, ...rest] = name.split("."), theirs = kind in this.numbers ? this.number(kind as Kind, Number(number)) : null;
-    const found = theirs === null ? this.recording.find(name) : theirs < 0 ? null : this.recording.find([kind, theirs, ...rest].join("."));
+    const [kind, number, ...rest] = name.split(".");
+    const theirs = kind in this.numbers ? this.number(kind as Kind, Number(number)) : null;
+    const found =
+      theirs === null
+        ? this.recording.find(name)
+        : theirs < 0
+          ? null
+          : this.recording.find([kind, theirs, ...rest].join("."));
     const made = found ? this.atRows(found) : null;
     this.known.set(name, made);
     return made;
   }
 
-  /** Values by this run's rows, at the page's rows. */
+  /** Interpolates values of the second run at the page's rows. */
   atRows(values: Values): Values {
     return Float32Array.from(this.own.times, (t) => (this.covers(t) ? this.recording.at(values, this.time(t)) : NaN));
   }
 
-  /** This run less the golden one, row by row of that; finer than channels are. */
-  difference(signal: string): Values | null { return this.second.differences.get(signal) ?? null; }
+  /** Difference from the golden by its rows, with a finer resolution than channels. */
+  difference(signal: string): Values | null {
+    return this.second.differences.get(signal) ?? null;
+  }
 
-  /** How far a signal may be away from the golden; null: it has kept its band. */
-  stray(signal: string): Stray | null { return this.overlay.strays.find((s) => s.signal === signal) ?? null; }
+  /** Stray of a signal; null: the signal stayed in its band. */
+  stray(signal: string): Stray | null {
+    return this.overlay.strays.find((s) => s.signal === signal) ?? null;
+  }
 
-  /** What of the two runs cannot be compared, a sentence each. */
+  /** Parts and times that only one of the runs has, a sentence each. */
   get apart(): string[] {
-    const { own, recording, overlay: { labels: [a, b] } } = this, told: string[] = [];
-    const count = (kind: Kind, nouns: [one: string, many: string], ours: { name: string }[], theirs: { name: string }[]) => {
-      const common = this.numbers[kind].filter((n) => n >= 0).length, few = (names: string[]) => (names.length > 4 ? `${names.slice(0, 4).join(", ")} and ${names.length - 4} more` : names.join(", "));
-      const lone = (all: { name: string }[], others: { name: string }[]) => all.filter(({ name }) => !others.some((one) => one.name === name)).map(({ name }) => name);
-      const onlyA = lone(ours, theirs), onlyB = lone(theirs, ours);
+    const { own, recording } = this;
+    const [a, b] = this.overlay.labels;
+    const told: string[] = [];
+    const count = (
+      kind: Kind,
+      nouns: [one: string, many: string],
+      ours: { name: string }[],
+      theirs: { name: string }[],
+    ) => {
+      const common = this.numbers[kind].filter((n) => n >= 0).length;
+      const few = (names: string[]) =>
+        names.length > 4 ? `${names.slice(0, 4).join(", ")} and ${names.length - 4} more` : names.join(", ");
+      const lone = (all: { name: string }[], others: { name: string }[]) =>
+        all.filter(({ name }) => !others.some((one) => one.name === name)).map(({ name }) => name);
+      const onlyA = lone(ours, theirs);
+      const onlyB = lone(theirs, ours);
       if (!onlyA.length && !onlyB.length) return;
-      const parts = [...(onlyA.length ? [`${a} alone has ${few(onlyA)}`] : []), ...(onlyB.length ? [`${b} alone has ${few(onlyB)}`] : [])];
-      told.push(`${common ? `They have ${common} ${nouns[common === 1 ? 0 : 1]} in common` : `They have no ${nouns[0]} in common`}: ${parts.join("; ")}.`);
+      const parts = [
+        ...(onlyA.length ? [`${a} alone has ${few(onlyA)}`] : []),
+        ...(onlyB.length ? [`${b} alone has ${few(onlyB)}`] : []),
+      ];
+      const many = common ? `${common} ${nouns[common === 1 ? 0 : 1]}` : `no ${nouns[0]}`;
+      told.push(`They have ${many} in common: ${parts.join("; ")}.`);
     };
     const called = ({ name }: { name: string }) => ({ name: dockName(name) });
     count("joint", ["joint", "joints"], own.meta.joints, recording.meta.joints);
-    if (own.meta.feet.length && recording.meta.feet.length) count("foot", ["foot", "feet"], own.meta.feet, recording.meta.feet);
+    if (own.meta.feet.length && recording.meta.feet.length) {
+      count("foot", ["foot", "feet"], own.meta.feet, recording.meta.feet);
+    }
     count("dock", ["dock", "docks"], own.meta.docks.map(called), recording.meta.docks.map(called));
     if (recording.end < own.end - 1e-6) told.push(`${b} ends at ${fixed(recording.end, 2)} s, before ${a}.`);
-    if (recording.end > own.end + 1e-6) told.push(`${b} goes on to ${fixed(recording.end, 2)} s; this page ends with ${a}, at ${fixed(own.end, 2)} s.`);
+    if (recording.end > own.end + 1e-6) {
+      told.push(`${b} continues to ${fixed(recording.end, 2)} s; this page ends with ${a}, at ${fixed(own.end, 2)} s.`);
+    }
     return told;
   }
 
-  // The first joint that swings in both limit cycles, whose phases are compared; -1: there is none.
+  // The joint whose phases are compared: the first that oscillates in both limit cycles; -1: none.
   private get reference(): number {
-    const { own, recording } = this, swings = (of: Recording, j: number) => (of.meta.phases[j]?.setpoint[0] ?? 0) > 0.2 * Math.max(...of.meta.phases.map((p) => p.setpoint[0]), 1e-9);
+    const { own, recording } = this;
+    const swings = (of: Recording, j: number) =>
+      (of.meta.phases[j]?.setpoint[0] ?? 0) > 0.2 * Math.max(...of.meta.phases.map((p) => p.setpoint[0]), 1e-9);
     if (!own.meta.cycle || !recording.meta.cycle) return -1;
-    return own.meta.joints.findIndex((_, j) => this.number("joint", j) >= 0 && swings(own, j) && swings(recording, this.number("joint", j)));
+    return own.meta.joints.findIndex(
+      (_, j) => this.number("joint", j) >= 0 && swings(own, j) && swings(recording, this.number("joint", j)),
+    );
   }
 
-  // The time at which the second run is where the first is within its period: the one that is nearest when both limit cycles have begun.
+  // The time of the same phase in the other run. Periods are counted so that the two times are nearest to one another
+  // when both limit cycles have begun.
   private map(from: Recording, to: Recording, t: number): number {
-    const j = this.reference, k = this.number("joint", j), number = (r: Recording) => (r === this.own ? j : k);
-    const turns = (r: Recording, time: number) => time / r.meta.cycle!.period + r.meta.phases[number(r)].setpoint[1] / (2 * Math.PI);
-    const back = (r: Recording, n: number) => (n - r.meta.phases[number(r)].setpoint[1] / (2 * Math.PI)) * r.meta.cycle!.period;
+    const j = this.reference;
+    const k = this.number("joint", j);
+    const number = (r: Recording) => (r === this.own ? j : k);
+    const turns = (r: Recording, time: number) =>
+      time / r.meta.cycle!.period + r.meta.phases[number(r)].setpoint[1] / (2 * Math.PI);
+    const back = (r: Recording, n: number) =>
+      (n - r.meta.phases[number(r)].setpoint[1] / (2 * Math.PI)) * r.meta.cycle!.period;
     const begun = Math.max(this.own.meta.cycle!.from, this.recording.meta.cycle!.from);
     const whole = Math.round(turns(this.recording, begun) - turns(this.own, begun));
     return back(to, turns(from, t) + (to === this.own ? -whole : whole));

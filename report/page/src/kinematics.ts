@@ -1,11 +1,13 @@
-// Poses of the bodies at a time: forward kinematics from the base's pose and the angles.
-import { Quaternion, Vector3 } from "three";
+// Forward kinematics: poses of the bodies at a time, from the pose of the base and the joint angles.
+import { Matrix4, Quaternion, Vector3 } from "three";
 import type { Values } from "./channels";
 import type { Pose } from "./format";
 import type { Recording } from "./recording";
 
 export const position = (pose: Pose): Vector3 => new Vector3(pose[0], pose[1], pose[2]);
 export const rotation = (pose: Pose): Quaternion => new Quaternion(pose[4], pose[5], pose[6], pose[3]);
+export const matrix = (pose: Pose): Matrix4 =>
+  new Matrix4().compose(position(pose), rotation(pose), new Vector3(1, 1, 1));
 
 interface Link {
   parent: number;
@@ -20,7 +22,7 @@ interface Link {
 export class Kinematics {
   readonly positions: Vector3[];
   readonly turns: Quaternion[];
-  /** Of each joint, world: where it is, and the frame in which its axis is given. */
+  /** World positions of the joints, and the frames of their axes. */
   readonly pivots: Vector3[];
   readonly pivotTurns: Quaternion[];
   private readonly links: Link[];
@@ -30,11 +32,18 @@ export class Kinematics {
   constructor(private readonly recording: Recording) {
     const { bodies, joints } = recording.meta;
     const upright = new Float32Array(recording.rows).fill(1);
-    this.base = ["x", "y", "z", "qw", "qx", "qy", "qz"].map((c) => recording.find(`base.${c}`) ?? (c === "qw" ? upright : recording.channel("")));
+    this.base = ["x", "y", "z", "qw", "qx", "qy", "qz"].map(
+      (c) => recording.find(`base.${c}`) ?? (c === "qw" ? upright : recording.channel("")),
+    );
     this.angles = joints.map((_, j) => recording.channel(`joint.${j}.angle`));
     this.links = bodies.map((b) => ({
-      parent: b.parent, joint: b.joint, axis: new Vector3(...b.axis),
-      pre: position(b.pre), preTurn: rotation(b.pre), post: position(b.post), postTurn: rotation(b.post),
+      parent: b.parent,
+      joint: b.joint,
+      axis: new Vector3(...b.axis),
+      pre: position(b.pre),
+      preTurn: rotation(b.pre),
+      post: position(b.post),
+      postTurn: rotation(b.post),
     }));
     this.positions = bodies.map(() => new Vector3());
     this.turns = bodies.map(() => new Quaternion());
@@ -43,11 +52,15 @@ export class Kinematics {
   }
 
   set(t: number): void {
-    const { recording } = this, step = new Vector3(), turn = new Quaternion();
+    const { recording } = this;
+    const step = new Vector3();
+    const turn = new Quaternion();
     const [x, y, z, qw, qx, qy, qz] = this.base.map((values) => recording.at(values, t));
-    const base = new Vector3(x, y, z), baseTurn = new Quaternion(qx, qy, qz, qw).normalize();
+    const base = new Vector3(x, y, z);
+    const baseTurn = new Quaternion(qx, qy, qz, qw).normalize();
     this.links.forEach((link, i) => {
-      const p = this.positions[i], q = this.turns[i];
+      const p = this.positions[i];
+      const q = this.turns[i];
       p.copy(link.parent < 0 ? base : this.positions[link.parent]);
       q.copy(link.parent < 0 ? baseTurn : this.turns[link.parent]);
       p.add(step.copy(link.pre).applyQuaternion(q));

@@ -1,4 +1,4 @@
-// Names in front of the 3D picture, none upon another: the first of two that meet stays.
+// Labels in front of the 3D picture; of two labels that overlap the first is shown.
 
 export interface Label {
   text: string;
@@ -15,8 +15,10 @@ export class Labels {
     while (this.spans.length < labels.length) this.spans.push(this.host.appendChild(document.createElement("span")));
     const taken: [number, number, number, number][] = [];
     this.spans.forEach((span, i) => {
-      const label = labels[i], half = label ? 3.4 * label.text.length + 4 : 0;
-      const free = !!label && !taken.some(([x, y, w, h]) => Math.abs(x - label.x) < w + half && Math.abs(y - label.y) < h + 8);
+      const label = labels[i];
+      const half = label ? 3.4 * label.text.length + 4 : 0;
+      const free =
+        !!label && !taken.some(([x, y, w, h]) => Math.abs(x - label.x) < w + half && Math.abs(y - label.y) < h + 8);
       span.hidden = !free;
       if (!label || !free) return;
       taken.push([label.x, label.y, half, 8]);

@@ -1,4 +1,4 @@
-// How hard every joint works, row by row: what the heat map, the scrubber and the hinges are coloured by.
+// Loads of the joints by rows: torque as a share of the limit of the motor, current, tracking error.
 import type { Values } from "./channels";
 import type { Motor } from "./format";
 import { limited, use } from "./motor";
@@ -7,56 +7,77 @@ import type { Recording } from "./recording";
 export type Quantity = "use" | "torque" | "current" | "error";
 
 export class Loads {
-  /** Of each joint: its largest torque in the judged window, N m. */
+  /** Largest torque of each joint in the judged window, N m. */
   readonly peaks: number[];
   readonly peak: number;
-  /** Of each row: the largest share of what a motor can give; of its torque against the largest where no motor has a limit. */
+  /** Largest share of all joints at each row. */
   readonly worst: Values;
-  /** Whether shares are of the motors' limits (else of the largest torque of the run). */
+  /** True if shares refer to the limits of the motors, false if they refer to the largest torque of the run. */
   readonly limited: boolean;
   private readonly cache = new Map<string, Values>();
 
   constructor(private readonly recording: Recording) {
-    const { joints } = recording.meta, from = recording.judged;
-    // A share is of the torque at a speed: where the recording has no speeds, none is known.
+    const { joints } = recording.meta;
+    const from = recording.judged;
+    // Limits depend on the speed: without recorded speeds there are no shares of them.
     this.limited = recording.any("speed") && recording.any("torque") && joints.some((_, j) => limited(this.motor(j)));
     this.peaks = joints.map((_, j) => largest(recording.channel(`joint.${j}.torque`), from));
     this.peak = Math.max(...this.peaks, 1e-9);
     this.worst = new Float32Array(recording.rows);
-    joints.forEach((_, j) => this.share(j).forEach((x, i) => { if (x > this.worst[i]) this.worst[i] = x; }));
+    joints.forEach((_, j) =>
+      this.share(j).forEach((x, i) => {
+        if (x > this.worst[i]) this.worst[i] = x;
+      }),
+    );
   }
 
   motor(joint: number): Motor | null {
-    const { joints, motors } = this.recording.meta, m = joints[joint]?.motor;
-    return m === null || m === undefined ? null : motors[m] ?? null;
+    const { joints, motors } = this.recording.meta;
+    const m = joints[joint]?.motor;
+    return m === null || m === undefined ? null : (motors[m] ?? null);
   }
 
-  /** Share of what the motor can give at that speed, 0 to 1. */
-  share(joint: number): Values { return this.of("use", joint); }
+  /** Share of the torque that is available at the speed, 0 to 1; see `limited`. */
+  share(joint: number): Values {
+    return this.of("use", joint);
+  }
 
-  shareAt(joint: number, t: number): number { return this.recording.at(this.share(joint), t); }
+  shareAt(joint: number, t: number): number {
+    return this.recording.at(this.share(joint), t);
+  }
 
-  /** The joint that takes the largest share in the judged window, and when. */
+  /** Joint and time of the largest share in the judged window. */
   get hardest(): { joint: number; share: number; t: number } {
-    const { recording } = this, found = { joint: 0, share: -1, t: 0 };
+    const { recording } = this;
+    const found = { joint: 0, share: -1, t: 0 };
     recording.meta.joints.forEach((_, joint) => {
       const shares = this.share(joint);
-      for (let i = recording.judged; i < shares.length; i++) if (shares[i] > found.share) Object.assign(found, { joint, share: shares[i], t: recording.times[i] });
+      for (let i = recording.judged; i < shares.length; i++) {
+        if (shares[i] > found.share) Object.assign(found, { joint, share: shares[i], t: recording.times[i] });
+      }
     });
     return found;
   }
 
-  /** What 1 stands for in `of`. */
+  /** Value of the quantity at a share of 1; for `use` 1. */
   scale(quantity: Quantity): number {
     const { recording } = this;
     if (quantity === "torque") return this.peak;
-    if (quantity === "error") return Math.max(0.2, ...recording.meta.verdict.checks.filter((c) => c.id === "tracking").map((c) => c.limit ?? 0));
-    if (quantity === "current") return Math.max(...recording.meta.motors.map((m) => m.current ?? 0)) || this.largestCurrent();
+    if (quantity === "error") {
+      return Math.max(
+        0.2,
+        ...recording.meta.verdict.checks.filter((c) => c.id === "tracking").map((c) => c.limit ?? 0),
+      );
+    }
+    if (quantity === "current") {
+      return Math.max(...recording.meta.motors.map((m) => m.current ?? 0)) || this.largestCurrent();
+    }
     return 1;
   }
 
   of(quantity: Quantity, joint: number): Values {
-    const key = `${quantity}/${joint}`, known = this.cache.get(key);
+    const key = `${quantity}/${joint}`;
+    const known = this.cache.get(key);
     if (known) return known;
     const made = this.compute(quantity, joint);
     this.cache.set(key, made);
@@ -64,21 +85,30 @@ export class Loads {
   }
 
   private compute(quantity: Quantity, joint: number): Values {
-    const { recording } = this, one = (name: string) => recording.channel(`joint.${joint}.${name}`);
-    const out = new Float32Array(recording.rows), torque = one("torque");
+    const { recording } = this;
+    const one = (name: string) => recording.channel(`joint.${joint}.${name}`);
+    const out = new Float32Array(recording.rows);
+    const torque = one("torque");
     if (quantity === "use") {
-      const motor = this.motor(joint), speed = one("speed");
+      const motor = this.motor(joint);
+      const speed = one("speed");
       if (this.limited && limited(motor)) return out.map((_, i) => use(motor, speed[i], torque[i]));
       return this.limited ? out : out.map((_, i) => Math.abs(torque[i]) / this.peak);
     }
-    const scale = this.scale(quantity), setpoint = one("setpoint"), angle = one("angle"), values = one(quantity);
+    const scale = this.scale(quantity);
+    const setpoint = one("setpoint");
+    const angle = one("angle");
+    const values = one(quantity);
     if (quantity === "error" && !recording.has(`joint.${joint}.setpoint`)) return out;
     if (quantity === "error") return out.map((_, i) => Math.abs(setpoint[i] - angle[i]) / scale);
     return out.map((_, i) => Math.abs(values[i]) / scale);
   }
 
   private largestCurrent(): number {
-    return Math.max(1e-9, ...this.recording.meta.joints.map((_, j) => largest(this.recording.channel(`joint.${j}.current`))));
+    return Math.max(
+      1e-9,
+      ...this.recording.meta.joints.map((_, j) => largest(this.recording.channel(`joint.${j}.current`))),
+    );
   }
 }
 

@@ -1,6 +1,18 @@
-// What a builder looks for, in 3D: numbers of the free and docked faces, and the axes of the hinges with the sense of a positive turn.
-import { CanvasTexture, ConeGeometry, CylinderGeometry, InstancedMesh, Matrix4, MeshBasicMaterial, PlaneGeometry, Quaternion, SRGBColorSpace,
-  Scene, Vector3, type BufferGeometry } from "three";
+// Marks in 3D for the assembly of a robot: numbers of the faces, and axes of the hinges with their positive sense.
+import {
+  CanvasTexture,
+  ConeGeometry,
+  CylinderGeometry,
+  InstancedMesh,
+  Matrix4,
+  MeshBasicMaterial,
+  PlaneGeometry,
+  Quaternion,
+  SRGBColorSpace,
+  Scene,
+  Vector3,
+  type BufferGeometry,
+} from "three";
 import type { Theme } from "./colour";
 import type { Face, Meta } from "./format";
 import { corners } from "./outline";
@@ -8,14 +20,14 @@ import type { Robot } from "./robot";
 import type { Kinematics } from "./kinematics";
 import { position } from "./kinematics";
 
-/** Decals of one kind of face, and where they are. */
+/** Decals of one kind of face, and their places. */
 interface Decals {
   mesh: InstancedMesh;
   places: { body: number; local: Matrix4 }[];
 }
 
-const screenUp = new Vector3(-0.25, 0.34, 0.9); // of the view the page begins with
-const lift = 0.032; // of a body's size, above the face: a hinge's disc may be there
+const screenUp = new Vector3(-0.25, 0.34, 0.9); // upward direction on the screen in the first view
+const lift = 0.032; // above the face, as a share of a body's size: a hinge's disc may be on the face
 
 export class Marks {
   faces = false;
@@ -24,24 +36,36 @@ export class Marks {
   private readonly parts: InstancedMesh[] = [];
   private readonly material = new MeshBasicMaterial({ transparent: true, opacity: 0.95 });
 
-  constructor(private readonly meta: Meta, private readonly kinematics: Kinematics, private readonly robot: Robot, scene: Scene) {
+  constructor(
+    private readonly meta: Meta,
+    private readonly kinematics: Kinematics,
+    private readonly robot: Robot,
+    scene: Scene,
+  ) {
     const kinds = new Map<string, { face: Face; quarters: number; places: Decals["places"] }>();
     meta.bodies.forEach((b, body) => {
       for (const face of meta.faces[b.type] ?? []) {
-        const quarters = this.quarters(body, face), key = `${face.id}/${face.gender}/${quarters}`, kind = kinds.get(key) ?? { face, quarters, places: [] };
+        const quarters = this.quarters(body, face);
+        const key = `${face.id}/${face.gender}/${quarters}`;
+        const kind = kinds.get(key) ?? { face, quarters, places: [] };
         kind.places.push({ body, local: this.decal(b.type, face, quarters) });
         kinds.set(key, kind);
       }
     });
     for (const { face, quarters, places } of kinds.values()) {
-      const mesh = new InstancedMesh(new PlaneGeometry(1, 1), new MeshBasicMaterial({ map: plate(face, quarters), transparent: true, depthWrite: false }), places.length);
+      const mesh = new InstancedMesh(
+        new PlaneGeometry(1, 1),
+        new MeshBasicMaterial({ map: plate(face, quarters), transparent: true, depthWrite: false }),
+        places.length,
+      );
       mesh.frustumCulled = false;
       mesh.renderOrder = 2;
       scene.add(mesh);
       this.decals.push({ mesh, places });
     }
-    // An axis: a rod, and a cone at its positive end.
-    const rod = new CylinderGeometry(0.022, 0.022, 2, 10), cone = new ConeGeometry(0.085, 0.3, 18).translate(0, 1.15, 0);
+    // An axis is a rod with a cone at its positive end.
+    const rod = new CylinderGeometry(0.022, 0.022, 2, 10);
+    const cone = new ConeGeometry(0.085, 0.3, 18).translate(0, 1.15, 0);
     for (const part of [rod, cone] as BufferGeometry[]) {
       const mesh = new InstancedMesh(part, this.material, Math.max(meta.joints.length, 1));
       mesh.count = meta.joints.length;
@@ -51,11 +75,16 @@ export class Marks {
     }
   }
 
-  get anyFaces(): boolean { return this.decals.length > 0; }
-  hasFaces(gender: string): boolean { return this.meta.bodies.some((b) => this.meta.faces[b.type]?.some((f) => f.gender === gender)); }
+  get anyFaces(): boolean {
+    return this.decals.length > 0;
+  }
+  hasFaces(gender: string): boolean {
+    return this.meta.bodies.some((b) => this.meta.faces[b.type]?.some((f) => f.gender === gender));
+  }
 
   set(): void {
-    const matrix = new Matrix4(), { kinematics, robot } = this;
+    const matrix = new Matrix4();
+    const { kinematics, robot } = this;
     for (const { mesh, places } of this.decals) {
       mesh.visible = this.faces;
       if (!this.faces) continue;
@@ -67,42 +96,75 @@ export class Marks {
       if (!this.axes) continue;
       robot.hinges.forEach((hinge, j) => {
         const length = hinge.size.y + 0.3 * robot.unit;
-        mesh.setMatrixAt(j, matrix.compose(kinematics.pivots[j], kinematics.pivotTurns[j].clone().multiply(hinge.turn), new Vector3(length, length, length)));
+        mesh.setMatrixAt(
+          j,
+          matrix.compose(
+            kinematics.pivots[j],
+            kinematics.pivotTurns[j].clone().multiply(hinge.turn),
+            new Vector3(length, length, length),
+          ),
+        );
       });
       mesh.instanceMatrix.needsUpdate = true;
     }
   }
 
-  /** Where the name of a joint stands: past the cone. */
+  /** Place of the name of a joint: beyond the cone. */
   tip(joint: number): Vector3 {
     const { kinematics, robot } = this;
-    return robot.axes[joint].clone().applyQuaternion(kinematics.pivotTurns[joint]).multiplyScalar(1.5 * (robot.hinges[joint].size.y + 0.3 * robot.unit)).add(kinematics.pivots[joint]);
+    return robot.axes[joint]
+      .clone()
+      .applyQuaternion(kinematics.pivotTurns[joint])
+      .multiplyScalar(1.5 * (robot.hinges[joint].size.y + 0.3 * robot.unit))
+      .add(kinematics.pivots[joint]);
   }
 
-  paint(theme: Theme): void { this.material.color.set(theme === "dark" ? 0xe39cc1 : 0x9a3f70); }
+  paint(theme: Theme): void {
+    this.material.color.set(theme === "dark" ? 0xe39cc1 : 0x9a3f70);
+  }
 
-  // Quarter turns from the reference direction, after which the number stands upright as the robot starts.
+  // Quarter turns from the reference direction that make the number upright in the start pose.
   private quarters(body: number, face: Face): number {
-    const normal = new Vector3(...face.normal), reference = new Vector3(...face.reference);
-    const heights = [0, 1, 2, 3].map((k) => reference.clone().applyAxisAngle(normal, k * Math.PI / 2).applyQuaternion(this.kinematics.turns[body]).dot(screenUp));
+    const normal = new Vector3(...face.normal);
+    const reference = new Vector3(...face.reference);
+    const heights = [0, 1, 2, 3].map((k) =>
+      reference
+        .clone()
+        .applyAxisAngle(normal, (k * Math.PI) / 2)
+        .applyQuaternion(this.kinematics.turns[body])
+        .dot(screenUp),
+    );
     return heights.indexOf(Math.max(...heights));
   }
 
-  // On the face, as large as the body is across it.
+  // Pose of the decal on a face, in the size of the body across the face.
   private decal(type: string, face: Face, quarters: number): Matrix4 {
-    const normal = new Vector3(...face.normal).normalize(), up = new Vector3(...face.reference).normalize().applyAxisAngle(normal, quarters * Math.PI / 2), right = up.clone().cross(normal);
-    const points = (this.meta.geometry[type] ?? []).flatMap(corners), wide = (v: Vector3) => Math.max(...points.map((p) => p.dot(v))) - Math.min(...points.map((p) => p.dot(v)));
+    const normal = new Vector3(...face.normal).normalize();
+    const up = new Vector3(...face.reference).normalize().applyAxisAngle(normal, (quarters * Math.PI) / 2);
+    const right = up.clone().cross(normal);
+    const points = (this.meta.geometry[type] ?? []).flatMap(corners);
+    const wide = (v: Vector3) => Math.max(...points.map((p) => p.dot(v))) - Math.min(...points.map((p) => p.dot(v)));
     const size = points.length ? 0.75 * Math.min(wide(up), wide(right)) : 0.5 * this.robot.unit;
     const turn = new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(right, up, normal));
-    return new Matrix4().compose(position([...face.origin, 1, 0, 0, 0]).addScaledVector(normal, lift * this.robot.unit), turn, new Vector3(size, size, size));
+    return new Matrix4().compose(
+      position([...face.origin, 1, 0, 0, 0]).addScaledVector(normal, lift * this.robot.unit),
+      turn,
+      new Vector3(size, size, size),
+    );
   }
 }
 
-/** A face's number: on a filled disc of an active one, in a ring of a passive one, in a grey ring of one without gender; the wedge points along the reference direction. */
+/**
+ * Picture of a face's number: on a filled disc for an active face, in a ring for a passive face, in a grey ring for a
+ * face without gender. The wedge points along the reference direction.
+ */
 function plate({ id, gender }: Face, quarters: number): CanvasTexture {
-  const canvas = document.createElement("canvas"), g = canvas.getContext("2d")!, c = 64;
+  const canvas = document.createElement("canvas");
+  const g = canvas.getContext("2d")!;
+  const c = 64;
   canvas.width = canvas.height = 2 * c;
-  const fill = gender === "active" ? "#0a3f66" : "#fff8e8", stroke = { active: "#ffffff", passive: "#6b4300", none: "#444444" }[gender];
+  const fill = gender === "active" ? "#0a3f66" : "#fff8e8";
+  const stroke = { active: "#ffffff", passive: "#6b4300", none: "#444444" }[gender];
   g.fillStyle = fill;
   g.strokeStyle = stroke;
   g.lineWidth = 6;
@@ -114,7 +176,7 @@ function plate({ id, gender }: Face, quarters: number): CanvasTexture {
   g.beginPath();
   g.save();
   g.translate(c, c);
-  g.rotate(quarters * Math.PI / 2);
+  g.rotate((quarters * Math.PI) / 2);
   g.moveTo(0, -64);
   g.lineTo(15, -42);
   g.lineTo(-15, -42);

@@ -1,4 +1,4 @@
-// What a motor can give: its largest and least torque over speed, as the actuator answered the program.
+// Envelope of a motor: largest and smallest torque over speed, interpolated between samples of the actuator.
 import type { Motor } from "./format";
 
 export const limited = (motor: Motor | null): motor is Motor => !!motor && motor.speed.length > 0;
@@ -7,19 +7,20 @@ function between(speed: readonly number[], torque: readonly number[], w: number)
   const last = speed.length - 1;
   if (w <= speed[0]) return torque[0];
   if (w >= speed[last]) return torque[last];
-  let low = 0, high = last;
+  let low = 0;
+  let high = last;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
     if (speed[middle] <= w) low = middle;
     else high = middle;
   }
-  return torque[low] + (torque[high] - torque[low]) * (w - speed[low]) / (speed[high] - speed[low]);
+  return torque[low] + ((torque[high] - torque[low]) * (w - speed[low])) / (speed[high] - speed[low]);
 }
 
 export const most = (motor: Motor, w: number): number => between(motor.speed, motor.most, w);
 export const least = (motor: Motor, w: number): number => between(motor.speed, motor.least, w);
 
-/** Share of what is available at speed w in the direction of the torque, 0 to 1. */
+/** Torque as a share of the available torque in its direction at speed w, 0 to 1. */
 export function use(motor: Motor, w: number, torque: number): number {
   const available = torque < 0 ? -least(motor, w) : most(motor, w);
   if (torque === 0) return 0;

@@ -1,39 +1,56 @@
-// Numbers and sentences as text: few digits, a real minus, names in their own case.
+// Numbers and sentences as text: few digits, a typographic minus, names in their original case.
 
 const space = "\u00a0"; // a number and its unit stay on one line
 const minus = (text: string): string => text.replace("-", "−");
 
-/** Less than this is nothing, in that unit: rounding of the simulation, or of the page. */
-const floors: Record<string, number> = { "": 1e-6, m: 1e-7, rad: 1e-4, "rad/s": 1e-5, "N m": 1e-6, N: 1e-5, A: 1e-6, V: 1e-6, J: 1e-7, W: 1e-6 };
+/** Values below these count as 0, by unit: they are rounding errors of the simulation or the page. */
+const floors: Record<string, number> = {
+  "": 1e-6,
+  m: 1e-7,
+  rad: 1e-4,
+  "rad/s": 1e-5,
+  "N m": 1e-6,
+  N: 1e-5,
+  A: 1e-6,
+  V: 1e-6,
+  J: 1e-7,
+  W: 1e-6,
+};
 const floored = (x: number, unit: string): number => (Math.abs(x) < (floors[unit] ?? 0) ? 0 : x);
 
-/** To `digits` significant digits, never with an exponent where a reader would stumble over it. */
+/** Number with `digits` significant digits; an exponent only below 1e-4 and from 1e6 on. */
 export function number(x: number | null | undefined, digits = 3, unit?: string): string {
   if (x === null || x === undefined || !Number.isFinite(x)) return "–";
   const kept = unit === undefined ? x : floored(x, unit);
   if (kept === 0) return "0";
   const rounded = Number(kept.toPrecision(digits));
-  return minus(Math.abs(rounded) >= 1e6 || Math.abs(rounded) < 1e-4 ? rounded.toExponential().replace("e+", "e") : String(rounded));
+  return minus(
+    Math.abs(rounded) >= 1e6 || Math.abs(rounded) < 1e-4 ? rounded.toExponential().replace("e+", "e") : String(rounded),
+  );
 }
 
-export const fixed = (x: number, decimals: number): string => minus((Math.abs(x) < 0.5 * 10 ** -decimals ? 0 : x).toFixed(decimals));
+export const fixed = (x: number, decimals: number): string =>
+  minus((Math.abs(x) < 0.5 * 10 ** -decimals ? 0 : x).toFixed(decimals));
 
-/** So that numbers up to `peak` have three digits, and two decimals where they are larger or nothing. */
-export const decimalsOf = (peak: number, unit: string): number => (floored(peak, unit) === 0 ? 2 : Math.max(2, Math.ceil(-Math.log10(peak)) + 1));
+/** Decimals that give numbers up to `peak` three digits; at least two. */
+export const decimalsOf = (peak: number, unit: string): number =>
+  floored(peak, unit) === 0 ? 2 : Math.max(2, Math.ceil(-Math.log10(peak)) + 1);
 
 export const percent = (share: number, digits = 3): string => `${number(100 * floored(share, ""), digits)}${space}%`;
 
-/** Value with its unit; "" is a share, which reads in percent; small lengths read in mm, large energies in MJ. */
+/** Value with its unit: shares (unit "") in percent, small lengths in mm, large energies in MJ. */
 export function quantity(x: number | null, unit: string): string {
   if (x === null || !Number.isFinite(x)) return "–";
   if (unit === "") return percent(x);
   if (unit === "m" && Math.abs(x) < 0.1) return `${number(1000 * floored(x, unit))}${space}mm`;
-  const [scale, prefix] = Math.abs(x) < 1e6 || !/^[JWN]/.test(unit) ? [1, ""] : Math.abs(x) < 1e9 ? [1e6, "M"] : [1e9, "G"];
+  const [scale, prefix] =
+    Math.abs(x) < 1e6 || !/^[JWN]/.test(unit) ? [1, ""] : Math.abs(x) < 1e9 ? [1e6, "M"] : [1e9, "G"];
   return `${number(floored(x, unit) / scale)}${space}${prefix}${unit.replace(" ", space)}`;
 }
 
-/** s, to a millisecond where hundredths do not say it. */
-export const time = (t: number): string => `${fixed(t, Math.abs(100 * t - Math.round(100 * t)) < 0.05 ? 2 : 3)}${space}s`;
+/** Time in s, with two decimals, or with three if it is not a multiple of 10 ms. */
+export const time = (t: number): string =>
+  `${fixed(t, Math.abs(100 * t - Math.round(100 * t)) < 0.05 ? 2 : 3)}${space}s`;
 
 export function span(from: number, to: number): string {
   if (!(to - from > 1e-6)) return time(from);
@@ -43,6 +60,10 @@ export function span(from: number, to: number): string {
 
 export const plural = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? "" : "s"}`;
 
-/** A name at the start (`m3/active`, `m5's dock`) keeps its case. */
-export const capital = (text: string): string => (/^\S*[\d/]/.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1));
+/** Text with a capital at its start, unless it starts with a name (`m3/active`, `m5's dock`). */
+export const capital = (text: string): string =>
+  /^\S*[\d/]/.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1);
 export const sentence = (text: string): string => (text ? capital(text) + (/[.!?]$/.test(text) ? "" : ".") : "");
+/** A title within a sentence. */
+export const inSentence = (title: string): string =>
+  /^[A-Z][a-z]/.test(title) ? title[0].toLowerCase() + title.slice(1) : title;

@@ -1,17 +1,17 @@
-// The geometry of a body: its pieces, and where they form one convex prism (a block of M-TRAN: box and half cylinder), that prism.
-import { BufferAttribute, BufferGeometry, Matrix4, SphereGeometry, Vector3 } from "three";
+// Geometry of a body: its pieces, merged if they form one convex prism (box and half cylinder of an M-TRAN block).
+import { BufferAttribute, BufferGeometry, SphereGeometry, Vector3 } from "three";
 import type { Pose, Shape } from "./format";
-import { position, rotation } from "./kinematics";
+import { matrix, position, rotation } from "./kinematics";
 
 type Point = [number, number];
 
-/** What is drawn, and a plainer one for its shadow. */
+/** Geometry of a piece, and a simpler one for its shadow. */
 export interface Piece {
   body: BufferGeometry;
   shadow: BufferGeometry;
 }
 
-/** In the frame of the body: an outline in x and z, along y from y0 to y1. */
+/** Prism in the frame of the body: an outline in x and z, along y from y0 to y1. */
 interface Prism {
   y0: number;
   y1: number;
@@ -24,7 +24,8 @@ function hull(points: readonly Point[]): Point[] {
     const out: Point[] = [];
     for (const p of list) {
       for (let n = out.length; n > 1; n = out.length) {
-        const a = out[n - 2], b = out[n - 1];
+        const a = out[n - 2];
+        const b = out[n - 1];
         if ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 1e-12) break;
         out.pop();
       }
@@ -38,20 +39,29 @@ function hull(points: readonly Point[]): Point[] {
 const area = (p: readonly Point[]): number =>
   Math.abs(p.reduce((sum, [x, y], i) => sum + x * p[(i + 1) % p.length][1] - p[(i + 1) % p.length][0] * y, 0)) / 2;
 
-/** null: the piece is no prism along the body's y. */
+/** The prism of a shape; null: it is a sphere, or its axis is not along the body's y. */
 function prism({ kind, pose, size }: Shape): Prism | null {
-  const turn = rotation(pose), along = new Vector3(0, 1, 0).applyQuaternion(turn);
+  const turn = rotation(pose);
+  const along = new Vector3(0, 1, 0).applyQuaternion(turn);
   if (kind === "sphere" || Math.abs(Math.abs(along.y) - 1) > 1e-9) return null;
   const flat: Point[] = [];
-  if (kind === "box") flat.push([-size[0] / 2, -size[2] / 2], [size[0] / 2, -size[2] / 2], [size[0] / 2, size[2] / 2], [-size[0] / 2, size[2] / 2]);
-  else {
-    const whole = kind === "cylinder", n = whole ? 36 : 18;
+  if (kind === "box") {
+    flat.push(
+      [-size[0] / 2, -size[2] / 2],
+      [size[0] / 2, -size[2] / 2],
+      [size[0] / 2, size[2] / 2],
+      [-size[0] / 2, size[2] / 2],
+    );
+  } else {
+    const whole = kind === "cylinder";
+    const n = whole ? 36 : 18;
     for (let i = 0; i <= n; i++) {
-      const a = -Math.PI / 2 + (whole ? 2 : 1) * Math.PI * i / n;
+      const a = -Math.PI / 2 + ((whole ? 2 : 1) * Math.PI * i) / n;
       flat.push([size[0] * Math.cos(a), size[0] * Math.sin(a)]);
     }
   }
-  const origin = position(pose), length = size[1];
+  const origin = position(pose);
+  const length = size[1];
   const points = flat.map(([x, z]): Point => {
     const p = new Vector3(x, 0, z).applyQuaternion(turn).add(origin);
     return [p.x, p.z];
@@ -59,46 +69,93 @@ function prism({ kind, pose, size }: Shape): Prism | null {
   return { y0: origin.y - length / 2, y1: origin.y + length / 2, points };
 }
 
-// Between y0 and y1, its ends chamfered. Sides that meet at less than 30 degrees look round.
-function extrude(points: readonly Point[], y0: number, y1: number, chamfered: boolean): BufferGeometry {
-  const n = points.length, sides = points.map(([x, z], i) => {
-    const [u, w] = points[(i + 1) % n];
-    return new Vector3(w - z, 0, x - u).normalize();
-  });
-  const radius = Math.sqrt(area(points) / Math.PI), bevel = chamfered ? Math.min(0.03 * (y1 - y0), 0.06 * radius) : 0;
-  const inner = points.map(([x, z], i): Point => {
-    const a = sides[(i + n - 1) % n], b = sides[i], share = bevel / (1 + a.dot(b));
+/** Triangles with a normal at each corner. */
+class Mesh {
+  private readonly at: number[] = [];
+  private readonly normals: number[] = [];
+
+  add([x, z]: Point, y: number, normal: Vector3): void {
+    this.at.push(x, y, z);
+    this.normals.push(normal.x, normal.y, normal.z);
+  }
+
+  /** A flat end of a prism; `up`: 1 or -1, the direction of its normal. */
+  cap(points: readonly Point[], y: number, up: number): void {
+    const normal = new Vector3(0, up, 0);
+    for (let i = 1; i + 1 < points.length; i++) {
+      for (const k of up < 0 ? [0, i, i + 1] : [0, i + 1, i]) this.add(points[k], y, normal);
+    }
+  }
+
+  /** A ring of quads between two outlines; `tilt`: the y of its normals before they are normalized. */
+  ring(
+    sides: readonly Vector3[],
+    low: readonly Point[],
+    y0: number,
+    high: readonly Point[],
+    y1: number,
+    tilt = 0,
+  ): void {
+    sides.forEach((_, i) => {
+      const k = (i + 1) % sides.length;
+      const [a, b] = [0, 1].map((end) => smooth(sides, i, end).clone().setY(tilt).normalize());
+      for (const [p, y, normal] of [
+        [low[i], y0, a],
+        [high[k], y1, b],
+        [low[k], y0, b],
+        [low[i], y0, a],
+        [high[i], y1, a],
+        [high[k], y1, b],
+      ] as const) {
+        this.add(p, y, normal);
+      }
+    });
+  }
+
+  get geometry(): BufferGeometry {
+    const made = new BufferGeometry();
+    made.setAttribute("position", new BufferAttribute(new Float32Array(this.at), 3));
+    made.setAttribute("normal", new BufferAttribute(new Float32Array(this.normals), 3));
+    return made;
+  }
+}
+
+/** Normal at the start (0) or end (1) of a side: sides that meet at less than 30 degrees share it and look round. */
+function smooth(sides: readonly Vector3[], side: number, end: number): Vector3 {
+  const n = sides.length;
+  const meets = sides[(side + (end ? 1 : n - 1)) % n];
+  return meets.dot(sides[side]) > Math.cos(Math.PI / 6) ? meets.clone().add(sides[side]).normalize() : sides[side];
+}
+
+/** The outline, each of its sides moved inwards by `bevel`. */
+function inset(points: readonly Point[], sides: readonly Vector3[], bevel: number): Point[] {
+  const n = points.length;
+  return points.map(([x, z], i) => {
+    const a = sides[(i + n - 1) % n];
+    const b = sides[i];
+    const share = bevel / (1 + a.dot(b));
     return [x - share * (a.x + b.x), z - share * (a.z + b.z)];
   });
-  const at: number[] = [], normals: number[] = [];
-  const corner = ([x, z]: Point, y: number, normal: Vector3) => {
-    at.push(x, y, z);
-    normals.push(normal.x, normal.y, normal.z);
-  };
-  const smooth = (side: number, end: number) => {
-    const meets = sides[(side + (end ? 1 : n - 1)) % n];
-    return meets.dot(sides[side]) > Math.cos(Math.PI / 6) ? meets.clone().add(sides[side]).normalize() : sides[side];
-  };
-  // A ring of quads; `tilt`: of its normals, along y.
-  const ring = (low: readonly Point[], yLow: number, high: readonly Point[], yHigh: number, tilt: number) => sides.forEach((_, i) => {
-    const k = (i + 1) % n, [a, b] = [0, 1].map((end) => smooth(i, end).clone().setY(tilt).normalize());
-    for (const [p, y, normal] of [[low[i], yLow, a], [high[k], yHigh, b], [low[k], yLow, b], [low[i], yLow, a], [high[i], yHigh, a], [high[k], yHigh, b]] as const) corner(p, y, normal);
+}
+
+/** Surface of a prism; `chamfered`: at its ends. */
+function extrude(points: readonly Point[], y0: number, y1: number, chamfered: boolean): BufferGeometry {
+  const sides = points.map(([x, z], i) => {
+    const [u, w] = points[(i + 1) % points.length];
+    return new Vector3(w - z, 0, x - u).normalize();
   });
-  const cap = (y: number, up: number) => {
-    const normal = new Vector3(0, up, 0);
-    for (let i = 1; i + 1 < n; i++) for (const k of up < 0 ? [0, i, i + 1] : [0, i + 1, i]) corner(inner[k], y, normal);
-  };
-  cap(y0, -1);
-  cap(y1, 1);
-  ring(points, y0 + bevel, points, y1 - bevel, 0);
+  const radius = Math.sqrt(area(points) / Math.PI);
+  const bevel = chamfered ? Math.min(0.03 * (y1 - y0), 0.06 * radius) : 0;
+  const inner = inset(points, sides, bevel);
+  const mesh = new Mesh();
+  mesh.cap(inner, y0, -1);
+  mesh.cap(inner, y1, 1);
+  mesh.ring(sides, points, y0 + bevel, points, y1 - bevel);
   if (bevel > 0) {
-    ring(inner, y0, points, y0 + bevel, -1);
-    ring(points, y1 - bevel, inner, y1, 1);
+    mesh.ring(sides, inner, y0, points, y0 + bevel, -1);
+    mesh.ring(sides, points, y1 - bevel, inner, y1, 1);
   }
-  const made = new BufferGeometry();
-  made.setAttribute("position", new BufferAttribute(new Float32Array(at), 3));
-  made.setAttribute("normal", new BufferAttribute(new Float32Array(normals), 3));
-  return made;
+  return mesh.geometry;
 }
 
 const piece = (points: readonly Point[], y0: number, y1: number): Piece => {
@@ -111,17 +168,20 @@ const upright: Pose = [0, 0, 0, 1, 0, 0, 0];
 function single(shape: Shape): Piece {
   const along = prism(shape);
   if (along) return piece(along.points, along.y0, along.y1);
-  const own = prism({ ...shape, pose: upright }), sphere = new SphereGeometry(shape.size[0], 32, 20);
+  const own = prism({ ...shape, pose: upright });
+  const sphere = new SphereGeometry(shape.size[0], 32, 20);
   const { body, shadow } = own ? piece(own.points, own.y0, own.y1) : { body: sphere, shadow: sphere.clone() };
-  const placed = new Matrix4().compose(position(shape.pose), rotation(shape.pose), new Vector3(1, 1, 1));
+  const placed = matrix(shape.pose);
   return { body: body.applyMatrix4(placed), shadow: shadow.applyMatrix4(placed) };
 }
 
 export function outline(shapes: readonly Shape[]): Piece[] {
-  const prisms = shapes.map(prism), first = prisms[0];
+  const prisms = shapes.map(prism);
+  const first = prisms[0];
   const level = first && prisms.every((p) => p && Math.abs(p.y0 - first.y0) < 1e-9 && Math.abs(p.y1 - first.y1) < 1e-9);
   if (level && prisms.length > 1) {
-    const points = prisms.flatMap((p) => p!.points), sum = prisms.reduce((a, p) => a + area(hull(p!.points)), 0);
+    const points = prisms.flatMap((p) => p!.points);
+    const sum = prisms.reduce((a, p) => a + area(hull(p!.points)), 0);
     if (Math.abs(area(hull(points)) - sum) < 0.01 * sum) return [piece(points, first.y0, first.y1)];
   }
   return shapes.map(single);
@@ -135,8 +195,17 @@ export function extents({ kind, size: [a, b, c] }: Shape): { centre: Vector3; ha
   return { centre: new Vector3(a / 2, 0, 0), half: new Vector3(a / 2, b / 2, a) };
 }
 
-/** Of the box around a piece, in the body's frame. */
+/** Corners of the box around a piece, in the body's frame. */
 export function corners(shape: Shape): Vector3[] {
-  const { centre, half } = extents(shape), at = position(shape.pose), turn = rotation(shape.pose);
-  return [0, 1, 2, 3, 4, 5, 6, 7].map((k) => half.clone().multiply(new Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)).add(centre).applyQuaternion(turn).add(at));
+  const { centre, half } = extents(shape);
+  const at = position(shape.pose);
+  const turn = rotation(shape.pose);
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((k) =>
+    half
+      .clone()
+      .multiply(new Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1))
+      .add(centre)
+      .applyQuaternion(turn)
+      .add(at),
+  );
 }

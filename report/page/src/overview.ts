@@ -1,4 +1,4 @@
-// The ground of the time slider: the largest load of any joint, the judged window, and where a check fails.
+// Background of the time slider: largest load of all joints, judged window, times of failed checks.
 import { Board, type Pen } from "./board";
 import { css, load } from "./colour";
 import { element } from "./dom";
@@ -9,21 +9,38 @@ export class Overview implements Panel {
   private readonly board: Board;
 
   constructor(private readonly desk: Desk) {
-    this.board = new Board(element("overview"), "Largest load of any joint over time", (pen, width, height) => this.draw(pen, width, height));
+    this.board = new Board(element("overview"), "Largest load of any joint over time", (pen, width, height) =>
+      this.draw(pen, width, height),
+    );
   }
 
   paint(): void {
-    const { recording: { meta: { joints, verdict } } } = this.desk;
-    keys("overview-key", joints.length && verdict.checks.length ? [["", "--orange", "largest load of any joint"], ["", "--line", "judged window"], ["", "--fail", verdict.checks.some((c) => c.status === "fail" && c.from !== null) ? "a check fails" : ""]] : []);
+    const { joints, verdict } = this.desk.recording.meta;
+    keys(
+      "overview-key",
+      joints.length && verdict.checks.length
+        ? [
+            ["", "--orange", "largest load of any joint"],
+            ["", "--line", "judged window"],
+            ["", "--fail", verdict.checks.some((c) => c.status === "fail" && c.from !== null) ? "a check fails" : ""],
+          ]
+        : [],
+    );
     this.board.paint();
   }
 
   private draw(pen: Pen, width: number, height: number): void {
-    const { recording, loads, ink } = this.desk, { window, checks } = recording.meta.verdict, end = recording.end || 1, X = (t: number) => t / end * width, foot = height - 5, top = 2;
+    const { recording, loads, ink } = this.desk;
+    const { window, checks } = recording.meta.verdict;
+    const end = recording.end || 1;
+    const X = (t: number) => (t / end) * width;
+    const foot = height - 5;
+    const top = 2;
     pen.fillStyle = ink.track;
     pen.fillRect(0, top, width, foot - top);
     for (let x = 0; x < width; x++) {
-      const from = recording.row(x / width * end), to = Math.max(from + 1, recording.row((x + 1) / width * end));
+      const from = recording.row((x / width) * end);
+      const to = Math.max(from + 1, recording.row(((x + 1) / width) * end));
       let most = 0;
       for (let i = from; i < to; i++) most = Math.max(most, loads.worst[i]);
       const tall = Math.max(1, most * (foot - top));
@@ -36,6 +53,10 @@ export class Overview implements Panel {
     pen.fillStyle = ink.line;
     pen.fillRect(X(window.from), height - 3, X(window.to) - X(window.from), 2);
     pen.fillStyle = ink.fail;
-    for (const { status, from, to } of checks) if (status === "fail" && from !== null) pen.fillRect(X(from) - 1, height - 4, Math.max(3, X(to ?? from) - X(from)), 4);
+    for (const { status, from, to } of checks) {
+      if (status === "fail" && from !== null) {
+        pen.fillRect(X(from) - 1, height - 4, Math.max(3, X(to ?? from) - X(from)), 4);
+      }
+    }
   }
 }

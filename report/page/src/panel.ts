@@ -1,4 +1,4 @@
-// What the panels of the page have in common: the state they show, and what they answer to.
+// Interfaces of the panels: the state that they show, the page as they use it, the events that they receive.
 import type { Ink } from "./colour";
 import type { Ghost } from "./ghost";
 import type { Loads } from "./loads";
@@ -14,31 +14,31 @@ export interface State {
   span: Span; // s, of the plots over time
 }
 
-/** One of the page's runs, and the way to a place in it. */
+/** A run on the page, and selection of a time, joint or dock in it. */
 export interface Run {
   readonly recording: Recording;
   readonly loads: Loads;
-  /** Stops playing, goes to a time of this run. */
+  /** Stops playing, and shows a time of this run. */
   goTo(t: number): void;
-  /** The number of one of this run's joints. */
+  /** Selects a joint by its number in this run. */
   choose(joint: number): void;
-  /** The number of one of this run's docks, which the 3D picture marks; -1: none. */
+  /** Marks a dock in the 3D picture by its number in this run; -1: none. */
   mark(dock: number): void;
 }
 
-/** The page, as its panels see it: of its own run. */
+/** The page as its panels use it; members of Run refer to its first run. */
 export interface Desk extends Run {
-  /** The run that is laid over it. */
+  /** The second run. */
   readonly ghost: Ghost | null;
-  /** Its own run, and the one that is laid over it. */
+  /** The first run, and the second run if there is one. */
   readonly runs: readonly Run[];
   readonly state: Readonly<State>;
   readonly ink: Ink;
-  /** null: the whole run. */
+  /** Shows a span of time in the plots; null: the whole run. */
   zoom(span: Span | null): void;
 }
 
-/** A panel draws itself anew when the theme has changed (a new size it sees itself), the rest where it shows what changed. */
+/** Events of a panel: paint for a new theme (a panel observes its size itself), the others if they concern it. */
 export interface Panel {
   paint(): void;
   seek?(t: number): void;

@@ -1,11 +1,18 @@
-// First harmonic of every joint in the limit cycle: how far it lags behind the first that swings, and how wide it swings.
+// Plot of the first harmonics in the limit cycle: amplitude of each joint, and lag behind the first oscillating joint.
 import { Board, axisName, font, line, type Box, type Pen } from "./board";
 import { element, leaveOut } from "./dom";
 import { keys } from "./keyline";
 import type { Desk, Panel } from "./panel";
 
-const low = -Math.PI / 2 - 0.25; // half a turn stands in the middle of the axis
+const low = -Math.PI / 2 - 0.25; // lower end of the axis, far from the lag of half a turn
 const wrap = (a: number): number => a - 2 * Math.PI * Math.floor((a - low) / (2 * Math.PI));
+
+/** Places of joints and lags, and the largest radius of a disc, px. */
+interface Place {
+  X: (joint: number) => number;
+  Y: (lag: number) => number;
+  most: number;
+}
 
 export class Phases implements Panel {
   private readonly board: Board | null = null;
@@ -15,30 +22,48 @@ export class Phases implements Panel {
   constructor(private readonly desk: Desk) {
     const { phases, joints, cycle } = desk.recording.meta;
     this.widest = Math.max(...phases.map((p) => p.setpoint[0]), 1e-9);
-    this.reference = Math.max(phases.findIndex((p) => p.setpoint[0] > 0.2 * this.widest), 0);
+    this.reference = Math.max(
+      phases.findIndex((p) => p.setpoint[0] > 0.2 * this.widest),
+      0,
+    );
     if (!phases.length || !phases.some((p) => p.setpoint[0] > 1e-6)) {
-      leaveOut(element("phase"), cycle ? "no joint is given a set point that swings." : "no limit cycle was found.");
+      leaveOut(element("phase"), cycle ? "no joint has an oscillating set point." : "no limit cycle was found.");
       return;
     }
     element("phase-note").textContent = `behind ${joints[this.reference].name}`;
-    this.board = new Board(element("phase"), "Phase lag of every joint", (pen, width, height) => this.draw(pen, width, height));
-    keys("phase-key", [["dotk", "--sky", "set point"], ["ring", "--vermillion", "angle"], ["square", "--purple", desk.ghost?.recording.meta.cycle ? `angle, ${desk.ghost.label}` : ""]]);
+    this.board = new Board(element("phase"), "Phase lag of every joint", (pen, width, height) =>
+      this.draw(pen, width, height),
+    );
+    keys("phase-key", [
+      ["dotk", "--sky", "set point"],
+      ["ring", "--vermillion", "angle"],
+      ["square", "--purple", desk.ghost?.recording.meta.cycle ? `angle, ${desk.ghost.label}` : ""],
+    ]);
     element("phase-key").append("area: amplitude");
   }
 
-  paint(): void { this.board?.paint(); }
-  choose(): void { this.board?.paint(); }
+  paint(): void {
+    this.board?.paint();
+  }
+  choose(): void {
+    this.board?.paint();
+  }
 
-  private draw(pen: Pen, width: number, height: number): void {
-    const { ink, recording, state } = this.desk, { phases } = recording.meta, n = phases.length, box: Box = { left: 52, right: width - 8, top: 8, bottom: height - 44 };
-    const Y = (v: number) => box.bottom - (v - low) / (2 * Math.PI) * (box.bottom - box.top), X = (j: number) => box.left + (j + 0.5) / n * (box.right - box.left);
+  private axes(pen: Pen, box: Box, { X, Y }: Place): void {
+    const { ink, recording } = this.desk;
+    const n = recording.meta.phases.length;
     pen.font = font(11);
     pen.strokeStyle = ink.grid;
     pen.lineWidth = 1;
     pen.fillStyle = ink.muted;
     pen.textAlign = "right";
     pen.textBaseline = "middle";
-    for (const [v, text] of [[-Math.PI / 2, "−π/2"], [0, "0"], [Math.PI / 2, "π/2"], [Math.PI, "π"]] as const) {
+    for (const [v, text] of [
+      [-Math.PI / 2, "−π/2"],
+      [0, "0"],
+      [Math.PI / 2, "π/2"],
+      [Math.PI, "π"],
+    ] as const) {
       line(pen, box.left, Y(v), box.right, Y(v));
       pen.fillText(text, box.left - 7, Y(v));
     }
@@ -51,15 +76,29 @@ export class Phases implements Panel {
     pen.font = font(11);
     pen.fillStyle = ink.muted;
     pen.textAlign = "center";
-    const every = [1, 2, 5, 10, 20, 50].find((k) => k * (box.right - box.left) / n > 22) ?? 100;
+    const every = [1, 2, 5, 10, 20, 50].find((k) => (k * (box.right - box.left)) / n > 22) ?? 100;
     for (let j = 0; j < n; j += every) pen.fillText(String(j), X(j), box.bottom + 6);
-    const most = Math.max(2.5, Math.min(9, (box.right - box.left) / n * 0.46)), zero = phases[this.reference].setpoint[1];
-    const disc = (j: number, lag: number, amplitude: number) => {
-      pen.beginPath();
-      pen.arc(X(j), Y(wrap(lag)), Math.max(2.2, most * Math.sqrt(amplitude / this.widest)), 0, 2 * Math.PI);
+  }
+
+  private draw(pen: Pen, width: number, height: number): void {
+    const n = this.desk.recording.meta.phases.length;
+    const box: Box = { left: 52, right: width - 8, top: 8, bottom: height - 44 };
+    const place: Place = {
+      X: (j) => box.left + ((j + 0.5) / n) * (box.right - box.left),
+      Y: (lag) => box.bottom - ((lag - low) / (2 * Math.PI)) * (box.bottom - box.top),
+      most: Math.max(2.5, Math.min(9, ((box.right - box.left) / n) * 0.46)),
     };
-    const { ghost } = this.desk, theirs = ghost?.recording.meta.phases ?? [], begin = theirs[ghost?.number("joint", this.reference) ?? -1]?.setpoint[1];
-    phases.forEach((_, j) => {
+    this.axes(pen, box, place);
+    this.squares(pen, place);
+    this.discs(pen, place);
+  }
+
+  // Angles of the second run.
+  private squares(pen: Pen, { X, Y, most }: Place): void {
+    const { ghost, ink, recording } = this.desk;
+    const theirs = ghost?.recording.meta.phases ?? [];
+    const begin = theirs[ghost?.number("joint", this.reference) ?? -1]?.setpoint[1];
+    recording.meta.phases.forEach((_, j) => {
       const at = theirs[ghost?.number("joint", j) ?? -1]?.angle;
       if (!at || begin === undefined || at[0] < 0.02 * this.widest) return;
       const half = 0.9 * Math.max(2.2, most * Math.sqrt(Math.min(at[0] / this.widest, 1.5)));
@@ -67,6 +106,17 @@ export class Phases implements Panel {
       pen.lineWidth = 1.5;
       pen.strokeRect(X(j) - half, Y(wrap(begin - at[1])) - half, 2 * half, 2 * half);
     });
+  }
+
+  // Set points as filled discs, angles as rings; a dash for a joint without an oscillation.
+  private discs(pen: Pen, { X, Y, most }: Place): void {
+    const { ink, recording, state } = this.desk;
+    const { phases } = recording.meta;
+    const zero = phases[this.reference].setpoint[1];
+    const disc = (j: number, lag: number, amplitude: number) => {
+      pen.beginPath();
+      pen.arc(X(j), Y(wrap(lag)), Math.max(2.2, most * Math.sqrt(amplitude / this.widest)), 0, 2 * Math.PI);
+    };
     phases.forEach(({ setpoint: [A, a], angle: [B, b] }, j) => {
       const chosen = j === state.joint;
       if (A < 0.02 * this.widest) {

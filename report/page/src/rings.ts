@@ -1,5 +1,14 @@
-// Docks in 3D: a ring around each, a wide one around the one that is chosen.
-import { CylinderGeometry, DoubleSide, InstancedMesh, Matrix4, MeshBasicMaterial, Quaternion, Scene, Vector3 } from "three";
+// Rings around the docks in 3D; the ring of the chosen dock is wider.
+import {
+  CylinderGeometry,
+  DoubleSide,
+  InstancedMesh,
+  Matrix4,
+  MeshBasicMaterial,
+  Quaternion,
+  Scene,
+  Vector3,
+} from "three";
 import type { Theme } from "./colour";
 import type { Meta } from "./format";
 import { position } from "./kinematics";
@@ -13,22 +22,38 @@ export class Rings {
   chosen = -1;
   private readonly places: ({ body: number; local: Matrix4 } | null)[];
   private readonly mesh: InstancedMesh;
-  // Over the bodies: a dock lies between two of them.
-  private readonly material = new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.8, depthTest: false });
+  // Drawn over the bodies, because a dock is hidden between two of them.
+  private readonly material = new MeshBasicMaterial({
+    side: DoubleSide,
+    transparent: true,
+    opacity: 0.8,
+    depthTest: false,
+  });
 
-  constructor(private readonly meta: Meta, private readonly robot: Robot, scene: Scene) {
+  constructor(
+    private readonly meta: Meta,
+    private readonly robot: Robot,
+    scene: Scene,
+  ) {
     this.places = meta.docks.map((_, n) => this.place(n));
-    this.mesh = new InstancedMesh(new CylinderGeometry(1, 1, 1, 36, 1, true), this.material, Math.max(meta.docks.length, 1));
+    this.mesh = new InstancedMesh(
+      new CylinderGeometry(1, 1, 1, 36, 1, true),
+      this.material,
+      Math.max(meta.docks.length, 1),
+    );
     this.mesh.count = meta.docks.length;
     this.mesh.frustumCulled = false;
     this.mesh.renderOrder = 4;
     scene.add(this.mesh);
   }
 
-  get any(): boolean { return this.places.some((p) => p); }
+  get any(): boolean {
+    return this.places.some((p) => p);
+  }
 
   set(): void {
-    const matrix = new Matrix4(), thin = new Matrix4().makeScale(1, 0.4, 1);
+    const matrix = new Matrix4();
+    const thin = new Matrix4().makeScale(1, 0.4, 1);
     this.mesh.visible = this.all || this.chosen >= 0;
     if (!this.mesh.visible) return;
     this.places.forEach((p, n) => {
@@ -40,16 +65,30 @@ export class Rings {
     this.mesh.instanceMatrix.needsUpdate = true;
   }
 
-  paint(theme: Theme): void { this.material.color.set(theme === "dark" ? 0xe9edf1 : 0x1b2127); }
+  paint(theme: Theme): void {
+    this.material.color.set(theme === "dark" ? 0xe9edf1 : 0x1b2127);
+  }
 
-  /** Around the face of the module that hangs on the dock, outside of its body; null: the page does not have the face. */
+  /** Place of a ring: around the face of the docked module, outside of its body; null: the page lacks the face. */
   private place(n: number): { body: number; local: Matrix4 } | null {
-    const { bodies, faces, geometry, docks } = this.meta, { module, face: id } = docks[n];
+    const { bodies, faces, geometry, docks } = this.meta;
+    const { module, face: id } = docks[n];
     const body = bodies.findIndex((b) => b.module === module && faces[b.type]?.some((f) => f.id === id));
     if (body < 0) return null;
-    const { type } = bodies[body], face = faces[type].find((f) => f.id === id)!, normal = new Vector3(...face.normal).normalize(), centre = position([...face.origin, 1, 0, 0, 0]);
-    const away = (p: Vector3) => p.clone().sub(centre).projectOnPlane(normal).length(), points = (geometry[type] ?? []).flatMap(corners);
+    const { type } = bodies[body];
+    const face = faces[type].find((f) => f.id === id)!;
+    const normal = new Vector3(...face.normal).normalize();
+    const centre = position([...face.origin, 1, 0, 0, 0]);
+    const away = (p: Vector3) => p.clone().sub(centre).projectOnPlane(normal).length();
+    const points = (geometry[type] ?? []).flatMap(corners);
     const radius = points.length ? 1.04 * Math.max(...points.map(away)) : 0.7 * this.robot.unit;
-    return { body, local: new Matrix4().compose(centre, new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), normal), new Vector3(radius, 0.16 * this.robot.unit, radius)) };
+    return {
+      body,
+      local: new Matrix4().compose(
+        centre,
+        new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), normal),
+        new Vector3(radius, 0.16 * this.robot.unit, radius),
+      ),
+    };
   }
 }

@@ -1,114 +1,200 @@
-// The robot in 3D: bodies with their edges and shadows, hinges coloured by load. One instanced mesh per piece of a body type, so that
-// 200 joints draw as fast as 20.
-import { BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide, DynamicDrawUsage, EdgesGeometry, Group, InstancedMesh, LineBasicMaterial,
-  LineSegments, Matrix4, MeshBasicMaterial, MeshLambertMaterial, Quaternion, SRGBColorSpace, Scene, Vector3, type Intersection, type Raycaster } from "three";
+// Robot in 3D: bodies with their edges and shadows, hinges coloured by load. Each piece of a body type is one instanced
+// mesh, so that 200 joints are drawn as fast as 20.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  CylinderGeometry,
+  DoubleSide,
+  DynamicDrawUsage,
+  EdgesGeometry,
+  Group,
+  InstancedMesh,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  SRGBColorSpace,
+  Scene,
+  Vector3,
+  type Intersection,
+  type Raycaster,
+  type Material,
+} from "three";
 import { load, type Theme } from "./colour";
-import type { Body, Meta } from "./format";
+import type { Meta } from "./format";
+import { axesOf, hingesOf, type Hinge } from "./hinge";
 import type { Kinematics } from "./kinematics";
-import { position, rotation } from "./kinematics";
 import { corners, extents, outline, type Piece } from "./outline";
 
-/** A piece of a body type, at every body of that type. */
+/** Meshes of a piece of a body type, for all bodies of the type. */
 interface Kind {
   piece: Piece;
   bodies: number[];
   mesh: InstancedMesh;
   shadow: InstancedMesh | null;
-  edges: Float32Array; // of one, in the body's frame
-  first: number; // where its edges begin in those of all, in points
-}
-
-interface Hinge {
-  turn: Quaternion; // from y to the axis
-  size: Vector3; // radius, half length, radius
+  edges: Float32Array; // edges of one body, in its frame
+  first: number; // index of its first point in the edges of all kinds
 }
 
 const looks = {
-  light: { ghost: 0x8f4a86, active: 0x6fb9e3, passive: 0xe8ab3a, other: 0x98a1a9, edge: 0x27313a, shadow: 0xd0d7dd, accent: 0x0b5f9e },
-  dark: { ghost: 0xe39cc1, active: 0x4b97c6, passive: 0xc98d22, other: 0x7b858e, edge: 0x05080b, shadow: 0x090c0f, accent: 0x8fd0ff },
+  light: {
+    ghost: 0x8f4a86,
+    active: 0x6fb9e3,
+    passive: 0xe8ab3a,
+    other: 0x98a1a9,
+    edge: 0x27313a,
+    shadow: 0xd0d7dd,
+    accent: 0x0b5f9e,
+  },
+  dark: {
+    ghost: 0xe39cc1,
+    active: 0x4b97c6,
+    passive: 0xc98d22,
+    other: 0x7b858e,
+    edge: 0x05080b,
+    shadow: 0x090c0f,
+    accent: 0x8fd0ff,
+  },
 };
 
 export class Robot {
-  /** m: across a typical body; from end to end. */
+  /** Size of a typical body, m. */
   readonly unit: number;
-  readonly axes: Vector3[]; // of each joint, in the frame of its pivot
+  readonly axes: Vector3[]; // axis of each joint, in the frame of its pivot
   readonly hinges: Hinge[];
   private readonly kinds: Kind[] = [];
   private readonly discs: InstancedMesh;
   private readonly outlines: LineSegments;
   private readonly chosen: LineSegments;
-  private readonly materials = { active: new MeshLambertMaterial(), passive: new MeshLambertMaterial(), other: new MeshLambertMaterial() };
+  private readonly materials = {
+    active: new MeshLambertMaterial(),
+    passive: new MeshLambertMaterial(),
+    other: new MeshLambertMaterial(),
+  };
   private readonly shade = new MeshBasicMaterial({ side: DoubleSide });
-  private readonly unseen = new MeshBasicMaterial({ colorWrite: false, transparent: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  private readonly unseen = new MeshBasicMaterial({
+    colorWrite: false,
+    transparent: true,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
   private readonly matrices: Matrix4[];
   private readonly press: Matrix4 | null;
-  private readonly corners = new Map<string, Vector3[]>(); // of a body type's pieces
+  private readonly corners = new Map<string, Vector3[]>(); // corners of the pieces, by body type
   private theme: Theme = "light";
 
   private readonly all = new Group();
 
-  /** Without light: the robot of a second run, translucent, in one colour, without shadow and hinges. */
-  constructor(private readonly meta: Meta, private readonly kinematics: Kinematics, scene: Scene, private readonly light: Vector3 | null) {
+  /** `light`: its position; null for the second run: translucent, in one colour, without shadows and hinges. */
+  constructor(
+    private readonly meta: Meta,
+    private readonly kinematics: Kinematics,
+    scene: Scene,
+    private readonly light: Vector3 | null,
+  ) {
     scene.add(this.all);
-    const { bodies, joints, ground } = meta;
+    const { bodies, ground } = meta;
     this.unit = typicalSize(meta);
     this.matrices = bodies.map(() => new Matrix4());
-    // Shadows: the bodies once more, pressed onto the ground along the light; opaque, so that overlaps do not show. A shadow map
-    // costs 140 ms a frame where there is no GPU.
-    this.press = light && (ground.kind === "plane" || ground.kind === "boxes") ? pressed(light, ground.height + 0.0008 * this.unit) : null;
-    const types = new Map<string, number[]>();
-    bodies.forEach((b, i) => types.set(b.type, [...(types.get(b.type) ?? []), i]));
-    let points = 0, others = 0;
-    for (const [type, members] of types) {
-      this.corners.set(type, (meta.geometry[type] ?? []).flatMap(corners));
-      const { role } = bodies[members[0]]; // without gender: in turn, so that the halves of a module can be told apart
-      const look = role === "active" || role === "passive" ? role : role !== "other" ? "other" : others++ % 2 ? "passive" : "active", material = this.materials[look];
-      for (const piece of outline(meta.geometry[type] ?? [])) {
-        const mesh = new InstancedMesh(piece.body, material, members.length), shadow = this.press ? new InstancedMesh(piece.shadow, this.shade, members.length) : null;
-        // A translucent robot is drawn twice, its depth first, so that its own far side does not show through.
-        const depth = light ? null : new InstancedMesh(piece.body, this.unseen, members.length);
-        if (depth) {
-          depth.instanceMatrix = mesh.instanceMatrix;
-          depth.renderOrder = 1;
-        }
-        mesh.renderOrder = light ? 0 : 2;
-        for (const one of [depth, mesh, shadow]) {
-          if (!one) continue;
-          one.frustumCulled = false;
-          one.instanceMatrix.setUsage(DynamicDrawUsage);
-          this.all.add(one);
-        }
-        const edges = new EdgesGeometry(piece.body, 35).getAttribute("position").array as Float32Array;
-        this.kinds.push({ piece, bodies: members, mesh, shadow, edges, first: points });
-        points += members.length * edges.length / 3;
-      }
-    }
-    this.outlines = lines(points, new LineBasicMaterial({ transparent: true, opacity: 0.55 }));
-    this.chosen = lines(Math.max(0, ...bodies.map((_, i) => this.edgesOf(i).reduce((n, k) => n + k.edges.length / 3, 0))), new LineBasicMaterial());
+    // Shadows: the bodies once more, pressed onto the ground along the light; opaque, so that overlaps do not show. A
+    // shadow map costs 140 ms a frame without a GPU.
+    this.press =
+      light && (ground.kind === "plane" || ground.kind === "boxes")
+        ? pressed(light, ground.height + 0.0008 * this.unit)
+        : null;
+    this.outlines = lines(this.addBodies(), new LineBasicMaterial({ transparent: true, opacity: 0.55 }));
+    this.chosen = lines(
+      Math.max(0, ...bodies.map((_, i) => this.edgesOf(i).reduce((n, k) => n + k.edges.length / 3, 0))),
+      new LineBasicMaterial(),
+    );
     this.outlines.renderOrder = light ? 0 : 3;
     this.all.add(this.outlines, this.chosen);
-
-    this.axes = joints.map(() => new Vector3(0, 1, 0));
-    for (const b of bodies) if (b.joint >= 0) this.axes[b.joint] = new Vector3(...b.axis).normalize();
-    this.hinges = joints.map((_, j) => ({ turn: new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), this.axes[j]), size: this.hingeSize(j) }));
-    this.discs = new InstancedMesh(new CylinderGeometry(1, 1, 2, 28), new MeshLambertMaterial(), Math.max(joints.length, 1));
-    this.discs.count = joints.length;
-    this.discs.frustumCulled = false;
-    this.discs.setColorAt(0, new Color());
+    this.axes = axesOf(meta);
+    this.hinges = hingesOf(meta, this.axes, this.unit);
+    this.discs = discs(meta.joints.length);
     this.discs.visible = !!light;
     this.all.add(this.discs);
-    if (!light) for (const material of Object.values(this.materials)) Object.assign(material, { transparent: true, opacity: 0.3, depthWrite: false, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+    if (!light) this.fade();
   }
 
-  /** Takes over the poses; `shares`: load of each joint, 0 to 1. */
+  // Adds the meshes of all bodies, type by type. Returns the number of points of their edges.
+  private addBodies(): number {
+    const { bodies, geometry } = this.meta;
+    const types = new Map<string, number[]>();
+    bodies.forEach((b, i) => types.set(b.type, [...(types.get(b.type) ?? []), i]));
+    let points = 0;
+    let others = 0;
+    for (const [type, members] of types) {
+      this.corners.set(type, (geometry[type] ?? []).flatMap(corners));
+      const { role } = bodies[members[0]];
+      // Bodies without gender take both colours in turn, so that the halves of a module can be distinguished.
+      const look =
+        role === "active" || role === "passive"
+          ? role
+          : role !== "other"
+            ? "other"
+            : others++ % 2
+              ? "passive"
+              : "active";
+      for (const piece of outline(geometry[type] ?? [])) {
+        points += this.build(piece, members, this.materials[look], points);
+      }
+    }
+    return points;
+  }
+
+  // Adds the meshes of a piece for all bodies of a type; `first`: see Kind. Returns the number of points of its edges.
+  private build(piece: Piece, members: number[], material: Material, first: number): number {
+    const mesh = new InstancedMesh(piece.body, material, members.length);
+    const shadow = this.press ? new InstancedMesh(piece.shadow, this.shade, members.length) : null;
+    // A translucent robot is drawn twice, its depth first, so that its far side does not show through.
+    const depth = this.light ? null : new InstancedMesh(piece.body, this.unseen, members.length);
+    if (depth) {
+      depth.instanceMatrix = mesh.instanceMatrix;
+      depth.renderOrder = 1;
+    }
+    mesh.renderOrder = this.light ? 0 : 2;
+    for (const one of [depth, mesh, shadow]) {
+      if (!one) continue;
+      one.frustumCulled = false;
+      one.instanceMatrix.setUsage(DynamicDrawUsage);
+      this.all.add(one);
+    }
+    const edges = new EdgesGeometry(piece.body, 35).getAttribute("position").array as Float32Array;
+    this.kinds.push({ piece, bodies: members, mesh, shadow, edges, first });
+    return (members.length * edges.length) / 3;
+  }
+
+  private fade(): void {
+    for (const material of Object.values(this.materials)) {
+      Object.assign(material, {
+        transparent: true,
+        opacity: 0.3,
+        depthWrite: false,
+        polygonOffset: true,
+        polygonOffsetFactor: 1,
+        polygonOffsetUnits: 1,
+      });
+    }
+  }
+
+  /** Moves the meshes to the poses of the kinematics; `shares`: load of each joint, 0 to 1. */
   set(shares: readonly number[], selected: number, hovered: number): void {
-    const { kinematics } = this, one = new Vector3(1, 1, 1), matrix = new Matrix4(), colour = new Color();
+    const { kinematics } = this;
+    const one = new Vector3(1, 1, 1);
+    const matrix = new Matrix4();
+    const colour = new Color();
     this.matrices.forEach((m, i) => m.compose(kinematics.positions[i], kinematics.turns[i], one));
     const all = this.outlines.geometry.getAttribute("position") as BufferAttribute;
     for (const kind of this.kinds) {
       kind.bodies.forEach((body, n) => {
         kind.mesh.setMatrixAt(n, this.matrices[body]);
-        if (kind.shadow && this.press) kind.shadow.setMatrixAt(n, matrix.multiplyMatrices(this.press, this.matrices[body]));
+        if (kind.shadow && this.press) {
+          kind.shadow.setMatrixAt(n, matrix.multiplyMatrices(this.press, this.matrices[body]));
+        }
         place(kind.edges, this.matrices[body], all.array as Float32Array, 3 * kind.first + n * kind.edges.length);
       });
       kind.mesh.instanceMatrix.needsUpdate = true;
@@ -118,9 +204,13 @@ export class Robot {
     all.needsUpdate = true;
     if (!this.light) return;
     this.hinges.forEach((hinge, j) => {
-      const wide = j === selected ? 1.16 : j === hovered ? 1.1 : 1, size = hinge.size.clone().multiply(new Vector3(wide, 1, wide));
-      if (j === selected) size.y += 0.005 * this.unit; // less than a face's number is lifted by
-      this.discs.setMatrixAt(j, matrix.compose(kinematics.pivots[j], kinematics.pivotTurns[j].clone().multiply(hinge.turn), size));
+      const wide = j === selected ? 1.16 : j === hovered ? 1.1 : 1;
+      const size = hinge.size.clone().multiply(new Vector3(wide, 1, wide));
+      if (j === selected) size.y += 0.005 * this.unit; // less than the lift of a face's number
+      this.discs.setMatrixAt(
+        j,
+        matrix.compose(kinematics.pivots[j], kinematics.pivotTurns[j].clone().multiply(hinge.turn), size),
+      );
       const [r, g, b] = load(this.theme, shares[j]);
       this.discs.setColorAt(j, colour.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace));
     });
@@ -133,76 +223,83 @@ export class Robot {
   paint(theme: Theme): void {
     this.theme = theme;
     const look = looks[theme];
-    for (const key of ["active", "passive", "other"] as const) this.materials[key].color.set(this.light ? look[key] : look.ghost);
+    for (const key of ["active", "passive", "other"] as const) {
+      this.materials[key].color.set(this.light ? look[key] : look.ghost);
+    }
     (this.outlines.material as LineBasicMaterial).color.set(this.light ? look.edge : look.ghost);
     (this.chosen.material as LineBasicMaterial).color.set(look.accent);
     this.shade.color.set(look.shadow);
   }
 
-  get visible(): boolean { return this.all.visible; }
-  set visible(on: boolean) { this.all.visible = on; }
-  set shadows(on: boolean) { for (const kind of this.kinds) if (kind.shadow) kind.shadow.visible = on; }
+  get visible(): boolean {
+    return this.all.visible;
+  }
+  set visible(on: boolean) {
+    this.all.visible = on;
+  }
+  set shadows(on: boolean) {
+    for (const kind of this.kinds) {
+      if (kind.shadow) kind.shadow.visible = on;
+    }
+  }
 
-  matrix(body: number): Matrix4 { return this.matrices[body]; }
+  matrix(body: number): Matrix4 {
+    return this.matrices[body];
+  }
 
-  /** The joint that the ray meets: a disc, or the nearest hinge of the body; -1 without one. */
+  /** Joint of the disc that the ray meets, else the nearest joint of the body that it meets; -1 without one. */
   pick(ray: Raycaster): number {
-    const hits: Intersection[] = ray.intersectObjects([this.discs, ...this.kinds.map((k) => k.mesh)], false), hit = hits[0];
+    const hits: Intersection[] = ray.intersectObjects([this.discs, ...this.kinds.map((k) => k.mesh)], false);
+    const hit = hits[0];
     if (!hit || hit.instanceId === undefined) return -1;
     if (hit.object === this.discs) return hit.instanceId;
     const kind = this.kinds.find((k) => k.mesh === hit.object);
     if (!kind) return -1;
-    const body = kind.bodies[hit.instanceId], { bodies, joints } = this.meta;
-    const near = joints.flatMap((joint, j) => (joint.body === body || bodies[joint.body].parent === body || bodies[body].joint === j ? [j] : []));
-    near.sort((a, b) => this.kinematics.pivots[a].distanceTo(hit.point) - this.kinematics.pivots[b].distanceTo(hit.point));
+    const body = kind.bodies[hit.instanceId];
+    const { bodies, joints } = this.meta;
+    const near = joints.flatMap((joint, j) =>
+      joint.body === body || bodies[joint.body].parent === body || bodies[body].joint === j ? [j] : [],
+    );
+    near.sort(
+      (a, b) => this.kinematics.pivots[a].distanceTo(hit.point) - this.kinematics.pivots[b].distanceTo(hit.point),
+    );
     return near[0] ?? -1;
   }
 
-  /** Corners for framing: of all bodies, or around a joint. */
+  /** Points that a view must contain: the corners of all bodies, or points around a joint. */
   points(joint = -1): Vector3[] {
     const { positions, turns, pivots } = this.kinematics;
     if (joint < 0) {
-      const corners = this.meta.bodies.flatMap((b, i) => (this.corners.get(b.type) ?? []).map((c) => c.clone().applyQuaternion(turns[i]).add(positions[i])));
+      const corners = this.meta.bodies.flatMap((b, i) =>
+        (this.corners.get(b.type) ?? []).map((c) => c.clone().applyQuaternion(turns[i]).add(positions[i])),
+      );
       return corners.length ? corners : positions;
     }
-    const p = pivots[joint], r = 1.6 * this.unit;
-    return [[r, 0, 0], [-r, 0, 0], [0, r, 0], [0, -r, 0], [0, 0, r], [0, 0, -r]].map(([x, y, z]) => new Vector3(p.x + x, p.y + y, p.z + z));
+    const p = pivots[joint];
+    const r = 1.6 * this.unit;
+    return [
+      [r, 0, 0],
+      [-r, 0, 0],
+      [0, r, 0],
+      [0, -r, 0],
+      [0, 0, r],
+      [0, 0, -r],
+    ].map(([x, y, z]) => new Vector3(p.x + x, p.y + y, p.z + z));
   }
 
-  private edgesOf(body: number): Kind[] { return this.kinds.filter((k) => k.bodies.includes(body)); }
+  private edgesOf(body: number): Kind[] {
+    return this.kinds.filter((k) => k.bodies.includes(body));
+  }
 
   private frame(body: number): void {
-    const position = this.chosen.geometry.getAttribute("position") as BufferAttribute, out = position.array as Float32Array;
+    const position = this.chosen.geometry.getAttribute("position") as BufferAttribute;
+    const out = position.array as Float32Array;
     let n = 0;
-    if (body >= 0) for (const kind of this.edgesOf(body)) n += place(kind.edges, this.matrices[body], out, n);
+    if (body >= 0) {
+      for (const kind of this.edgesOf(body)) n += place(kind.edges, this.matrices[body], out, n);
+    }
     position.needsUpdate = true;
     this.chosen.geometry.setDrawRange(0, n / 3);
-  }
-
-  // A disc on the axis, a little longer than the pieces it goes through are wide, and narrower than they are.
-  private hingeSize(joint: number): Vector3 {
-    const { bodies, geometry } = this.meta, child = bodies.findIndex((b) => b.joint === joint);
-    const axis = this.axes[joint], fallback = new Vector3(0.16, 0.52, 0.16).multiplyScalar(this.unit);
-    if (child < 0) return fallback;
-    const inverse = new Matrix4().compose(position(bodies[child].post), rotation(bodies[child].post), new Vector3(1, 1, 1)).invert();
-    const toParent = new Matrix4().compose(position(bodies[child].pre), rotation(bodies[child].pre), new Vector3(1, 1, 1));
-    let radius = 0.04 * this.unit, half = 0;
-    const look = (body: Body, fromPivot: Matrix4) => {
-      for (const shape of geometry[body.type] ?? []) {
-        const own = new Matrix4().compose(position(shape.pose), rotation(shape.pose), new Vector3(1, 1, 1)).invert().multiply(fromPivot);
-        const { centre, half: h } = extents(shape), p = new Vector3().applyMatrix4(own).sub(centre), a = axis.clone().transformDirection(own);
-        const slack = 0.02 * this.unit;
-        if (Math.abs(p.x) > h.x + slack || Math.abs(p.y) > h.y + slack || Math.abs(p.z) > h.z + slack) continue;
-        const along = Math.abs(a.x) * h.x + Math.abs(a.y) * h.y + Math.abs(a.z) * h.z;
-        const across = [h.x, h.y, h.z].filter((_, k) => Math.abs([a.x, a.y, a.z][k]) < 0.5);
-        half = Math.max(half, along);
-        radius = Math.max(radius, 0.55 * (shape.kind === "half_cylinder" ? shape.size[0] : Math.min(...across)));
-      }
-    };
-    look(bodies[child], inverse);
-    if (bodies[child].parent >= 0) look(bodies[bodies[child].parent], toParent);
-    if (half === 0) return fallback;
-    return new Vector3(radius, half + 0.023 * this.unit, radius);
   }
 }
 
@@ -214,11 +311,13 @@ export function lines(points: number, material: LineBasicMaterial): LineSegments
   return made;
 }
 
-/** Writes the points, moved by m, into `out` from `at`; how many numbers. */
+/** Writes the points, transformed by m, into `out` from index `at` on. Returns the number of values written. */
 export function place(points: Float32Array, m: Matrix4, out: Float32Array, at: number): number {
   const e = m.elements;
   for (let i = 0; i < points.length; i += 3) {
-    const x = points[i], y = points[i + 1], z = points[i + 2];
+    const x = points[i];
+    const y = points[i + 1];
+    const z = points[i + 2];
     out[at + i] = e[0] * x + e[4] * y + e[8] * z + e[12];
     out[at + i + 1] = e[1] * x + e[5] * y + e[9] * z + e[13];
     out[at + i + 2] = e[2] * x + e[6] * y + e[10] * z + e[14];
@@ -226,17 +325,29 @@ export function place(points: Float32Array, m: Matrix4, out: Float32Array, at: n
   return points.length;
 }
 
-/** Onto the plane z = height, along the light. */
+/** Projection onto the plane z = height along the light. */
 function pressed(light: Vector3, height: number): Matrix4 {
-  const x = light.x / light.z, y = light.y / light.z;
+  const x = light.x / light.z;
+  const y = light.y / light.z;
   return new Matrix4().set(1, 0, -x, x * height, 0, 1, -y, y * height, 0, 0, 0, height, 0, 0, 0, 1);
 }
 
-/** The middle one of the bodies' sizes, each across its largest piece. */
+/** Median of the sizes of the bodies; the size of a body is the length of its largest piece. */
 function typicalSize(meta: Meta): number {
-  const sizes = meta.bodies.flatMap((b) => {
-    const pieces = meta.geometry[b.type] ?? [];
-    return pieces.length ? [Math.max(...pieces.map((s) => 2 * Math.max(...extents(s).half.toArray())))] : [];
-  }).sort((a, b) => a - b);
+  const sizes = meta.bodies
+    .flatMap((b) => {
+      const pieces = meta.geometry[b.type] ?? [];
+      return pieces.length ? [Math.max(...pieces.map((s) => 2 * Math.max(...extents(s).half.toArray())))] : [];
+    })
+    .sort((a, b) => a - b);
   return sizes[sizes.length >> 1] || 0.1;
+}
+
+/** A disc for each hinge. */
+function discs(count: number): InstancedMesh {
+  const made = new InstancedMesh(new CylinderGeometry(1, 1, 2, 28), new MeshLambertMaterial(), Math.max(count, 1));
+  made.count = count;
+  made.frustumCulled = false;
+  made.setColorAt(0, new Color());
+  return made;
 }

@@ -1,5 +1,6 @@
-// The 3D picture in the page: its buttons, legends, tags; clicks on hinges. Without WebGL it says so, and the rest of the page works.
-import { gradient, type Theme } from "./colour";
+// Panel of the 3D picture: buttons, legends, labels; clicks on hinges. Without WebGL it contains a note, and the rest
+// of the page works.
+import { gradient } from "./colour";
 import { element, make } from "./dom";
 import { Labels } from "./labels";
 import { decimalsOf, fixed, number, percent } from "./numbers";
@@ -14,24 +15,41 @@ export class Stage implements Panel {
   private readonly labels = new Labels(element("names"));
   private image: HTMLImageElement | null = null;
 
-  constructor(private readonly desk: Desk, align: (on: boolean) => void) {
+  constructor(
+    private readonly desk: Desk,
+    align: (on: boolean) => void,
+  ) {
     const canvas = element<HTMLCanvasElement>("view");
     this.view = opened(canvas, desk);
     if (!this.view) {
-      for (const part of this.host.querySelectorAll<HTMLElement>("*")) part.hidden = true; // keys ask whether a button is hidden
-      this.host.append(make("p.empty", "This browser cannot draw in 3D (it has no WebGL 2). Everything else on this page works."));
+      // Keys do nothing if their button is hidden.
+      for (const part of this.host.querySelectorAll<HTMLElement>("*")) part.hidden = true;
+      this.host.append(
+        make("p.empty", "This browser cannot draw in 3D (it has no WebGL 2). Everything else on this page works."),
+      );
       return;
     }
-    const { view } = this, { meta } = desk.recording;
-    element("grid-size").textContent = meta.ground.kind === "plane" || meta.ground.kind === "boxes" ? `grid ${number(view.ground.spacing)} m` : "";
-    element("ramp-words").textContent = !desk.recording.ran || !meta.joints.length ? "" : desk.loads.limited ? "hinge: share of what its motor can give" : "hinge: torque, of the largest in this run";
-    for (const b of document.querySelectorAll<HTMLElement>("[data-look]")) b.addEventListener("click", () => view.look(b.dataset.look as Look));
-    this.toggle("follow", desk.recording.ran, () => view.follow, (on) => { view.follow = on; });
-    this.toggle("forces", view.arrows.any, () => view.forces, (on) => { view.forces = on; });
-    this.toggle("faces", view.marks.anyFaces, () => view.marks.faces, (on) => { view.marks.faces = on; });
-    for (const words of document.querySelectorAll<HTMLElement>("[data-gender]")) words.hidden = !view.marks.hasFaces(words.dataset.gender!);
-    this.toggle("axes", meta.joints.length > 0, () => view.marks.axes, (on) => { view.marks.axes = on; });
-    this.toggle("rings", view.rings.any, () => view.rings.all, (on) => { view.rings.all = on; });
+    const { view } = this;
+    const { meta } = desk.recording;
+    element("grid-size").textContent =
+      meta.ground.kind === "plane" || meta.ground.kind === "boxes" ? `grid ${number(view.ground.spacing)} m` : "";
+    element("ramp-words").textContent =
+      !desk.recording.ran || !meta.joints.length
+        ? ""
+        : desk.loads.limited
+          ? "hinge: share of the available torque"
+          : "hinge: torque, of the largest in this run";
+    for (const b of document.querySelectorAll<HTMLElement>("[data-look]")) {
+      b.addEventListener("click", () => view.look(b.dataset.look as Look));
+    }
+    this.option("follow", desk.recording.ran, view, "follow");
+    this.option("forces", view.arrows.any, view, "forces");
+    this.option("faces", view.marks.anyFaces, view.marks, "faces");
+    for (const words of document.querySelectorAll<HTMLElement>("[data-gender]")) {
+      words.hidden = !view.marks.hasFaces(words.dataset.gender!);
+    }
+    this.option("axes", meta.joints.length > 0, view.marks, "axes");
+    this.option("rings", view.rings.any, view.rings, "all");
     const { ghost } = desk;
     this.toggle("align", !!ghost?.periodic, () => !!ghost?.aligned, align);
     this.pointer(canvas, view);
@@ -42,7 +60,7 @@ export class Stage implements Panel {
     element("ramp").style.background = gradient(this.desk.ink.theme);
     element("legend-load").hidden = !element("ramp-words").textContent;
     this.view?.resize();
-    this.view?.paint(this.desk.ink.theme as Theme);
+    this.view?.paint(this.desk.ink.theme);
   }
 
   /** Marks a dock; -1: none. */
@@ -51,30 +69,50 @@ export class Stage implements Panel {
     this.ringWords();
   }
 
-  seek(t: number): void { this.view?.set(t); }
-  choose(): void { this.view?.select(this.desk.state.joint); }
+  seek(t: number): void {
+    this.view?.set(t);
+  }
+  choose(): void {
+    this.view?.select(this.desk.state.joint);
+  }
 
-  /** Draws if something changed; whether it did. */
+  /** Draws if something has changed; returns true then. */
   draw(): boolean {
     if (!this.view?.render()) return false;
     this.annotate(this.view);
     return true;
   }
 
-  /** The chosen joint and its module fill the picture; again: the whole robot. */
-  frame(joint: number): void { this.view?.look("iso", joint); }
+  /** Fills the picture with a joint and its module; -1: with the whole robot. */
+  frame(joint: number): void {
+    this.view?.look("iso", joint);
+  }
 
-  switch(what: "faces" | "axes" | "follow" | "forces"): void { element(what).click(); }
+  switch(what: "faces" | "axes" | "follow" | "forces"): void {
+    element(what).click();
+  }
 
-  /** A picture in place of the canvas, for paper. */
+  /** Replaces the canvas by a picture, for paper, or shows it again. */
   freeze(on: boolean): void {
     this.image?.remove();
     this.image = null;
     if (!on || !this.view) return;
     this.image = make("img.still");
-    this.image.alt = "The robot at the time chosen";
+    this.image.alt = "The robot at the selected time";
     this.image.src = this.view.image();
     this.host.append(this.image);
+  }
+
+  /** Wires a button that switches a property. */
+  private option<Key extends string>(id: string, useful: boolean, of: Record<Key, boolean>, key: Key): void {
+    this.toggle(
+      id,
+      useful,
+      () => of[key],
+      (on) => {
+        of[key] = on;
+      },
+    );
   }
 
   private toggle(id: string, useful: boolean, get: () => boolean, set: (on: boolean) => void): void {
@@ -92,40 +130,59 @@ export class Stage implements Panel {
   }
 
   private ringWords(): void {
-    const { rings } = this.view ?? {}, { docks } = this.desk.recording.meta, chosen = docks[rings?.chosen ?? -1];
+    const { rings } = this.view ?? {};
+    const { docks } = this.desk.recording.meta;
+    const chosen = docks[rings?.chosen ?? -1];
     element("legend-rings").hidden = !rings?.any || !(rings.all || chosen);
     element("ring-words").textContent = chosen ? `ring: ${dockName(chosen.name)}` : "ring: a dock";
   }
 
   private annotate(view: View): void {
-    const { recording, loads, state } = this.desk, { joints } = recording.meta, j = view.hovered >= 0 ? view.hovered : state.joint;
+    const { recording, loads, state } = this.desk;
+    const { joints } = recording.meta;
+    const j = view.hovered >= 0 ? view.hovered : state.joint;
     const at = j >= 0 ? view.place(j) : null;
     this.tag.hidden = !at;
     if (at) {
-      const torque = recording.find(`joint.${j}.torque`), width = this.host.clientWidth, decimals = decimalsOf(loads.peak, "N m");
-      const numbers = recording.ran && torque ? ` ${fixed(recording.at(torque, state.t), decimals)} N m${loads.limited ? `, ${percent(Math.round(100 * loads.shareAt(j, state.t)) / 100)}` : ""}` : "";
+      const torque = recording.find(`joint.${j}.torque`);
+      const width = this.host.clientWidth;
+      const decimals = decimalsOf(loads.peak, "N m");
+      const share = loads.limited ? `, ${percent(Math.round(100 * loads.shareAt(j, state.t)) / 100)}` : "";
+      const numbers = recording.ran && torque ? ` ${fixed(recording.at(torque, state.t), decimals)} N m${share}` : "";
       this.tag.replaceChildren(make("b", joints[j].name), numbers);
-      const half = this.tag.offsetWidth / 2, x = Math.min(Math.max(at[0], half + 8), width - half - 8), under = at[1] < 84;
+      const half = this.tag.offsetWidth / 2;
+      const x = Math.min(Math.max(at[0], half + 8), width - half - 8);
+      const under = at[1] < 84;
       this.tag.classList.toggle("under", under);
       this.tag.style.setProperty("--point", `${(at[0] - x + half).toFixed(1)}px`);
-      this.tag.style.transform = `translate(${(x - half).toFixed(1)}px, ${under ? `${(at[1] + 22).toFixed(1)}px` : `calc(${(at[1] - 18).toFixed(1)}px - 100%)`})`;
+      const y = under ? `${(at[1] + 22).toFixed(1)}px` : `calc(${(at[1] - 18).toFixed(1)}px - 100%)`;
+      this.tag.style.transform = `translate(${(x - half).toFixed(1)}px, ${y})`;
     }
     const order = joints.map((_, k) => k).filter((k) => k !== j);
-    this.labels.show(!view.marks.axes ? [] : order.flatMap((k) => {
-      const tip = view.project(view.marks.tip(k));
-      return tip ? [{ text: joints[k].name, x: tip[0], y: tip[1] }] : [];
-    }));
+    this.labels.show(
+      !view.marks.axes
+        ? []
+        : order.flatMap((k) => {
+            const tip = view.project(view.marks.tip(k));
+            return tip ? [{ text: joints[k].name, x: tip[0], y: tip[1] }] : [];
+          }),
+    );
   }
 
   private pointer(canvas: HTMLCanvasElement, view: View): void {
     let down: [number, number] | null = null;
-    canvas.addEventListener("pointerdown", (e) => { down = [e.clientX, e.clientY]; });
+    canvas.addEventListener("pointerdown", (e) => {
+      down = [e.clientX, e.clientY];
+    });
     canvas.addEventListener("pointerup", (e) => {
-      const still = down && Math.hypot(e.clientX - down[0], e.clientY - down[1]) < 5, joint = still ? view.pick(e.clientX, e.clientY) : -1;
+      const still = down && Math.hypot(e.clientX - down[0], e.clientY - down[1]) < 5;
+      const joint = still ? view.pick(e.clientX, e.clientY) : -1;
       down = null;
       if (joint >= 0) this.desk.choose(joint);
     });
-    canvas.addEventListener("pointermove", (e) => { if (!e.buttons) hover(view.pick(e.clientX, e.clientY)); });
+    canvas.addEventListener("pointermove", (e) => {
+      if (!e.buttons) hover(view.pick(e.clientX, e.clientY));
+    });
     canvas.addEventListener("pointerleave", () => hover(-1));
     canvas.addEventListener("dblclick", (e) => this.frame(view.pick(e.clientX, e.clientY)));
     const hover = (joint: number) => {
@@ -137,7 +194,7 @@ export class Stage implements Panel {
   }
 }
 
-/** A view, or null without WebGL 2: asked on a canvas of its own, which leaves no error on the console. */
+/** A view, or null without WebGL 2. A test with another canvas writes no error to the console. */
 function opened(canvas: HTMLCanvasElement, desk: Desk): View | null {
   if (!document.createElement("canvas").getContext("webgl2")) return null;
   return new View(desk, canvas);

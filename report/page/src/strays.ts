@@ -1,4 +1,4 @@
-// The signals that left their bands around the golden run, the first to stray first; a row goes to its joint and time.
+// Table and plot of the signals that left their bands around the golden, in order of time.
 import { element, make, panelOf } from "./dom";
 import type { Stray } from "./format";
 import { keys } from "./keyline";
@@ -6,16 +6,19 @@ import { fixed, number } from "./numbers";
 import type { Desk, Panel, Run } from "./panel";
 import { TimePlot } from "./timeplot";
 
-/** `m5/active torque` of joint.9.torque. */
+/** Name of a channel as text: `m5/active torque` for joint.9.torque. */
 export function signalName(run: Run, signal: string): string {
-  const [, joint, quantity] = /^joint\.(\d+)\.(.*)$/.exec(signal) ?? [], { joints } = run.recording.meta;
+  const [, joint, quantity] = /^joint\.(\d+)\.(.*)$/.exec(signal) ?? [];
+  const { joints } = run.recording.meta;
   return joint === undefined ? signal : `${joints[Number(joint)]?.name ?? `joint ${joint}`} ${quantity}`;
 }
 
-const jointOf = ({ signal }: Stray): number => Number(/^joint\.(\d+)\./.exec(signal)?.[1] ?? -1);
+/** Number of the joint of a stray signal; -1: it has none. */
+export const jointOf = ({ signal }: Stray): number => Number(/^joint\.(\d+)\./.exec(signal)?.[1] ?? -1);
 
 export function signalLink(run: Run, stray: Stray): HTMLButtonElement {
-  const go = make("button.link", signalName(run, stray.signal)), joint = jointOf(stray);
+  const go = make("button.link", signalName(run, stray.signal));
+  const joint = jointOf(stray);
   go.type = "button";
   go.addEventListener("click", () => {
     if (joint >= 0) run.choose(joint);
@@ -29,35 +32,69 @@ export class Strays implements Panel {
   private plot: TimePlot | null = null;
 
   constructor(private readonly desk: Desk) {
-    const { strays } = desk.ghost!.overlay, body = make("tbody");
+    const { strays } = desk.ghost!.overlay;
+    const body = make("tbody");
     this.shown = strays.find((s) => jointOf(s) === desk.state.joint) ?? strays[0] ?? null;
     panelOf("drift").hidden = !this.shown;
     for (const stray of strays) {
-      const link = signalLink(desk, stray), head = make("th", link);
+      const link = signalLink(desk, stray);
+      const head = make("th", link);
       head.scope = "row";
       link.addEventListener("click", () => this.show(stray));
-      body.append(make("tr", head, make("td", number(stray.ratio)), make("td", stray.from === null ? "never" : fixed(stray.from, 2)), make("td", `±${number(stray.tolerance)} ${stray.unit}`)));
+      body.append(
+        make(
+          "tr",
+          head,
+          make("td", number(stray.ratio)),
+          make("td", stray.from === null ? "never" : fixed(stray.from, 2)),
+          make("td", `±${number(stray.tolerance)} ${stray.unit}`),
+        ),
+      );
     }
-    const columns = [["signal", ""], ["RMS", "bands"], ["outside from", "s"], ["tolerance", ""]].map(([name, unit]) => make("th", name, make("small", ` ${unit}`)));
+    const columns = [
+      ["signal", ""],
+      ["RMS", "bands"],
+      ["outside from", "s"],
+      ["tolerance", ""],
+    ].map(([name, unit]) => make("th", name, make("small", ` ${unit}`)));
     if (strays.length) element("strays").append(make("thead", make("tr", ...columns)), body);
     element("strays-note").textContent = strays.length
-      ? "A signal strays where the RMS of its difference to the golden is above one band. It is outside from the time at which the difference first exceeds three bands, which is the tolerance."
-      : "No signal left its band. Numbers did, which the terminal lists.";
+      ? "A signal fails if the RMS of its difference from the golden exceeds one band. It is outside from the time " +
+        "at which the difference first exceeds three bands, which is the tolerance."
+      : "No signal left its band. Numbers did; the terminal lists them.";
   }
 
   paint(): void {
     this.plot?.destroy();
     this.plot = null;
-    const { desk, shown } = this, { ink, recording } = desk, difference = shown && desk.ghost!.difference(shown.signal);
+    const { desk, shown } = this;
+    const { ink, recording } = desk;
+    const difference = shown && desk.ghost!.difference(shown.signal);
     if (!shown || !difference) return;
-    const [golden, now] = desk.ghost!.overlay.labels, dash = [6, 4], name = signalName(desk, shown.signal);
+    const [golden, now] = desk.ghost!.overlay.labels;
+    const dash = [6, 4];
+    const name = signalName(desk, shown.signal);
     element("drift-note").textContent = name;
     this.plot = new TimePlot(element("drift"), desk, {
-      label: `Difference of ${name}, ${now} less ${golden}, over time`, left: { name: `difference (${shown.unit || "1"})`, colour: ink.ink2 },
-      levels: [{ value: 0, axis: "left", colour: ink.line }, ...[1, -1].map((sign) => ({ value: sign * shown.tolerance, axis: "left" as const, colour: ink.green, dash }))],
-      curves: [{ values: Float32Array.from(recording.times, (_, i) => difference[i] ?? NaN), label: "difference", colour: ink.vermillion, axis: "left" }],
+      label: `Difference of ${name}, ${now} minus ${golden}, over time`,
+      left: { name: `difference (${shown.unit || "1"})`, colour: ink.ink2 },
+      levels: [
+        { value: 0, axis: "left", colour: ink.line },
+        ...[1, -1].map((sign) => ({ value: sign * shown.tolerance, axis: "left" as const, colour: ink.green, dash })),
+      ],
+      curves: [
+        {
+          values: Float32Array.from(recording.times, (_, i) => difference[i] ?? NaN),
+          label: "difference",
+          colour: ink.vermillion,
+          axis: "left",
+        },
+      ],
     });
-    keys("drift-key", [["", "--vermillion", `${now} less ${golden}`], ["dash", "--green", "three bands"]]);
+    keys("drift-key", [
+      ["", "--vermillion", `${now} less ${golden}`],
+      ["dash", "--green", "three bands"],
+    ]);
     this.seek(desk.state.t);
   }
 
@@ -66,8 +103,12 @@ export class Strays implements Panel {
     if (own && this.shown && jointOf(this.shown) !== this.desk.state.joint) this.show(own);
   }
 
-  zoom(): void { this.plot?.zoom(); }
-  seek(t: number): void { this.plot?.seek(t); }
+  zoom(): void {
+    this.plot?.zoom();
+  }
+  seek(t: number): void {
+    this.plot?.seek(t);
+  }
 
   private show(stray: Stray): void {
     this.shown = stray;

@@ -1,4 +1,4 @@
-// Play, speed, the time slider and the clock.
+// Transport controls: play button, speed, time slider, clock.
 import { element, make } from "./dom";
 import { fixed } from "./numbers";
 import type { Desk, Panel } from "./panel";
@@ -9,7 +9,11 @@ export class Transport implements Panel {
   private readonly now = make("b");
   private readonly decimals: number;
 
-  constructor(private readonly desk: Desk, play: (on: boolean) => void, rate: (x: number) => void) {
+  constructor(
+    private readonly desk: Desk,
+    play: (on: boolean) => void,
+    rate: (x: number) => void,
+  ) {
     const { end } = desk.recording;
     this.decimals = end < 1 ? 3 : 2;
     this.slider.max = String(end);
@@ -20,7 +24,9 @@ export class Transport implements Panel {
     element("clock").append(this.now, ` / ${fixed(end, this.decimals)} s`);
   }
 
-  paint(): void { this.seek(this.desk.state.t); }
+  paint(): void {
+    this.seek(this.desk.state.t);
+  }
 
   seek(t: number): void {
     this.slider.value = String(t);

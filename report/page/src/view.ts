@@ -1,6 +1,21 @@
-// The robot in 3D, its ground, arrows, marks and rings; camera, picking, framing.
-import { Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, Fog, HemisphereLight, Line, LineBasicMaterial, PerspectiveCamera, Raycaster, Scene,
-  Vector2, Vector3, WebGLRenderer } from "three";
+// View in 3D: scene with robot, ground, arrows, marks and rings; camera, picking, framing.
+import {
+  Box3,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DirectionalLight,
+  Fog,
+  HemisphereLight,
+  Line,
+  LineBasicMaterial,
+  PerspectiveCamera,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Theme } from "./colour";
 import { Forces } from "./forces";
@@ -16,7 +31,10 @@ import { Robot } from "./robot";
 export type Look = "iso" | "side" | "top" | "front";
 
 const directions: Record<Look, Vector3> = {
-  iso: new Vector3(0.55, -0.76, 0.46), side: new Vector3(0, -1, 0.12), top: new Vector3(0, -0.001, 1), front: new Vector3(1, 0, 0.14),
+  iso: new Vector3(0.55, -0.76, 0.46),
+  side: new Vector3(0, -1, 0.12),
+  top: new Vector3(0, -0.001, 1),
+  front: new Vector3(1, 0, 0.14),
 };
 const looks = { light: { sky: 0xeef1f4, trail: 0x0072b2 }, dark: { sky: 0x14181d, trail: 0x5fb3e6 } };
 const trailStep = 8; // rows
@@ -41,12 +59,15 @@ export class View {
   private readonly trail: Line;
   private readonly size: number;
   private readonly recording: Recording;
-  /** The second run's robot, translucent. */
+  /** Translucent robot of the second run. */
   readonly second: { ghost: Ghost; kinematics: Kinematics; robot: Robot } | null = null;
   private time = 0;
   private lightened = 0;
 
-  constructor(private readonly desk: Pick<Desk, "recording" | "loads" | "ghost">, readonly canvas: HTMLCanvasElement) {
+  constructor(
+    private readonly desk: Pick<Desk, "recording" | "loads" | "ghost">,
+    readonly canvas: HTMLCanvasElement,
+  ) {
     const { recording, ghost } = desk;
     this.recording = recording;
     this.kinematics = new Kinematics(recording);
@@ -75,7 +96,9 @@ export class View {
     this.controls.maxPolarAngle = recording.meta.ground.kind === "none" ? Math.PI : 1.55;
     this.controls.minDistance = 1.2 * this.robot.unit;
     this.controls.maxDistance = 12 * this.size;
-    this.controls.addEventListener("change", () => { this.dirty = true; });
+    this.controls.addEventListener("change", () => {
+      this.dirty = true;
+    });
   }
 
   paint(theme: Theme): void {
@@ -88,17 +111,23 @@ export class View {
     this.set(this.time);
   }
 
-  /** As near as shows every body, or one joint's, with room around and for what is written above. */
+  /** Moves the camera so that the robot, or a joint, fills the picture, with room for the labels above. */
   look(from: Look, joint = -1): void {
-    const points = joint < 0 ? this.everything() : this.robot.points(joint), centre = new Box3().setFromPoints(points).getCenter(new Vector3()), v = new Vector3();
+    const points = joint < 0 ? this.everything() : this.robot.points(joint);
+    const centre = new Box3().setFromPoints(points).getCenter(new Vector3());
+    const v = new Vector3();
     let distance = joint < 0 ? this.size : 6 * this.robot.unit;
     for (let i = 0; i < 6; i++) {
       this.camera.position.copy(directions[from]).normalize().multiplyScalar(distance).add(centre);
       this.camera.lookAt(centre);
       this.camera.updateMatrixWorld();
-      const seen = new Box3().setFromPoints(points.map((p) => v.copy(p).project(this.camera).clone())), middle = seen.getCenter(new Vector3()), half = seen.getSize(new Vector3()).divideScalar(2);
-      const up = distance * Math.tan(this.camera.fov * Math.PI / 360);
-      centre.add(v.set(middle.x * up * this.camera.aspect, (middle.y + 0.02) * up, 0).applyQuaternion(this.camera.quaternion));
+      const seen = new Box3().setFromPoints(points.map((p) => v.copy(p).project(this.camera).clone()));
+      const middle = seen.getCenter(new Vector3());
+      const half = seen.getSize(new Vector3()).divideScalar(2);
+      const up = distance * Math.tan((this.camera.fov * Math.PI) / 360);
+      centre.add(
+        v.set(middle.x * up * this.camera.aspect, (middle.y + 0.02) * up, 0).applyQuaternion(this.camera.quaternion),
+      );
       distance *= Math.min(Math.max(half.x / 0.86, half.y / 0.74, 0.25), 4);
     }
     this.camera.position.copy(directions[from]).normalize().multiplyScalar(distance).add(centre);
@@ -136,7 +165,7 @@ export class View {
     this.set(this.time);
   }
 
-  /** A wide ring around a dock; -1: around none. */
+  /** Draws a wide ring around a dock; -1: none. */
   mark(dock: number): void {
     this.rings.chosen = dock;
     this.set(this.time);
@@ -144,21 +173,25 @@ export class View {
 
   /** The joint under a point of the window, -1 without one. */
   pick(x: number, y: number): number {
-    const r = this.canvas.getBoundingClientRect(), ray = new Raycaster();
-    ray.setFromCamera(new Vector2((x - r.left) / r.width * 2 - 1, 1 - (y - r.top) / r.height * 2), this.camera);
+    const r = this.canvas.getBoundingClientRect();
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2(((x - r.left) / r.width) * 2 - 1, 1 - ((y - r.top) / r.height) * 2), this.camera);
     return this.robot.pick(ray);
   }
 
-  /** Where a joint's hinge is on the canvas, CSS px; null: behind the camera. */
-  place(joint: number): [number, number] | null { return this.project(this.kinematics.pivots[joint]); }
+  /** Position of a hinge on the canvas, CSS px; null: behind the camera. */
+  place(joint: number): [number, number] | null {
+    return this.project(this.kinematics.pivots[joint]);
+  }
 
   project(p: Vector3): [number, number] | null {
     this.camera.updateMatrixWorld();
-    const v = p.clone().project(this.camera), r = this.canvas.getBoundingClientRect();
-    return v.z < 1 ? [(v.x + 1) / 2 * r.width, (1 - v.y) / 2 * r.height] : null;
+    const v = p.clone().project(this.camera);
+    const r = this.canvas.getBoundingClientRect();
+    return v.z < 1 ? [((v.x + 1) / 2) * r.width, ((1 - v.y) / 2) * r.height] : null;
   }
 
-  /** From clip coordinates' matrices, for tests: world to clip, column by column. */
+  /** Matrix from world to clip coordinates, column by column; for tests. */
   get projection(): number[] {
     this.camera.updateMatrixWorld();
     return this.camera.projectionMatrix.clone().multiply(this.camera.matrixWorldInverse).elements.slice();
@@ -174,7 +207,7 @@ export class View {
     this.dirty = true;
   }
 
-  /** Frames come late (no GPU, an old laptop): first the shadows go, then half of the pixels. */
+  /** Reduces the work per frame on a slow machine: first without shadows, then with half of the pixels. */
   lighten(): void {
     this.lightened++;
     if (this.lightened === 1) this.robot.shadows = false;
@@ -182,7 +215,7 @@ export class View {
     this.dirty = true;
   }
 
-  /** Draws if something has changed; whether it did. */
+  /** Draws if something has changed; returns true then. */
   render(): boolean {
     if (!this.dirty) return false;
     this.dirty = false;
@@ -190,16 +223,19 @@ export class View {
     return true;
   }
 
-  /** What is shown now, as a PNG. */
+  /** The present picture as a PNG (data URL). */
   image(): string {
     this.dirty = true;
     this.render();
     return this.canvas.toDataURL("image/png");
   }
 
-  // The centre of mass, or of the bodies where the recording has none; at one height, so that a walk does not shake the picture.
+  // Centre of mass, or mean position of the bodies if it is not recorded. Its height is constant, so that a walk does
+  // not shake the picture.
   private centre(t: number): Vector3 {
-    const [x, y, z] = ["x", "y", "z"].map((c) => this.recording.find(`com.${c}`) ?? this.recording.channel(`base.${c}`));
+    const [x, y, z] = ["x", "y", "z"].map(
+      (c) => this.recording.find(`com.${c}`) ?? this.recording.channel(`base.${c}`),
+    );
     if (!this.recording.has("com.x") && !this.recording.has("base.x")) {
       const sum = this.kinematics.positions.reduce((s, p) => s.add(p), new Vector3());
       return sum.divideScalar(Math.max(this.kinematics.positions.length, 1));
@@ -207,7 +243,9 @@ export class View {
     return new Vector3(this.recording.at(x, t), this.recording.at(y, t), this.recording.at(z, 0));
   }
 
-  private everything(): Vector3[] { return [...this.robot.points(), ...(this.second?.ghost.covers(this.time) ? this.second.robot.points() : [])]; }
+  private everything(): Vector3[] {
+    return [...this.robot.points(), ...(this.second?.ghost.covers(this.time) ? this.second.robot.points() : [])];
+  }
 
   private extent(): number {
     return Math.max(new Box3().setFromPoints(this.everything()).getSize(new Vector3()).length(), this.robot.unit);
@@ -215,14 +253,18 @@ export class View {
 
   private area(): Area {
     const out: Area = [Infinity, -Infinity, Infinity, -Infinity];
-    for (const [k, c] of [[0, "x"], [2, "y"]] as const) {
+    for (const [k, c] of [
+      [0, "x"],
+      [2, "y"],
+    ] as const) {
       const values = this.recording.find(`com.${c}`) ?? this.recording.channel(`base.${c}`);
       for (const v of values) {
         out[k] = Math.min(out[k], v);
         out[k + 1] = Math.max(out[k + 1], v);
       }
-      // A run that diverged goes anywhere.
-      const start = values[0], far = 60 * this.size;
+      // Limited, because a run that diverged has no bounds.
+      const start = values[0];
+      const far = 60 * this.size;
       out[k] = Math.max(out[k], start - far);
       out[k + 1] = Math.min(out[k + 1], start + far);
     }
@@ -230,8 +272,12 @@ export class View {
   }
 
   private path(): Line {
-    const { recording } = this, n = Math.ceil(recording.rows / trailStep), xyz = new Float32Array(3 * n), { ground } = recording.meta;
-    const [x, y, z] = ["x", "y", "z"].map((c) => recording.channel(`com.${c}`)), flat = ground.kind === "plane" || ground.kind === "boxes";
+    const { recording } = this;
+    const n = Math.ceil(recording.rows / trailStep);
+    const xyz = new Float32Array(3 * n);
+    const { ground } = recording.meta;
+    const [x, y, z] = ["x", "y", "z"].map((c) => recording.channel(`com.${c}`));
+    const flat = ground.kind === "plane" || ground.kind === "boxes";
     for (let i = 0; i < n; i++) {
       const k = Math.min(trailStep * i, recording.rows - 1);
       xyz.set([x[k], y[k], flat ? ground.height + 0.002 * this.size : z[k]], 3 * i);

@@ -1,0 +1,25 @@
+// Address of the page: the joint and time shown, as its fragment (#joint=m3/active&t=1.2), for copying.
+import type { Desk } from "./panel";
+
+export class Address {
+  readonly link = new URLSearchParams(location.hash.slice(1));
+  private waiting = 0;
+
+  /** Writes joint and time after a pause, because browsers limit the rate of changes. */
+  remember({ recording, state }: Desk): void {
+    clearTimeout(this.waiting);
+    if (this.link.has("paused") || !recording.ran) return;
+    this.waiting = window.setTimeout(() => {
+      const joint = recording.meta.joints[state.joint]?.name;
+      const parts = [
+        ...(joint ? [`joint=${encodeURIComponent(joint).replaceAll("%2F", "/")}`] : []),
+        `t=${+state.t.toFixed(3)}`,
+      ];
+      try {
+        history.replaceState(null, "", `#${parts.join("&")}`);
+      } catch {
+        // A page within another page has no permission.
+      }
+    }, 400);
+  }
+}
