@@ -1,4 +1,4 @@
-// What the maker of a drive states of it: keys that every motor with a data sheet has.
+// Data-sheet ratings of a drive: settings common to all motors with a data sheet.
 #pragma once
 #include "core/plugin/actuator.h"
 

@@ -9,12 +9,12 @@ namespace gaitlab::actuators {
 namespace {
 
 constexpr double kUsualEfficiency = 0.7;            // chosen: that of dc_motor
-constexpr double kLeastEfficiency = 0.01;           // chosen: far below that of any motor with its gear
-constexpr double kRounding = 1e-9;                  // of a data sheet whose numbers give an efficiency of exactly 1
+constexpr double kLeastEfficiency = 0.01;           // chosen: far below any motor with its gear
+constexpr double kRounding = 1e-9;                  // for a data sheet whose numbers give an efficiency of exactly 1
 constexpr double kKgfCm = 0.0980665;                // N m
 constexpr double kRevPerMin = 0.10471975511965977;  // rad/s
 
-/// `make(joint)` for every joint that one of the values tells from others.
+/// Calls `make(joint)` for every joint that differs from others in one of the values.
 template <class Make>
 PerJoint of_each(std::initializer_list<const PerJoint*> values, Make make) {
   PerJoint made;
@@ -43,8 +43,7 @@ It is dc_motor with gear 1 and the constants that the data sheet implies:
 
 Take it where a maker states torque and speed, as for every hobby servo, and not the constants of motor and gear: data sheets
 give 1 kgf cm = 0.0980665 N m, and x s per 60 degrees = 1.0472 / x rad/s. Take dc_motor where these constants are known, or
-for its efficiency_model. The stall current moves currents, powers and copper losses, not torques. What the electronics of a
-servo do (its own position loop, a dead band) is the controller's part.
+for its efficiency_model. The stall current moves currents, powers and copper losses, not torques. The controller models the electronics of a servo (its position loop, a dead band).
 Source: the straight line is that of dc_motor (Chariot, Filippi, Verlinden 2012, eq. 1 and 2); numbers: the servo's data sheet.
 efficiency: 0.7 (chosen) where neither it nor stall_current is stated. Takes commands in V.
 
@@ -53,12 +52,13 @@ efficiency: 0.7 (chosen) where neither it nor stall_current is stated. Takes com
        stall_current: 0.9})";
 
 void ServoActuator::Settings::fields(Fields& f) {
-  f.required("voltage", voltage, {"V", kPositive, 1e6, "At which the other numbers hold; required."});
-  f.required("stall_torque", stall_torque, {"N m", kPositive, 1e9, "Of the joint at rest, at that voltage; required."});
+  f.required("voltage", voltage, {"V", kPositive, 1e6, "Voltage at which the other data hold; required."});
+  f.required("stall_torque", stall_torque, {"N m", kPositive, 1e9, "Torque of the stalled servo at that voltage; required."});
   f.required("no_load_speed", no_load_speed,
-             {"rad/s", kPositive, 1e6, "Of the joint without load, at that voltage; required."});
-  f.rating("stall_current", stall_current, {"A", 0, 1e6, "At rest, at that voltage."});
-  f.rating("efficiency", efficiency, {"", 0, 1, "Of motor and gear, instead of stall_current; 0.7 where neither is stated."});
+             {"rad/s", kPositive, 1e6, "Speed of the servo without load at that voltage; required."});
+  f.rating("stall_current", stall_current, {"A", 0, 1e6, "Current of the stalled servo at that voltage."});
+  f.rating("efficiency", efficiency,
+           {"", 0, 1, "Efficiency of motor and gear, instead of stall_current; 0.7 if neither is stated."});
   const auto that_holds = [&](double DcMotor::*limit) {
     return of_each({&voltage, &stall_torque, &no_load_speed, &stall_current, &efficiency, &u_max, &i_max},
                    [&](std::size_t j) { return motor(j).*limit; });
@@ -68,7 +68,7 @@ void ServoActuator::Settings::fields(Fields& f) {
   f.limit("u_max", u_max, usual_voltage, {"V", 0, 1e6, "Driver supply: the command is cut to +- this; 0: `voltage`."});
   f.limit("i_max", i_max, usual_current,
           {"A", 0, 1e6, "Absolute rating: the current is cut to +- this; 0: the stall current at `u_max`."});
-  f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1e3, "Of rotor and gear, at the joint."});
+  f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1e3, "Inertia of rotor and gear, at the joint."});
   RatingKeys::fields(f);
   std::size_t joints = 0;
   for (const PerJoint* value : {&voltage, &stall_torque, &no_load_speed, &stall_current, &efficiency})

@@ -14,11 +14,11 @@ class ServoActuator final : public MotorBank {
     PerJoint u_max, i_max;                          ///< V, A; 0: not stated, then motor() derives them
     PerJoint rotor_inertia;                         ///< kg m^2 at the joint
     void fields(Fields& f);
-    /// The motor of a joint; of numbers that are not given, one that makes no torque.
+    /// The motor of a joint; without torque if numbers are not given.
     [[nodiscard]] DcMotor motor(std::size_t joint) const;
 
    private:
-    /// What is wrong with the numbers of a joint, at which key; false: something is.
+    /// Reports errors in the numbers of a joint, with the key; false: there is one.
     bool check(Fields& f, std::size_t joint, bool alone) const;
   };
   static const char* const kManual;

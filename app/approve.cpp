@@ -1,4 +1,4 @@
-// Blesses the run of a scenario as it is now: shows what changed, makes or keeps the bands, writes the golden.
+// Approval of a scenario's present run: prints the changes, makes or keeps the bands, writes the golden.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -32,8 +32,8 @@ namespace {
 struct ApproveArguments {
   std::string file;
   std::optional<std::string> reason;
-  bool calibrate = false;  ///< make new bands; without a golden, and for a run that has left its bands, they are made anyway
-  bool replace = false;    ///< begin a new history, whatever golden is there
+  bool calibrate = false;  ///< make new bands; done anyway without a golden, and for a run outside its bands
+  bool replace = false;    ///< begin a new history, ignoring any existing golden
   int jobs = 1;            ///< threads
 };
 
@@ -41,7 +41,7 @@ namespace fs = std::filesystem;
 
 constexpr int kEnsemble = 4;  // runs
 
-/// Blank where there is none, or where it is the option that was meant to come after it.
+/// Reason of the approval; blank if there is none, or if it is an option that was meant to follow.
 std::string reason(const ApproveArguments& arguments) {
   std::string text = arguments.reason.value_or("");
   return text.starts_with("--") || text.find_first_not_of(" \t\r\n") == std::string::npos ? "" : text;
@@ -56,7 +56,7 @@ InputError no_reason(const ApproveArguments& arguments) {
                                                             : "empty")};
 }
 
-/// Before minutes of runs: whether the golden can be written where it belongs.
+/// Checks before minutes of runs that the golden can be written to its place.
 void check_target(const fs::path& folder) {
   const fs::file_type kind = kind_of(folder);
   if (kind == fs::file_type::directory || kind == fs::file_type::not_found) {
@@ -68,7 +68,7 @@ void check_target(const fs::path& folder) {
   throw InputError(SourceLocation{folder.string()}, "is not a folder, and a golden is one; move it away");
 }
 
-/// The golden that is there, unless it is to be replaced. (What a first approval left that was killed is none.)
+/// The existing golden, unless it is to be replaced. (Remains of a killed first approval do not count.)
 std::optional<Golden> golden_before(const fs::path& folder, bool replace) {
   const auto there = [&](const char* file) { return kind_of(folder / file) != fs::file_type::not_found; };
   if (replace || (!there("golden.json") && !there("trace.golden"))) return {};
@@ -99,7 +99,7 @@ void check_finite(const GoldenRun& run, const std::string& which) {
   }
 }
 
-/// One each; nothing is written where one of them fails. `names` are for messages.
+/// Runs the scenarios; nothing is written if one of them fails. `names` are for messages.
 std::vector<GoldenRun> simulate(const std::vector<Scenario>& scenarios, const std::vector<std::string>& names, int jobs,
                                 bool judged = false) {
   std::vector<GoldenRun> runs;
@@ -130,7 +130,7 @@ struct Calibration {
   GoldenRun halved;
 };
 
-/// From an ensemble of starts and from half the step.
+/// Bands from an ensemble of starts and from half the step.
 Calibration bands_around(const GoldenRun& base, const Scenario& scenario, int jobs) {
   std::vector<Scenario> scenarios;
   std::vector<std::string> names;
@@ -146,7 +146,7 @@ Calibration bands_around(const GoldenRun& base, const Scenario& scenario, int jo
   return {std::move(bands), std::move(runs.back())};
 }
 
-/// A band so wide would let a changed motor pass.
+/// Refuses bands so wide that they would not detect a changed motor.
 void check_widest(const Calibration& made, const Scenario& scenario, int jobs) {
   const std::vector<Band>& bands = made.bands.columns;
   const std::size_t widest = widest_of(bands);
@@ -159,7 +159,7 @@ void check_widest(const Calibration& made, const Scenario& scenario, int jobs) {
                                percent(kWidestColumn), parts(bands[widest]), remedy));
 }
 
-/// What a person should see before it becomes the reference.
+/// Prints the changes that a person should see before the run becomes the reference.
 void show_change(const Golden& before, const GoldenProvenance& now, const GoldenRun& run, const GoldenDifference& change) {
   const std::string text =
       origin_changes(before.origin, now, kAllSettings) + verdict_change(before, run) + differences(change, Shown::changed);
@@ -167,7 +167,7 @@ void show_change(const Golden& before, const GoldenProvenance& now, const Golden
   fmt::print("{}", text.empty() ? "  nothing has changed\n" : text);
 }
 
-/// Bands belong to the gait they were made for: one that has left them needs its own.
+/// Whether the bands can be kept: a gait outside its bands needs new ones.
 bool can_keep(const Golden& before, const GoldenDifference& change, const Golden& now) {
   return change.passed() && before.numbers.size() == now.numbers.size();
 }
@@ -190,21 +190,17 @@ void tell(const Golden& golden, const GoldenRun& run, const fs::path& folder, bo
   line(readable_number(golden.numbers[number].name), golden.number_bands[number]);
 }
 
-int approve(const ApproveArguments& arguments) {
-  const std::string why = reason(arguments);
-  const fs::path folder = own_golden(arguments.file);
-  Catalog catalog = standard_catalog();
-  const Scenario scenario = read({arguments.file, {}, {}, true}, catalog);
-  check_target(folder);
-  if (scenario.contact.solver()) {
-    throw InputError(scenario.place("contact.law"),
-                     "contact.law: bullet has no goldens: its torques do not converge with the step, so that no band around "
-                     "them means anything. Approve the same scenario with contact.law: penalty");
-  }
-  const std::optional<Golden> before = golden_before(folder, arguments.replace);
-  if (why.empty() && !before) throw no_reason(arguments);
-  GoldenRun base = simulate({scenario}, {scenario.file}, arguments.jobs, true).front();
+void check_law(const Scenario& scenario) {
+  const ContactModel& contact = scenario.contact.model();
+  if (contact.converges) return;
+  throw InputError(scenario.place("contact.law"),
+                   fmt::format("contact.law: {} has no goldens: its torques do not converge with the step, so that no band "
+                               "around them means anything. Approve the same scenario with contact.law: penalty",
+                               contact.text));
+}
 
+/// A golden of this run, without bands and history.
+Golden golden_of(const GoldenRun& base, const Scenario& scenario, const fs::path& folder) {
   Golden golden;
   golden.origin = golden_origin(scenario);
   RoundedTrace rounded = unpack(pack(base.trace), folder);
@@ -212,6 +208,20 @@ int approve(const ApproveArguments& arguments) {
   golden.run = {base.trace, std::move(rounded.precision)};
   golden.numbers = golden_numbers(base);
   golden.verdict = base.verdict;
+  return golden;
+}
+
+int approve(const ApproveArguments& arguments) {
+  const std::string why = reason(arguments);
+  const fs::path folder = own_golden(arguments.file);
+  Catalog catalog = standard_catalog();
+  const Scenario scenario = read({arguments.file, {}, {}, true}, catalog);
+  check_target(folder);
+  check_law(scenario);
+  const std::optional<Golden> before = golden_before(folder, arguments.replace);
+  if (why.empty() && !before) throw no_reason(arguments);
+  GoldenRun base = simulate({scenario}, {scenario.file}, arguments.jobs, true).front();
+  Golden golden = golden_of(base, scenario, folder);
   bool calibrates = arguments.calibrate || !before;
   if (before) {
     const GoldenDifference change = compare(*before, base);

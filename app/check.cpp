@@ -22,7 +22,8 @@ namespace {
 
 std::string_view plugin_name(const PluginSelection& choice) { return choice.entry == nullptr ? "none" : choice.entry->name; }
 
-/// Checks the columns, the step and the memory. Who is refused a long run is told how long, too.
+/// Makes the simulation, which checks the columns, the step and the memory. The error for a long run also contains its
+/// duration.
 std::unique_ptr<Simulation> made(const Scenario& s, const RunTime& time) try {
   return std::make_unique<Simulation>(std::span<const Scenario>(&s, 1));
 } catch (const InputError& error) {
@@ -32,7 +33,7 @@ std::unique_ptr<Simulation> made(const Scenario& s, const RunTime& time) try {
 }
 
 struct CheckArguments : ScenarioArguments {
-  std::optional<std::string> page;  ///< file for a page of the robot as it starts
+  std::optional<std::string> page;  ///< file for a page of the robot in its initial pose
   PluginArguments plugins;
 };
 
@@ -45,21 +46,33 @@ void write_page(const Scenario& s, const std::string& file) {
 
 constexpr double kLittleCreep = 0.001;  // m/s (docs/modules.md, wheels)
 
-/// To two decimals, without -0.
+/// Rounds to two decimals, without -0.
 double rounded(double part) { return std::round(100 * part) / 100 + 0.0; }
 
-/// Whoever rolls sees what friction does at low speed.
+/// Prints the creep of wheels, caused by friction at low speed.
 void print_creep(const Scenario& s) {
   std::vector<std::string> names;
   for (const Joint& joint : s.robot->joints) {
     if (joint.turns_freely()) names.push_back(joint.name);
   }
-  if (names.empty() || s.contact.solver() || s.ground.kind == Ground::Kind::none || s.contact.on == ContactSet::none) return;
+  if (names.empty() || !s.contact.model().penalty_settings || !s.ground.exists() || s.contact.on == ContactSet::none) return;
   fmt::print(
       "  note: {} turn{} freely: where they roll, feet and wheels that should hold creep, because friction is viscous below\n"
       "    contact.slip_speed, {:g} m/s here{}\n",
       joined(names), names.size() == 1 ? "s" : "", s.contact.penalty.v_lim,
       s.contact.penalty.v_lim > kLittleCreep ? fmt::format("; with {:g} m/s they creep less", kLittleCreep) : "");
+}
+
+void print_joints(const Robot& robot) {
+  const RobotInfo seen = info(robot);
+  fmt::print("  joints (number, name, axis in the base frame at zero angles, range in rad):\n");
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const Joint& joint = robot.joints[j];
+    const std::string range = joint.turns_freely() ? "free" : fmt::format("{:+.4f} {:+.4f}", joint.lo, joint.hi);
+    const std::array<double, 3>& axis = seen.joints[j].axis;
+    fmt::print("  {:5}  {:<16} {:5.2f} {:5.2f} {:5.2f}  {}{}\n", j, joint.name, rounded(axis[0]), rounded(axis[1]),
+               rounded(axis[2]), range, joint.driven() ? "" : "  without a motor");
+  }
 }
 
 int check(const CheckArguments& arguments) {
@@ -68,7 +81,7 @@ int check(const CheckArguments& arguments) {
   const Scenario s = read(arguments, catalog);
   warn_of_start(s, arguments.quiet);
   constexpr std::size_t kManyBoxes = 1000;
-  if (const std::size_t boxes = s.ground.boxes.size(); boxes > kManyBoxes && !arguments.quiet)
+  if (const std::size_t boxes = s.ground.boxes().size(); boxes > kManyBoxes && !arguments.quiet)
     say(arguments.file, "note",
         fmt::format("takes a step among {} boxes, which lasts seconds where many lie in one place", boxes));
   const RunTime time = measure(s);
@@ -84,9 +97,9 @@ int check(const CheckArguments& arguments) {
              rate > 0 ? fmt::format(": h lambda = {:.2f} standing (at most 1)", s.physics.step * rate) : "");
   const Vec3 start = start_state(s).position;
   fmt::print("  base frame at [{:.4g}, {:.4g}, {:.4g}] m at the start: {}\n", start.x(), start.y(), start.z(),
-             s.ground.kind == Ground::Kind::none ? "there is no ground"
-             : s.on_ground                       ? "lowered onto the ground"
-                                                 : "position gives the height, on_ground is off");
+             !s.ground.exists() ? "there is no ground"
+             : s.on_ground      ? "lowered onto the ground"
+                                : "position gives the height, on_ground is off");
   fmt::print("  cpg {}, controller {}, actuator {}, {} contact elements\n", plugin_name(s.cpg), plugin_name(s.controller),
              plugin_name(s.actuator), contacts.size());
   const RowsNeeded needed = simulation->rows_needed(0);
@@ -95,15 +108,7 @@ int check(const CheckArguments& arguments) {
   if (!time.failure.empty()) fmt::print("  fails early: {}\n", time.failure);
   if (time.seconds > 0) fmt::print("  {}\n", to_string(time));
   for (const PluginFile& plugin : s.plugins) fmt::print("  plugin {} ({})\n", plugin.path, plugin.hash);
-  const RobotInfo seen = info(robot);
-  fmt::print("  joints (number, name, axis in the base frame at zero angles, range in rad):\n");
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    const Joint& joint = robot.joints[j];
-    const std::string range = joint.turns_freely() ? "free" : fmt::format("{:+.4f} {:+.4f}", joint.lo, joint.hi);
-    const std::array<double, 3>& axis = seen.joints[j].axis;
-    fmt::print("  {:5}  {:<16} {:5.2f} {:5.2f} {:5.2f}  {}{}\n", j, joint.name, rounded(axis[0]), rounded(axis[1]),
-               rounded(axis[2]), range, joint.driven() ? "" : "  without a motor");
-  }
+  print_joints(robot);
   print_creep(s);
   if (arguments.page) {
     write_page(s, *arguments.page);
@@ -115,7 +120,7 @@ int check(const CheckArguments& arguments) {
 }  // namespace
 
 void add_check(Commands& commands) {
-  add_command<CheckArguments>(commands, "check", "Validate a scenario without running it, and print what it is made of.", check,
+  add_command<CheckArguments>(commands, "check", "Validate a scenario without running it, and print its parts.", check,
                               [](CLI::App& command, CheckArguments& arguments) {
                                 add_scenario(command, arguments);
                                 add_trust(command, arguments.plugins);

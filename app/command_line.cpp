@@ -20,14 +20,14 @@ std::string full_name(const CLI::App& command) {
   throw InputError(SourceLocation{full_name(command)}, text);
 }
 
-/// The program, the command that was chosen, and what was chosen within it.
+/// The program, the chosen command, and the commands chosen within it.
 std::vector<const CLI::App*> levels(const CLI::App& app) {
   std::vector<const CLI::App*> all{&app};
   while (!all.back()->get_subcommands().empty()) all.push_back(all.back()->get_subcommands().front());
   return all;
 }
 
-/// The commands within a command, as its help shows them.
+/// The commands within a command that its help shows.
 Words shown_commands(const CLI::App& command) {
   Words known;
   for (const CLI::App* within : command.get_subcommands({})) {
@@ -54,7 +54,7 @@ bool among(const Words& known, const std::string& name) { return std::find(known
 
 bool looks_like_option(const std::string& word) { return word.size() > 1 && word[0] == '-' && word != "--"; }
 
-/// `h5, csv` of the parser's `TEXT:{h5,csv}`; empty where any text will do.
+/// `h5, csv` from the parser's `TEXT:{h5,csv}`; empty if any text is allowed.
 Words choices(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t open = type.find('{');
@@ -62,7 +62,7 @@ Words choices(const CLI::Option& option) {
   return CLI::detail::split(type.substr(open + 1, type.find('}') - open - 1), ',');
 }
 
-/// `gaitlab swap SCENARIO --cpg ...`: what must be there, and in brackets what else has its place.
+/// `gaitlab swap SCENARIO --cpg ...`: required arguments, and optional ones in brackets.
 std::string usage(const CLI::App& command) {
   std::string text = full_name(command);
   for (const CLI::Option* option : command.get_options()) {
@@ -77,7 +77,7 @@ std::string usage(const CLI::App& command) {
   return text;
 }
 
-/// The value that an option takes, in words.
+/// Description of an option's value.
 std::string expected(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (const Words list = choices(option); !list.empty()) return fmt::format("{}", fmt::join(list, " or "));
@@ -99,7 +99,7 @@ void check_command(const CLI::App& app, const Words& words) {
   refuse(app, "unknown command " + in_quotes(words.front()) + offer(words.front(), known, "commands"));
 }
 
-/// Words that begin with a dash, and are not an option of their command.
+/// Refuses words that begin with a dash and are not an option of their command.
 void check_options(const std::vector<const CLI::App*>& chosen) {
   for (const CLI::App* command : chosen) {
     for (const std::string& word : command->remaining()) {
@@ -114,7 +114,7 @@ void check_options(const std::vector<const CLI::App*>& chosen) {
   }
 }
 
-/// A command that takes another after it.
+/// Checks that a command is followed by a required subcommand.
 void check_within(const CLI::App& command) {
   if (command.get_require_subcommand_min() == 0 || !command.get_subcommands().empty()) return;
   const Words known = shown_commands(command);
@@ -162,7 +162,7 @@ void check_extras(const CLI::App& command) {
   }
 }
 
-/// The option that a message of the parser is about: the longest name of those that stand in it.
+/// The option in a message of the parser: the longest name contained in it.
 const CLI::Option* named_in(const CLI::App& command, const std::string& message) {
   const CLI::Option* found = nullptr;
   for (const CLI::Option* option : command.get_options()) {
@@ -173,7 +173,7 @@ const CLI::Option* named_in(const CLI::App& command, const std::string& message)
   return found;
 }
 
-/// -j, where that was typed for --jobs.
+/// -j, if that was typed for --jobs.
 std::string as_typed(const CLI::Option& option, const Words& words) {
   for (const std::string& name : option.get_snames()) {
     if (std::any_of(words.begin(), words.end(), [&](const std::string& word) { return word.starts_with("-" + name); }))
@@ -184,7 +184,7 @@ std::string as_typed(const CLI::Option& option, const Words& words) {
 
 constexpr const char* kNoValue = "{} has no value{}; expected one after it: {}";
 
-/// A value that is missing, one too many, or not of its kind.
+/// Reports a value that is missing, one too many, or of the wrong kind.
 void check_value(const CLI::App& command, const Words& words, const CLI::ParseError& error) {
   const CLI::Option* option = named_in(command, error.what());
   if (option == nullptr) return;
@@ -200,7 +200,7 @@ void check_value(const CLI::App& command, const Words& words, const CLI::ParseEr
                               close.empty() ? "" : "; did you mean '" + close + "'?"));
 }
 
-/// What the parser takes without a word: another option as a value, and a value of what has none.
+/// Reports errors that the parser accepts: another option as a value, and a value of a flag.
 void check_taken_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();

@@ -1,4 +1,4 @@
-// The command line: read by CLI11, refused in the words of this program.
+// Reader of the command line: parsed by CLI11, with gaitlab's messages for errors.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace gaitlab::app {
 
-/// Has the commands read the words after the program's name; `help COMMAND` stands for `COMMAND --help`. False: help or version
-/// is printed, and there is nothing to run. InputError `gaitlab COMMAND: error: ...` of words that no command takes.
+/// Passes the words after the program's name to the commands; `help COMMAND` means `COMMAND --help`. False: help or version was
+/// printed, and there is nothing to run. Throws InputError `gaitlab COMMAND: error: ...` for words that no command accepts.
 bool read_command_line(CLI::App& app, std::vector<std::string> words);
 
 }  // namespace gaitlab::app

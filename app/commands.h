@@ -1,4 +1,4 @@
-// How the subcommands of the program register themselves: each beside its code.
+// Registration of the subcommands with the parser; each is defined beside its command's code.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -11,16 +11,16 @@
 
 namespace gaitlab::app {
 
-/// Options of what prints a summary.
+/// Adds the options of commands that print a summary.
 void add_shown(CLI::App& command, SummaryOptions& shown);
 
-/// The command line of the program, and what it chose to run.
+/// The command line of the program, and the function of the chosen command.
 struct Commands {
   CLI::App& app;
   std::function<int()> chosen = {};
 };
 
-/// Adds a subcommand: `options` declares what it takes, `run` gets that where the command line names the subcommand.
+/// Adds a subcommand: `options` declares its arguments, `run` receives them if the command line names the subcommand.
 template <class Arguments, class Options>
 void add_command(Commands& commands, const char* name, const char* about, int (*run)(const Arguments&), Options options,
                  CLI::App* parent = nullptr) {
@@ -30,27 +30,27 @@ void add_command(Commands& commands, const char* name, const char* about, int (*
   command->callback([&commands, run, arguments] { commands.chosen = [run, arguments] { return run(*arguments); }; });
 }
 
-/// `--joint`, and what it does to a scenario.
+/// Adds `--joint`, which chooses the joints of the figure.
 void add_joint(CLI::App& command, std::vector<std::string>& joints);
 void draw_joints(Scenario& scenario, const std::vector<std::string>& joints);
 
-/// What every command that reads a scenario takes.
+/// Adds the arguments of every command that reads a scenario.
 void add_scenario(CLI::App& command, ScenarioArguments& arguments);
 
-/// `--plugins-from-scenario` and `--plugin`.
+/// Adds `--plugins-from-scenario` and `--plugin`.
 void add_trust(CLI::App& command, PluginArguments& allowed);
 
-/// For CLI::Option::check: a path that is an empty shell variable would name the working folder.
+/// For CLI::Option::check: a path from an empty shell variable would name the working folder.
 std::string not_empty(const std::string& text);
 
-/// InputError: a file that is to be written exists, or its folder does not.
+/// Throws InputError if a file to be written exists, or its folder does not.
 void check_new(const std::string& name);
 
 inline constexpr const char* kPageFile = "report.html";  ///< in a run folder
-/// InputError where a page cannot be written there: as check_new, but for `own`, which it may take the place of. Returns how it
-/// is to be written.
+/// Checks that a page can be written; throws InputError as check_new, except for `own`, which may be replaced. Returns the mode
+/// of writing.
 Existing check_page(const std::string& name, const std::filesystem::path& own = {});
-/// Says where a page is.
+/// Prints the place of a page.
 void print_page(const std::filesystem::path& file);
 
 }  // namespace gaitlab::app

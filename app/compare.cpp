@@ -23,8 +23,8 @@ namespace {
 
 struct CompareArguments {
   std::string a, b;                  ///< run folders or trace files
-  std::vector<std::string> columns;  ///< patterns; none: all
-  bool all = false;                  ///< print every column and setting that differs
+  std::vector<std::string> columns;  ///< patterns; empty: all
+  bool all = false;                  ///< print all differing columns and settings
 };
 
 using Json = nlohmann::json;
@@ -52,7 +52,7 @@ void check_patterns(const CompareOptions& options, const Trace& a, const Trace& 
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
-/// Names of joints or contacts in either summary; empty where the two do not agree: which of them a column means is not known.
+/// Names of joints or contacts in either summary; empty if the two differ, because a column's name is then ambiguous.
 std::vector<std::string> common_names(const Json& a, const Json& b, const char* key) {
   const auto of = [&](const Json& summary) {
     std::vector<std::string> names;
@@ -69,7 +69,7 @@ std::vector<std::string> common_names(const Json& a, const Json& b, const char* 
   return names;
 }
 
-/// Joints and contacts are compared by number: say so where the numbers mean different things.
+/// Joints and contacts are compared by number: prints a warning if the numbers have different meanings.
 void print_robots(const Json& a, const Json& b) {
   for (const char* names : {"joints", "contacts"}) {
     if (a.contains(names) && b.contains(names) && a[names] != b[names]) {
@@ -79,7 +79,7 @@ void print_robots(const Json& a, const Json& b) {
   }
 }
 
-/// The settings of the two runs, by their scenarios; of a CSV file alone they are not known.
+/// Prints changed settings of the two runs from their scenarios; for a CSV file alone they are not known.
 void print_settings(const CompareArguments& arguments) {
   std::vector<std::string> changed;
   try {
@@ -94,7 +94,7 @@ void print_settings(const CompareArguments& arguments) {
   for (const std::string& setting : changed) fmt::print("  {}\n", setting);
 }
 
-/// What one looks for first: where it is worst, and where it began.
+/// Prints the columns with the largest differences, and the time of the first divergence.
 void print_columns(const TraceDifference& difference, bool all) {
   std::vector<const ColumnDifference*> apart;
   const ColumnDifference* first = nullptr;
@@ -121,13 +121,13 @@ void print_columns(const TraceDifference& difference, bool all) {
   if (first != nullptr) fmt::print("first to part: {} at t = {:.6g} s\n", first->label, *first->first_divergence);
 }
 
-// Null where a summary has not got it.
+// Null if a summary does not contain it.
 Json at(const Json& summary, const std::string& pointer) {
   const Json::json_pointer where(pointer);
   return summary.contains(where) ? summary.at(where) : Json();
 }
 
-/// The most loaded joint; in a summary without a judged window the joint of the largest torque.
+/// The most loaded joint; in a summary without a judged window the joint with the largest torque.
 std::string most_loaded_joint(const Json& summary) {
   const Json judged = at(summary, "/judged/joint");
   if (judged.is_string()) return judged.get<std::string>();
@@ -149,19 +149,19 @@ std::string shown(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// B - A relative to A where both are numbers.
+// B - A relative to A, if both are numbers.
 std::string change(const Json& a, const Json& b) {
   if (a == b) return "equal";
   if (!a.is_number() || !b.is_number()) return "differs";
   const double from = a.get<double>();
   const double by = b.get<double>() - from;
-  // A change of a number near zero is not a percentage.
+  // The change of a number near zero is not given as a percentage.
   return std::abs(from) < 0.01 * std::abs(by) || from == 0 ? fmt::format("{:+.3g}", by)
                                                            : fmt::format("{:+.3g} %", 100 * by / std::abs(from));
 }
 
 void print_summaries(const Json& a, const Json& b) {
-  const std::string joint = most_loaded_joint(a);  // one row is one joint, so that of A
+  const std::string joint = most_loaded_joint(a);  // a row is for one joint: that of A
   std::vector<const report::SummaryNumber*> rows = report::placed(&report::SummaryNumber::compare);
   if (joint.empty()) std::erase_if(rows, [](const report::SummaryNumber* number) { return number->of_joint != nullptr; });
   std::erase_if(rows, [&](const report::SummaryNumber* number) {
@@ -179,7 +179,7 @@ void print_summaries(const Json& a, const Json& b) {
   }
 }
 
-/// Null for a trace file, which has no summary beside it that is surely its own.
+/// Null for a trace file, because a summary beside it may belong to another run.
 Json summary_of(const std::string& run) { return std::filesystem::is_directory(run) ? read_summary(run) : Json(); }
 
 int compare(const CompareArguments& arguments) {

@@ -16,9 +16,8 @@ namespace {
 constexpr const char* kHelp =
     "The state: {\"q\": [], \"qd\": [], \"tau\": [], \"qdd\": [], \"base\": {\"position\", \"quaternion\": [w, x, y, z],\n"
     "\"velocity\", \"angular_velocity\", \"acceleration\", \"angular_acceleration\"}, \"wrenches\": [{\"body\", \"point\",\n"
-    "\"force\", \"torque\"}]}; SI, world axes, joints in the order of `gaitlab check`. What is missing: q, qd, pose and twist "
-    "are\n"
-    "those the scenario starts with, a wrench's point is the origin of its body's frame, all else is 0.\n"
+    "\"force\", \"torque\"}]}; SI, world axes, joints in the order of `gaitlab check`. Defaults: q, qd, pose\n"
+    "and twist of the scenario's start, for a wrench's point the origin of its body's frame, else 0.\n"
     "Gravity, tau and the wrenches act; motors, hinge stops, passive hinges and the ground do not. tau is the torque on the "
     "joint.\n\n"
     "Out, forward (tau in, by the scenario's engine): qdd, base, mass_matrix, bias, with\n"
@@ -33,7 +32,7 @@ struct DynamicsArguments : ScenarioArguments {
   bool inverse = false;  ///< torques and reactions of given accelerations
 };
 
-/// Shortest text that reads back to the same double, as JSON: {fmt}'s default form.
+/// Shortest text that is read back as the same double, as JSON: {fmt}'s default form.
 std::string list(In values) { return fmt::format("[{}]", fmt::join(values, ", ")); }
 std::string list(const Eigen::VectorXd& v) { return list(In(v.data(), static_cast<std::size_t>(v.size()))); }
 std::string list(const Vec3& v) { return list(In(v.data(), 3)); }
@@ -50,7 +49,7 @@ Acceleration forward(const Scenario& scenario, const DynamicsInput& input) {
   settings.robot = scenario.robot;
   settings.base = scenario.base;
   settings.gravity = scenario.physics.gravity;
-  settings.ground.kind = Ground::Kind::none;
+  settings.ground.shape = NoGround{};
   settings.integrator = scenario.physics.integrator->name;
   const std::unique_ptr<Plant> plant = make_plant(scenario, settings);
   Acceleration acceleration;
@@ -113,7 +112,7 @@ void add_dynamics(Commands& commands) {
       [](CLI::App& command, DynamicsArguments& arguments) {
         command.footer(kHelp);
         add_scenario(command, arguments);
-        command.add_option("--state", arguments.state, "JSON file: where and how fast, and what acts")->required();
+        command.add_option("--state", arguments.state, "JSON file with positions, velocities and applied forces")->required();
         command.add_flag("--inverse", arguments.inverse, "accelerations in; torques and reactions out");
       });
 }

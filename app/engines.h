@@ -1,4 +1,4 @@
-// The engines that the program is built with: with Bullet (engines.cpp) or without it (engines_without_bullet.cpp).
+// Engines that the program is built with: with Bullet (engines.cpp) or without (engines_without_bullet.cpp).
 #pragma once
 #include <string>
 

@@ -11,6 +11,7 @@
 #include "core/recording/run_files.h"
 #include "core/settings/wording.h"
 #include "interchange/gltf.h"
+#include "interchange/mesh.h"
 #include "interchange/mjcf.h"
 #include "interchange/urdf.h"
 #include "report/figures/run/views.h"
@@ -54,7 +55,7 @@ void export_robot(const ExportArguments& arguments) {
              scenario.robot->joints.size());
 }
 
-/// In the colours of the figures; the version without the commit, so that the bytes are those of what is shown.
+/// The colours of the figures, and the version without the commit, so that the bytes depend only on the content.
 interchange::GltfLook look() {
   const std::string build = build_id();
   return {.generator = "gaitlab " + build.substr(0, build.find('+')),
@@ -73,6 +74,10 @@ void write_gltf(const ExportArguments& arguments, const Scenario& scenario, cons
   if (const auto hidden = interchange::bodies_without_shape(*scenario.robot); !hidden.empty()) {
     say(arguments.source.file, "note", "bodies without a shape, which are not drawn: " + joined(hidden));
   }
+  const Heightfield* relief = scenario.ground.relief();
+  if (relief == nullptr) return;
+  if (const std::size_t stride = interchange::drawn_stride(*relief); stride > 1)
+    say(arguments.source.file, "note", fmt::format("one height of every {} in x and in y is drawn", stride));
 }
 
 void export_gltf(const ExportArguments& arguments) {

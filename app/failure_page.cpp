@@ -17,7 +17,7 @@ using namespace golden;
 
 namespace {
 
-/// What a page knows of a run of which there is only a golden's trace.
+/// Data for a page from a golden's trace alone.
 report::PageData data_of(const Scenario& scenario, const Trace& trace, const std::string& build) {
   Recording record;
   record.trace = trace;
@@ -45,7 +45,7 @@ std::vector<report::Stray> strays(const GoldenCase& c) {
   std::vector<report::Stray> found;
   for (const ColumnCheck& check : c.difference.columns) {
     if (check.passed()) continue;
-    const double rounding = 0.5 * golden.precision[golden.trace.find(check.name)];  // of the golden's own trace
+    const double rounding = 0.5 * golden.precision[golden.trace.find(check.name)];  // rounding error of the golden's trace
     found.push_back({check.name, check.unit, check.ratio(), kOutside * check.band * check.scale + rounding, check.outside,
                      less(c.run.trace, golden.trace, check.name)});
   }
@@ -56,7 +56,7 @@ std::vector<report::Stray> strays(const GoldenCase& c) {
   return found;
 }
 
-/// Without what they are indented by.
+/// Lines without their indentation.
 std::vector<std::string> lines(const std::string& text) {
   std::vector<std::string> all;
   for (std::size_t at = 0; at < text.size();) {
@@ -74,7 +74,7 @@ std::string failure_page(const GoldenCase& c) {
   const Scenario& scenario = *c.scenario;
   GoldenProvenance then = c.golden->origin;
   GoldenProvenance now = golden_origin(scenario);
-  for (GoldenProvenance* origin : {&then, &now}) origin->resolved = report::without_folders(origin->resolved, scenario.plugins);
+  for (GoldenProvenance* origin : {&then, &now}) origin->resolved = report::without_folders(origin->resolved, scenario);
   report::PageOverlay overlay;
   overlay.labels = {"golden", "now"};
   overlay.differs = lines(origin_changes(then, now, kAllSettings) + verdict_change(*c.golden, c.run, std::string::npos));

@@ -1,4 +1,4 @@
-// A golden that strayed, as a page: the run of now over the golden one.
+// Page of a run outside its golden's bands: the run over the golden.
 #pragma once
 #include <string>
 

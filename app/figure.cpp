@@ -31,7 +31,7 @@ struct FigureArguments {
   PluginArguments plugins;
 };
 
-/// FIG.csv, or of several panels FIG-a.csv, FIG-b.csv ...
+/// FIG.csv, or for several panels FIG-a.csv, FIG-b.csv ...
 fs::path data_file(const fs::path& figure, std::size_t panel, std::size_t panels) {
   fs::path file = figure;
   file.replace_extension();
@@ -40,7 +40,7 @@ fs::path data_file(const fs::path& figure, std::size_t panel, std::size_t panels
   return file;
 }
 
-/// The folder of every run, those of --run instead of the recipe's.
+/// Folder of every run, from --run or else from the recipe.
 std::vector<Named> folders_of(const report::Recipe& recipe, const std::vector<std::string>& given) {
   std::vector<Named> folders = recipe.runs;
   std::vector<std::string> names;
@@ -66,7 +66,7 @@ std::vector<Named> folders_of(const report::Recipe& recipe, const std::vector<st
   return folders;
 }
 
-/// A run that a recipe in `folder` names.
+/// Reads a run that a recipe in `folder` names.
 StoredRun read_named_run(const std::string& run, const std::string& folder, Catalog& catalog) {
   try {
     return read_run(run, catalog);
@@ -103,8 +103,8 @@ std::vector<report::PaperRun> read_runs(const report::Recipe& recipe, const std:
   return runs;
 }
 
-/// A file beside the figure is the figure's own where the figure is there already, or holds what would be written; any other is
-/// somebody else's.
+/// Refuses to replace a file beside the figure, unless the figure exists already or the file has the same content: it may be
+/// someone else's.
 void check_free(const fs::path& figure, const fs::path& file, const std::string& bytes) {
   if (kind_of(figure) != fs::file_type::not_found || kind_of(file) == fs::file_type::not_found) return;
   if (kind_of(file) == fs::file_type::regular && read_file(file, kMostPage) == bytes) return;
@@ -127,7 +127,7 @@ std::string picture(const report::PaperFigure& figure, const fs::path& file) {
   return pdf.finish();
 }
 
-/// Where the figure is written: what -o names, or RECIPE.svg in the working folder, which must not exist.
+/// Path of the figure: -o, or RECIPE.svg in the working folder, which must not exist.
 fs::path target(const FigureArguments& arguments) {
   const fs::path file = arguments.out ? fs::path(*arguments.out) : fs::path(arguments.recipe).stem().replace_extension(".svg");
   if (file.extension() != ".svg" && file.extension() != ".pdf")

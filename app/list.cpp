@@ -12,7 +12,7 @@
 #include "core/scenario/schema.h"
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
-#include "report/figures/paper/recipe.h"
+#include "report/figures/paper/panel_kinds.h"
 #include "report/verdict/check_manual.h"
 #include "studies/study/study_file.h"
 
@@ -50,7 +50,7 @@ std::vector<std::string> kinds() {
 std::vector<std::string> names(const std::string& kind, const Catalog& catalog) {
   if (const PluginKind* plugin = find_kind(kind)) return catalog.names(plugin->kind);
   if (kind == "engine") return catalog.engines();
-  if (kind == "figure") return to_strings(enum_names<report::PanelKind>());
+  if (kind == "figure") return to_strings(report::panel_names());
   std::vector<std::string> found;
   if (kind == "check") {
     for (const report::CheckKind& check : report::check_kinds()) found.emplace_back(check.id);
@@ -60,7 +60,7 @@ std::vector<std::string> names(const std::string& kind, const Catalog& catalog) 
   return found;
 }
 
-/// nullptr: no check has that id.
+/// nullptr: unknown id.
 const report::CheckKind* check_kind(const std::string& id) {
   const auto found = std::ranges::find_if(report::check_kinds(), [&](const report::CheckKind& kind) { return kind.id == id; });
   return found == report::check_kinds().end() ? nullptr : &*found;
@@ -74,7 +74,7 @@ std::string about(const std::string& kind, const std::string& name, Catalog& cat
     return first_line(entry.manual) + (entry.origin == kBuiltIn ? "" : fmt::format(" ({})", entry.origin));
   }
   if (kind == "engine") return first_line(catalog.engine(name)->manual);
-  if (kind == "figure") return first_line(report::about_panel(*named<report::PanelKind>(name)));
+  if (kind == "figure") return first_line(report::panel_kind(name).about);
   if (kind == "check") return check_kind(name)->title;
   const std::string file = shipped_files(kind).at(name);
   return kind == "module" ? module_row(read_module(file, catalog)) : file;
@@ -93,7 +93,7 @@ int list(const ManualArguments& arguments) {
   return 0;
 }
 
-/// A shipped type by its name, or one's own by its file.
+/// Explains a shipped type by its name, or a user's type by its file.
 int explain_module(const std::string& name, Catalog& catalog) {
   const std::map<std::string, std::string> shipped = shipped_files("module");
   const auto known = shipped.find(name);
@@ -145,7 +145,7 @@ int explain(const ManualArguments& arguments) {
                wrapped(fmt::format("integrators: {} (default {}); default step {}", fmt::join(engine.integrator_names(), ", "),
                                    engine.integrators.front().name, default_step(engine))));
   }
-  if (kind == "figure") fmt::print("{}", report::explain_panel(*named<report::PanelKind>(name)));
+  if (kind == "figure") fmt::print("{}", report::explain_panel(report::panel_kind(name)));
   if (kind == "check") fmt::print("{}", report::explain_check(*check_kind(name)));
   if (kind == "robot") fmt::print("{}", read_text(shipped_files(kind).at(name)));
   return 0;
@@ -178,13 +178,13 @@ int reference(const ManualArguments& arguments) {
 void add_manuals(Commands& commands) {
   add_command<ManualArguments>(
       commands, "list",
-      "List what is registered: cpg, controller, actuator, engine, module, robot, figure; and checks of the verdict.", list,
+      "List everything registered: cpg, controller, actuator, engine, module, robot, figure; and checks of the verdict.", list,
       [](CLI::App& command, ManualArguments& arguments) {
         command.add_option("KIND", arguments.kind, "one of these kinds alone");
         add_plugins(command, arguments);
       });
   add_command<ManualArguments>(
-      commands, "explain", "Print the manual of KIND NAME; without them, that of the scenario file.", explain,
+      commands, "explain", "Print the manual of KIND NAME; without them, the manual of the scenario file.", explain,
       [](CLI::App& command, ManualArguments& arguments) {
         command.add_option(
             "KIND", arguments.kind,
@@ -194,7 +194,7 @@ void add_manuals(Commands& commands) {
       });
   add_command<SchemaArguments>(commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,
                                [](CLI::App& command, SchemaArguments& arguments) {
-                                 command.add_flag("--study", arguments.study, "that of the file of a study instead");
+                                 command.add_flag("--study", arguments.study, "print the manual of the study file instead");
                                  add_plugins(command, arguments);
                                });
   add_command<ManualArguments>(commands, "reference", "Print a page of docs/reference.", reference,

@@ -1,4 +1,4 @@
-// The program `gaitlab`: arguments in, one subcommand, an exit code out.
+// The program `gaitlab`: reads arguments, runs one subcommand, returns an exit code.
 #include <csignal>
 
 #include "app/program.h"

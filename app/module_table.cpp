@@ -24,7 +24,7 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-/// Columns as wide as their widest cell, two blanks between them, behind two blanks; the first row is the head.
+/// Rows of columns as wide as their widest cell, indented and separated by two blanks; the first row is the header.
 std::string aligned(const std::vector<Cells>& rows) {
   std::vector<std::size_t> width(rows.front().size());
   for (const Cells& row : rows) {
@@ -40,7 +40,7 @@ std::string aligned(const std::vector<Cells>& rows) {
   return text;
 }
 
-/// m, the edges of the box around all shapes, at zero angles, in the axes of the module frame; 0 without shapes.
+/// Edges of the box around all shapes at zero angles, in the axes of the module frame, m; 0 without shapes.
 Vec3 size_of(const Robot& robot) {
   const Kinematics zero = at_zero(robot);
   const double none = std::numeric_limits<double>::infinity();
@@ -97,7 +97,7 @@ std::string spring_of(const Passive& p) {
   return text;
 }
 
-/// Of a type that names no motor nothing is known: the scenario's default is not the module's.
+/// Motors of a type; not known if it names none, because the scenario's default is not the module's.
 Motors motors_of(const Scenario& one) {
   for (const Node& document : *one.module_documents) {
     if (!preset_maps(document, Kind::actuator).empty()) return motors(one, 0);
@@ -152,7 +152,7 @@ std::string connectors(const ModuleType& type) {
   return rows.size() > 1 ? aligned(rows) : "";
 }
 
-/// `WHERE: SOURCE`, every `source` of the document with the keys that lead to it.
+/// Adds `WHERE: SOURCE` for every `source` of the document, with the keys that lead to it.
 void add_sources(const Node& node, const std::string& where, std::string& text) {
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const Node& item = node.items[i];
@@ -160,7 +160,7 @@ void add_sources(const Node& node, const std::string& where, std::string& text) 
       std::string source = item.text;
       std::ranges::replace(source, '\n', ' ');
       text += "  " + wrapped(fmt::format("{}: {}", where.empty() ? "type" : where, one_line(source)), 4, 98)
-                         .substr(4);  // further lines further in
+                         .substr(4);  // indents further lines more
       continue;
     }
     const Node* name = item.kind == Node::Kind::map ? item.find("name") : nullptr;

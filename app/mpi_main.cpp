@@ -1,6 +1,6 @@
-// The program `gaitlab-mpi`: the studies of `gaitlab`, whose runs the processes that mpirun started do together. Each reads the
-// same files. The first (rank 0) asks for runs, writes the journal and does runs, too; the others do the runs that it sends, in
-// packs, and answer with rows. A rank that dies ends them all: what has ended is in the journal.
+// The program `gaitlab-mpi`: the studies of `gaitlab`, with the runs divided among the processes that mpirun started. Each
+// reads the same files. The first (rank 0) chooses the runs, writes the journal and also does runs; the others do the packs of
+// runs that it sends, and answer with rows. If a rank dies all end; ended runs are in the journal.
 #include <mpi.h>
 #include <unistd.h>
 
@@ -18,8 +18,9 @@
 #include "app/study/study_run.h"
 #include "core/build_id.h"
 #include "core/errors.h"
+#include "core/files/hash.h"
 #include "studies/journal/study_folder.h"
-#include "studies/plan/draws.h"
+#include "studies/plan/definition.h"
 #include "studies/run/parcel.h"
 
 namespace {
@@ -33,8 +34,8 @@ enum Tag : int {
   kJobs,
   kOver,
   kBye
-};                                                // to the first: kHello, kRows (asks for more jobs), kBye (why it ended)
-constexpr std::chrono::microseconds kOften{200};  // between looks: MPI would wait at the cost of a processor
+};  // to the first: kHello, kRows (requests more jobs), kBye (with the reason of its end)
+constexpr std::chrono::microseconds kOften{200};  // between polls: MPI would wait at the cost of a processor
 
 struct Message {
   int rank = 0, tag = 0;
@@ -60,18 +61,18 @@ std::optional<Message> received() {
   return message;
 }
 
-/// Host, study, scenario and build, a line each: what must be the same everywhere but for the first.
+/// Host, study, scenario and build, a line each: the last three must be equal in all processes.
 std::string hello(const Plan& plan) {
-  const JournalHead head = plan.head();
-  return host() + "\n" + digest(head.definition) + "\n" + digest(head.scenario) + "\n" + build_id();
+  const JournalHead head = journal_head(plan);
+  return host() + "\n" + hash128(head.definition) + "\n" + hash128(head.scenario) + "\n" + build_id();
 }
 
 std::size_t pack_size(const BatchSettings& settings) {
-  constexpr std::size_t kLanes = 8;  // the most of any engine
+  constexpr std::size_t kLanes = 8;  // the most in any engine
   return static_cast<std::size_t>(settings.threads) * (settings.lanes > 0 ? settings.lanes : kLanes);
 }
 
-/// Rows of jobs, in the order of their numbers; nothing: `stop` was set.
+/// Rows of jobs, ordered by number; nothing: `stop` was set.
 std::optional<std::vector<Row>> done(const Executor& local, std::vector<Job> jobs, std::atomic<bool>& stop) {
   std::vector<Row> all;
   std::mutex mutex;
@@ -88,12 +89,12 @@ std::optional<std::vector<Row>> done(const Executor& local, std::vector<Job> job
   return all;
 }
 
-/// The other processes, as the first one sees them.
+/// The other processes, as handled by the first.
 class Others {
  public:
   explicit Others(int size) : left_(static_cast<std::size_t>(size), true) { left_[0] = false; }
 
-  /// All have read what the first has read; InputError: one has not.
+  /// Checks that all have read the same as the first; throws InputError if one has not.
   void greet(const Plan& plan) {
     const std::vector<std::string> own = lines(hello(plan));
     for (auto waits = std::ranges::count(left_, true); waits > 0;) {
@@ -112,7 +113,7 @@ class Others {
     }
   }
 
-  /// An Executor's call.
+  /// Executes the call of an Executor.
   bool lead(const Executor& local, std::size_t pack, const Work& work, std::atomic<bool>& stop) {
     std::mutex asking;
     const auto take = [&] {
@@ -138,7 +139,7 @@ class Others {
         throw;
       }
     });
-    std::set<int> busy;  // that do packs
+    std::set<int> busy;  // ranks that do packs
     bool more = true;
     try {
       while (!stop && (more || !busy.empty() || own.wait_for(std::chrono::seconds(0)) != std::future_status::ready)) {
@@ -167,7 +168,7 @@ class Others {
     return !stop;
   }
 
-  /// Ends those that are left.
+  /// Ends the remaining processes.
   void dismiss() {
     for (std::size_t rank = 0; rank < left_.size(); ++rank) {
       if (left_[rank]) send(static_cast<int>(rank), kOver, {});
@@ -180,8 +181,8 @@ class Others {
   }
 
  private:
-  /// Stops those that do packs. RunError: one does not answer: it has died, which is why mpirun stops the others, and the runs
-  /// of its pack keep the count of their starts.
+  /// Stops the processes that do packs. Throws RunError if one does not answer: it has died, so that mpirun stops the others,
+  /// and the runs of its pack keep the count of their starts.
   void recall(std::set<int> busy) {
     constexpr std::chrono::milliseconds kPatience{700};  // mpirun kills 1 s after its SIGTERM
     for (const int rank : busy) send(rank, kOver, {});
@@ -191,8 +192,9 @@ class Others {
     }
     if (busy.empty()) return;
     for (const int rank : busy) left_[static_cast<std::size_t>(rank)] = false;
-    throw RunError("rank " + std::to_string(*busy.begin()) +
-                   " does not answer any more; what has ended is in the journal, and the same command goes on");
+    throw RunError(
+        "rank " + std::to_string(*busy.begin()) +
+        " does not answer any more; runs that have ended are in the journal, and the same command continues the study");
   }
 
   static std::vector<std::string> lines(const std::string& text) {
@@ -201,8 +203,8 @@ class Others {
     return all;
   }
 
-  /// The next message, if there is one; kBye: that process was stopped. InputError or RunError, as its exit code was: it ended
-  /// by itself, and why.
+  /// The next message, if there is one; kBye: that process was stopped. Throws InputError or RunError, by its exit code, if it
+  /// ended by itself, with the reason.
   std::optional<Message> next() {
     std::optional<Message> message = received();
     if (!message) std::this_thread::sleep_for(kOften);
@@ -214,18 +216,18 @@ class Others {
     why = why.substr(1, why.find_last_not_of('\n'));
     const std::string rank = "rank " + std::to_string(message->rank);
     if (bad_input) throw InputError(SourceLocation{rank}, why);
-    constexpr std::string_view kError = "gaitlab: error: ";  // this process says it again
+    constexpr std::string_view kError = "gaitlab: error: ";  // printed again by this process
     throw RunError(rank + ": " + (why.starts_with(kError) ? why.substr(kError.size()) : why));
   }
 
   std::vector<bool> left_;  ///< by rank
-  std::vector<int> idle_;   ///< that have asked for jobs
+  std::vector<int> idle_;   ///< that have requested jobs
 };
 
 /// Thrown by a process that has done its part.
 struct Served {};
 
-/// Does the jobs that the first sends.
+/// Does the jobs that the first process sends.
 [[noreturn]] void serve(const Plan& plan, const BatchSettings& settings, const Measure& measure) {
   const app::StopOnSignal signals(app::StopOnSignal::Second::ends_the_process);
   std::atomic<bool>& stop = app::stopped();
@@ -247,7 +249,7 @@ struct Served {};
   throw Served();
 }
 
-std::string said;  ///< by a process that is not the first, which the first says for it
+std::string said;  ///< message of another process, printed by the first
 
 }  // namespace
 
@@ -283,7 +285,7 @@ int main(int argc, char** argv) {
     } catch (const Served&) {
     }
     send(0, kBye, bytes_of(std::to_string(code) + said));
-    code = 0;  // the first has the exit code of all
+    code = 0;  // the first process has the exit code for all
   }
   MPI_Finalize();
   return code;

@@ -18,7 +18,7 @@ namespace gaitlab::app {
 namespace {
 
 struct NewPluginArguments {
-  std::string kind, name;          ///< cpg, controller or actuator; what the scenario will call it
+  std::string kind, name;          ///< cpg, controller or actuator; its type in scenarios
   std::optional<std::string> out;  ///< folder to make (default: the name)
 };
 
@@ -32,9 +32,9 @@ const Skeleton& skeleton(const std::string& kind) {
                    "unknown kind " + in_quotes(kind) + offer(kind, {"cpg", "controller", "actuator"}, "kinds"));
 }
 
-/// The name becomes a file, a CMake target and part of a class's name.
+/// Checks the name, which becomes a file, a CMake target and part of a class's name.
 void check_name(const Skeleton& skeleton, const std::string& name) {
-  constexpr std::array kTargets{"all", "clean", "depend", "help", "install", "package", "test"};  // CMake's own
+  constexpr std::array kTargets{"all", "clean", "depend", "help", "install", "package", "test"};  // targets of CMake
   const SourceLocation place{fmt::format("gaitlab new plugin {}", word(skeleton.kind))};
   if (!is_name(name, "_") || name[0] == '_' || std::isdigit(static_cast<unsigned char>(name[0])) != 0) {
     throw InputError(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits and _, a letter first");
@@ -66,7 +66,7 @@ std::string filled(std::string text, const std::string& mark, const std::string&
   return text;
 }
 
-/// A folder that gets its name when all is in it, and is gone where that fails.
+/// A folder that gets its name when it is complete, and is removed on failure.
 class NewFolder {
  public:
   explicit NewFolder(const std::string& name) : name_(name), folder_(fs::path(name).lexically_normal()) {
@@ -107,7 +107,7 @@ class NewFolder {
   fs::path folder_, part_;
 };
 
-/// Where this program is installed, if it is.
+/// Prefix of the installed program, or empty.
 std::string prefix() {
   std::error_code none;
   const fs::path prefix = fs::read_symlink("/proc/self/exe", none).parent_path().parent_path();

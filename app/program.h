@@ -1,4 +1,4 @@
-// What the programs share: arguments in, one subcommand, an exit code out.
+// Common main function of the programs: reads arguments, runs one subcommand, returns an exit code.
 #pragma once
 #include <functional>
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace gaitlab::app {
 
-/// Bad arguments and bad input exit with 2, failed runs with 1; nobody sees a raw exception. `tell` is told why, piece by
-/// piece.
+/// Returns exit code 2 for bad arguments and bad input, 1 for failed runs; no exception escapes. `tell` receives the message,
+/// piece by piece.
 int guarded(const std::function<int()>& command, void (*tell)(std::string_view text));
 
-/// Runs the command that the arguments name, of those that are given. Throws what that throws, and
-/// RunError where standard output took less than what was printed, of help as of any other command.
+/// Runs the command that the arguments name, among the given ones. Throws its exceptions, and RunError if standard output could
+/// not be written in full, for help as for any other command.
 int program(std::span<void (*const)(Commands&)> commands, int argc, char** argv);
 
 }  // namespace gaitlab::app

@@ -1,4 +1,4 @@
-// A bar with the time left on a terminal, nothing elsewhere.
+// A progress bar with the remaining time on a terminal, nothing elsewhere.
 #pragma once
 #include <fmt/format.h>
 #include <unistd.h>

@@ -10,7 +10,7 @@ namespace gaitlab::app {
 
 namespace {
 
-/// What is wrong with the seed is told of --seed, which was typed, and not of the --set that stands for it.
+/// Reports an error of the seed at --seed, which was typed, and not at the equivalent --set.
 [[noreturn]] void raise_as_typed(const InputError& error, const std::string& seed) {
   std::vector<Problem> problems = error.problems();
   for (Problem& problem : problems) {

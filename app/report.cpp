@@ -1,4 +1,4 @@
-// `gaitlab report`: what a run came to, or two, from their folders alone.
+// `gaitlab report`: results of one run, or two, from their folders alone.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,11 +37,11 @@ struct ReportArguments {
   std::optional<std::string> out;   ///< folder for summary.json, verdict.json, figure.svg and report.html
   std::optional<std::string> page;  ///< file for a page alone
   SummaryOptions shown;
-  std::vector<std::string> joints;  ///< names, of the figure
+  std::vector<std::string> joints;  ///< names, in the figure
   PluginArguments plugins;
 };
 
-/// A value of the run's summary; null where there is none, or no summary that can be read.
+/// A value of the run's summary; null if it is missing, or the summary cannot be read.
 nlohmann::json summarised(const fs::path& folder, const char* key) try {
   const nlohmann::json summary = read_summary(folder);
   const auto found = summary.find(key);
@@ -50,14 +50,14 @@ nlohmann::json summarised(const fs::path& folder, const char* key) try {
   return {};
 }
 
-/// How long the simulation took, which only its summary knows; 0 where it does not.
+/// Duration of the simulation, which only the summary contains; 0 if it is missing.
 double wall_time(const fs::path& folder) {
   const nlohmann::json value = summarised(folder, "wall_time");
   const double seconds = value.is_number() ? value.get<double>() : 0;
   return std::isfinite(seconds) && seconds >= 0 ? seconds : 0;
 }
 
-/// What a folder does not hold, told without naming it.
+/// Sentences for the missing parts of a folder, without its name.
 std::vector<std::string> told_missing(std::vector<std::string> missing, const fs::path& trace) {
   for (std::string& sentence : missing) {
     if (sentence.starts_with(trace.string())) sentence.replace(0, trace.string().size(), trace.filename().string());
@@ -65,15 +65,15 @@ std::vector<std::string> told_missing(std::vector<std::string> missing, const fs
   return missing;
 }
 
-/// What the run's own `--demand` found, which no recording holds.
+/// Takes over the results of the run's `--demand`, which recordings do not contain.
 void keep_demand(report::Verdict& verdict, const fs::path& file) {
   if (kind_of(file) != fs::file_type::regular || report::take_demand(verdict, read_file(file, kMostJson))) return;
-  say(file.string(), "note", "is not of this recording, so that what --demand found there is left out");
+  say(file.string(), "note", "belongs to another recording; its --demand results are not shown");
 }
 
 /// A run folder, read and judged.
 struct JudgedRun {
-  std::string name;  ///< of the folder, as it was given
+  std::string name;  ///< folder as given
   fs::path trace;    ///< file
   StoredRun read;
   report::Summary summary = {};
@@ -86,7 +86,7 @@ struct JudgedRun {
   }
 };
 
-/// `catalog` outlives it. `joints`: to be drawn in the figure. InputError: see read_run, draw_joints.
+/// `catalog` outlives the result. `joints`: drawn in the figure. InputError: see read_run, draw_joints.
 JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vector<std::string>& joints,
                      const SummaryOptions& shown) {
   const fs::path trace = trace_file(name);
@@ -94,7 +94,7 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
   Scenario& scenario = run.read.scenario;
   Recording& recording = run.read.stored.recording;
   draw_joints(scenario, joints);
-  // A CSV file alone does not have it.
+  // A CSV file alone does not contain it.
   if (run.read.stored.origin.outcome.empty()) {
     const nlohmann::json told = summarised(trace.parent_path(), "outcome");
     if (told.is_string()) recording.outcome = Outcome::of(told.get<std::string>());
@@ -107,7 +107,7 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
   return run;
 }
 
-/// What is doubtful, on stderr.
+/// Prints warnings on stderr.
 void warn(const JudgedRun& run) {
   const Recording& recording = run.recording();
   for (const std::string& missing : run.read.stored.missing) say(run.name, "note", missing);
@@ -151,8 +151,8 @@ int report_one(const ReportArguments& arguments) {
   return exit_code(run.verdict, arguments.shown);
 }
 
-/// Settings as a page shows them.
-std::string settings(const Scenario& scenario) { return report::without_folders(resolved(scenario), scenario.plugins); }
+/// Settings for a page.
+std::string settings(const Scenario& scenario) { return report::without_folders(resolved(scenario), scenario); }
 
 int report_two(const ReportArguments& arguments) {
   const fs::path own = trace_file(arguments.runs[0]).parent_path() / kPairFile;
@@ -171,7 +171,7 @@ int report_two(const ReportArguments& arguments) {
     print_summary(run->read.scenario, run->recording(), run->summary, run->verdict, arguments.shown);
     warn(*run);
     const int own_code = exit_code(run->verdict, arguments.shown);
-    code = code == 1 || own_code == 1 ? 1 : std::max(code, own_code);  // a run that failed before one that is infeasible
+    code = code == 1 || own_code == 1 ? 1 : std::max(code, own_code);  // a failed run takes precedence over an infeasible one
   }
   print_page(file);
   return code;

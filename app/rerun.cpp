@@ -1,4 +1,4 @@
-// Runs again from a run folder alone; with --verify it says whether the same comes out, and if not, what has changed since.
+// Repetition of a run from its folder alone; with --verify it compares the traces and lists changes since.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,18 +36,18 @@ namespace fs = std::filesystem;
 constexpr double kTolerance = 1e-9;  // RMS of a column relative to its range
 constexpr std::size_t kColumnsShown = 10;
 
-/// What the recorded run left.
+/// Files and data of the recorded run.
 struct Past {
   fs::path file;  ///< of the trace
   Trace trace;
   std::string scenario;          ///< inside trace.h5, or ""
-  std::string build;             ///< "" where nothing recorded it
-  std::optional<Outcome> ended;  ///< of summary.json; without one: nothing
-  std::string summary_hash;      ///< of the trace that summary.json is about, or ""
+  std::string build;             ///< "" if not recorded
+  std::optional<Outcome> ended;  ///< from summary.json; without one: nothing
+  std::string summary_hash;      ///< of the trace that belongs to summary.json, or ""
 };
 
 bool is_there(const fs::path& file) {
-  std::error_code none;  // what cannot be looked at is not there
+  std::error_code none;  // a file that cannot be accessed counts as missing
   return fs::exists(file, none);
 }
 
@@ -78,13 +78,13 @@ Past read_past(const fs::path& run) {
 
 double last_time(const Trace& trace) { return trace.at(trace.rows() - 1, 0); }
 
-/// A run that was killed while it wrote, or a trace file alone, has no summary: then its last row tells.
+/// Whether the run ended early. Without a summary, after a kill during writing or for a trace file alone, its last row decides.
 bool ended_early(const Past& past, const Scenario& scenario) {
   if (past.ended) return !past.ended->done();
   return last_time(past.trace) < scenario.duration - 0.5 * scenario.physics.step;
 }
 
-/// The same run again: whole, or up to the last recorded row of one that ended early.
+/// The repeated run: whole, or up to the last recorded row of one that ended early.
 struct Again {
   Trace trace;
   std::string failure;
@@ -107,7 +107,7 @@ Again run_again(const Scenario& scenario, const Past& past, bool early) {
   return again;
 }
 
-/// What is not as it was when the run was recorded, a line each.
+/// Changes since the run was recorded, a line each.
 std::vector<std::string> changes(const StoredScenario& stored, const Past& past, const Scenario& scenario, const Again& again) {
   std::vector<std::string> found;
   if (past.build.empty()) {
@@ -124,7 +124,7 @@ std::vector<std::string> changes(const StoredScenario& stored, const Past& past,
                                 fmt::join(changed_settings(past.scenario, stored.text), "\n    ")));
   }
   const std::string now = resolved(scenario);
-  if (plugins.empty() && now != stored.text) {  // their hashes stand in it
+  if (plugins.empty() && now != stored.text) {  // it contains their hashes
     found.push_back(fmt::format("scenario: resolved again it is another:\n    {}",
                                 fmt::join(changed_settings(stored.text, now), "\n    ")));
   }
@@ -140,7 +140,7 @@ void print_worst_columns(const TraceDifference& difference) {
   for (const ColumnDifference& d : difference.columns) {
     if (!(d.relative_rms <= kTolerance)) worst.push_back(d);
   }
-  if (worst.empty()) return;  // what differs is a finding
+  if (worst.empty()) return;  // the difference is among the findings
   std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.relative_rms > b.relative_rms; });
   fmt::print("  {} of {} columns are beyond {} of their range:\n", worst.size(), difference.columns.size(), kTolerance);
   for (std::size_t i = 0; i < std::min(worst.size(), kColumnsShown); ++i) {
@@ -196,14 +196,14 @@ int verify(const std::string& run, const PluginArguments& plugins) {
   for (const std::string& line : changed) fmt::print("  {}\n", line);
   if (!same && changed.empty()) {
     const bool vague = past.build.find(".dirty") != std::string::npos || past.build.find("unknown") != std::string::npos;
-    fmt::print("  build, plugins and scenario are those of the record{}\n",
-               vague ? ", as far as the build id of a changed source tree tells"
+    fmt::print("  build, plugins and scenario are those of the recorded run{}\n",
+               vague ? ", as far as the build id of a changed source tree shows"
                      : ": a library that is not in the build id, the machine, or a defect of gaitlab");
   }
   return same && (!early || past.ended) ? 0 : 4;
 }
 
-/// The format of the recorded trace, or the default where there is none.
+/// The format of the recorded trace, or the default if there is none.
 std::string format_of(const fs::path& run) { return is_there(run / "trace.csv") && !is_there(run / "trace.h5") ? "csv" : "h5"; }
 
 int rerun(const RerunArguments& arguments) {
@@ -221,7 +221,7 @@ int rerun(const RerunArguments& arguments) {
 
 void add_rerun(Commands& commands) {
   add_command<RerunArguments>(
-      commands, "rerun", "Run again what a run folder holds, from the folder alone.", rerun,
+      commands, "rerun", "Run the scenario of a run folder again, from the folder alone.", rerun,
       [](CLI::App& command, RerunArguments& arguments) {
         command.add_option("RUN", arguments.run, "run folder, or its trace.h5")->required();
         add_trust(command, arguments.plugins);

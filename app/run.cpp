@@ -28,8 +28,8 @@ namespace gaitlab::app {
 
 namespace {
 
-/// The files of a run: each is written, also where others could not be, for what was simulated in hours is not lost with one.
-/// What cannot be written is told at once.
+/// Files of a run: each is written even if others failed, because hours of simulation must not be lost with one. A file that
+/// cannot be written is reported at once.
 class RunFiles {
  public:
   explicit RunFiles(const std::filesystem::path& folder) : folder_(folder) {}
@@ -74,18 +74,18 @@ void write_report(RunFiles& files, const Scenario& scenario, const Recording& re
   files.write_text("figure.svg", [&] { return report::run_figure(scenario, recording, summary); });
   files.write_text("verdict.json", [&] { return report::to_json(verdict); });
   if (page) files.write_text(kPageFile, [&] { return report::page(report::page_data(scenario, recording, summary, verdict)); });
-  // Last: a folder with a summary is a whole run, as far as it could be written.
+  // Last: a folder with a summary is complete, except files that failed.
   files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
 }
 
-/// The first steps of the run tell how long it takes: nothing is simulated twice.
+/// Prints the estimated duration, measured with the first steps of the run itself.
 void note_time(const Scenario& scenario, Simulation& simulation) {
   const RunTime time = measure(simulation, scenario.duration);
   if (time.seconds > kLongRun) say(scenario.file, "note", to_string(time));
 }
 
-/// Of a motion that nobody can predict: other rollouts, as good as this. Without them, for want of memory or because a plugin
-/// throws, the run is written all the same.
+/// Adds equally valid rollouts of an unpredictable motion. If memory is short or a plugin throws, the run is written without
+/// them.
 void take_spread(const Scenario& scenario, Recording& recording, const report::Summary& summary, bool quiet) try {
   const report::Predictability found = report::predictability(scenario, recording);
   if (found != report::Predictability::chaotic && found != report::Predictability::ill) return;
@@ -108,35 +108,52 @@ int run(const RunArguments& arguments) {
   return run(scenario, arguments);
 }
 
+namespace {
+
+/// Runs the simulation. The outcome, if it did not reach its end.
+std::optional<Outcome> simulate(const Scenario& scenario, Simulation& simulation, bool quiet) try {
+  if (!quiet) note_time(scenario, simulation);
+  const Progress progress(quiet);
+  if (simulation.run(std::cref(progress), &stopped())) return {};
+  return Outcome{Ended::interrupted, fmt::format("interrupted at t = {:.6g} s", simulation.time())};
+} catch (const SimulationError& error) {
+  return error.outcome();
+}
+
+void note_rows(const Scenario& scenario, const Simulation& simulation) {
+  constexpr double kMuch = 1e8;  // bytes
+  const RowsNeeded needed = simulation.rows_needed(0);
+  if (!(needed.bytes() > kMuch)) return;
+  say(scenario.file, "note",
+      fmt::format("records {:.3g} rows of {:.0f} columns, {:.3g} MB in memory; trace.period and trace.columns make it less",
+                  needed.rows, needed.columns, needed.bytes() / 1e6));
+}
+
+void print_files(const RunArguments& arguments, const std::filesystem::path& folder) {
+  if (!arguments.no_page) print_page(folder / kPageFile);
+  if (!arguments.no_page && !arguments.shown.verbose) return;
+  fmt::print("  {:<9} {}: {}, summary.json, verdict.json,\n  {:<9} scenario.resolved.yaml, figure.svg\n", "files",
+             one_line(folder.string()), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
+}
+
+}  // namespace
+
 int run(const Scenario& scenario, const RunArguments& arguments) {
-  warn_of_start(scenario, arguments.quiet);  // first: a slip of units is why a step is refused
+  warn_of_start(scenario, arguments.quiet);  // first: wrong units may be the reason why a step is refused
   Simulation simulation({&scenario, 1}, Loads::recorded);
   RunFolder folder(arguments.out, scenario.name);
-  constexpr double kMuch = 1e8;  // bytes
-  if (const RowsNeeded needed = simulation.rows_needed(0); needed.bytes() > kMuch && !arguments.quiet) {
-    say(scenario.file, "note",
-        fmt::format("records {:.3g} rows of {:.0f} columns, {:.3g} MB in memory; trace.period and trace.columns make it less",
-                    needed.rows, needed.columns, needed.bytes() / 1e6));
-  }
+  if (!arguments.quiet) note_rows(scenario, simulation);
 
   const StopOnSignal stop(StopOnSignal::Second::is_ignored);
-  std::optional<Outcome> early;
   const auto start = std::chrono::steady_clock::now();
-  try {
-    if (!arguments.quiet) note_time(scenario, simulation);
-    const Progress progress(arguments.quiet);
-    if (!simulation.run(std::cref(progress), &stopped()))
-      early = {Ended::interrupted, fmt::format("interrupted at t = {:.6g} s", simulation.time())};
-  } catch (const SimulationError& error) {
-    early = error.outcome();
-  }
+  std::optional<Outcome> early = simulate(scenario, simulation, arguments.quiet);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
 
   Recording recording = simulation.take_recording(0);
   if (early) recording.outcome = std::move(*early);
   RunFiles files(folder.path());
   const auto summarised = [&] { return report::summarise(scenario, recording, wall.count()); };
-  std::optional<report::Summary> made;  // the memory that a failed trace.h5 took may not come back
+  std::optional<report::Summary> made;  // the memory of a failed trace.h5 may not be freed
   try {
     made = summarised();
   } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the trace first, then again
@@ -150,18 +167,12 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   write_report(files, scenario, recording, summary, verdict, !arguments.no_page);
   if (files.wrote_any()) folder.keep();
   if (!arguments.quiet) print_summary(scenario, recording, summary, verdict, arguments.shown);
-  if (!arguments.quiet && !files.lost_any()) {
-    if (!arguments.no_page) print_page(folder.path() / kPageFile);
-    if (arguments.no_page || arguments.shown.verbose) {
-      fmt::print("  {:<9} {}: {}, summary.json, verdict.json,\n  {:<9} scenario.resolved.yaml, figure.svg\n", "files",
-                 one_line(folder.path().string()), arguments.format == "csv" ? "trace.csv, recording.h5" : "trace.h5", "");
-    }
-  }
+  if (!arguments.quiet && !files.lost_any()) print_files(arguments, folder.path());
   warn_of_run(scenario, recording, verdict);
   const bool sound = report::not_finite(scenario, recording).empty();
   if (recording.outcome.done()) return files.lost_any() || !sound ? 1 : exit_code(verdict, arguments.shown);
   say(scenario.file, "error",
-      fmt::format("{}; what was simulated until then is in {}", recording.outcome.message, folder.path().string()));
+      fmt::format("{}; the rows up to that time are in {}", recording.outcome.message, folder.path().string()));
   return 1;
 }
 

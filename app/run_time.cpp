@@ -31,14 +31,14 @@ std::string duration_text(double seconds) {
 }  // namespace
 
 RunTime measure(Simulation& simulation, double duration) {
-  constexpr double kMeasured = 0.1;  // s: at the next doubling of the steps that is twice as much
+  constexpr double kMeasured = 0.1;  // s: the steps are doubled until they have taken this time
   struct Moment {
     double used = 0, time = 0, steps = 0;
   } before, now;
   const std::clock_t start = std::clock();
   const auto used_so_far = [&] { return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC; };
-  // A look at the clock can take longer than a step; and the later half of the steps is more like those that follow. Steps that
-  // suddenly become slow, as on a heap of boxes, are cut short.
+  // Reading the clock can take longer than a step; and the later half of the steps is more typical. If steps suddenly become
+  // slow, as on a heap of boxes, the measurement ends early.
   for (std::int64_t look = 1; !simulation.done() && now.used < kMeasured; look *= 2) {
     before = now;
     while (!simulation.done() && simulation.step_number() < look) {

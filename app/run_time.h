@@ -1,4 +1,5 @@
-// How long a run takes, told before it starts. By the clock: for the terminal alone, never for a result.
+// Estimate of the time that a run takes, printed before it starts. Measured by the clock: for the terminal only, never for a
+// result.
 #pragma once
 #include <string>
 
@@ -7,18 +8,18 @@
 namespace gaitlab::app {
 
 struct RunTime {
-  double seconds = 0;        ///< of the whole run, as its first steps go; 0: not known
+  double seconds = 0;        ///< estimate for the whole run from its first steps; 0: not known
   double rate = 0;           ///< steps/s
-  std::string failure = {};  ///< of a run that fails within them: how
+  std::string failure = {};  ///< failure of a run during these steps
 };
 
-/// From here on a run is long: worth a word before it starts.
+/// Duration of a long run, of which the estimate is printed.
 inline constexpr double kLongRun = 10;  // s
 
-/// Has the simulation take its first steps, in about 0.2 s of processor time. Throws what step() throws.
+/// Measures the simulation's first steps, in about 0.2 s of processor time. Throws what step() throws.
 RunTime measure(Simulation& simulation, double duration);
 
-/// The same on a copy of at most a hundred control periods: of a run whose rows do not fit into the memory, too.
+/// The same with a separate simulation of at most a hundred control periods: also for a run whose rows do not fit into memory.
 RunTime measure(const Scenario& scenario);
 
 /// `takes about 14 s on this machine (28000 steps/s)`

@@ -1,4 +1,4 @@
-// What every command that has a run prints of it, warns of, and returns.
+// Output, warnings and exit code of every command with a run.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ namespace gaitlab::app {
 
 namespace {
 
-/// Lines for a terminal: the outcome of a recorded run is a text of another author.
+/// Text without control characters: the outcome of a recorded run is from an unknown source.
 std::string printed(const std::string& text) {
   std::string all;
   for (std::size_t at = 0; at < text.size();) {
@@ -36,7 +36,7 @@ std::string printed(const std::string& text) {
   return all;
 }
 
-/// The same of a table, in which a number that is not known is a dash.
+/// The same for a table, with a dash for each unknown number.
 std::string printed_table(const std::string& text) { return report::texts::without_nan(printed(text)); }
 
 }  // namespace
@@ -63,7 +63,7 @@ report::Verdict judged(const Scenario& scenario, const Recording& recording, con
                        const report::Overlaps& overlaps, const SummaryOptions& shown) {
   report::Verdict verdict = report::verdict(scenario, recording, summary, overlaps);
   if (!shown.demand || Judged::limited(summary.judged.joints) == 0) return verdict;
-  Catalog catalog = standard_catalog();  // its plugins are those of the run, which are loaded
+  Catalog catalog = standard_catalog();  // the run's plugins are loaded already
   const StoredScenario same{"", scenario.file + " (its demand twin)", resolved(scenario)};
   Scenario twin = read_stored(same, catalog, OtherPlugins::taken);
   if (!report::raise_limits(twin)) {
@@ -82,11 +82,11 @@ int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {
 void add_shown(CLI::App& command, SummaryOptions& shown) {
   command.add_flag("--joints", shown.joints, "print a row per joint, the most loaded first");
   command.add_flag("--fail-infeasible", shown.fail_infeasible,
-                   "exit code 3 unless the verdict is feasible, 1 where the run failed");
+                   "exit code 3 unless the verdict is feasible, 1 if the run failed");
   command.add_flag("--demand", shown.demand,
-                   "simulate once more without the limits of the motors where joints reach them, and tell how much is missing");
+                   "if joints reach limits of their motors, simulate again without these limits and print how much is missing");
   command.add_flag("--verbose", shown.verbose,
-                   "print all numbers of the run, the energy ledger and the limit of the step, too");
+                   "also print all numbers of the run, the energy ledger and the limit of the step");
 }
 
 void add_joint(CLI::App& command, std::vector<std::string>& joints) {
@@ -111,7 +111,7 @@ void draw_joints(Scenario& scenario, const std::vector<std::string>& joints) {
 void warn_of_run(const Scenario& scenario, const Recording& recording, const report::Verdict& verdict) {
   for (const report::Check& check : verdict.checks) {
     if (check.status == report::CheckStatus::pass || check.remedy.empty()) continue;
-    // The numbers of a run that broke off are what broke it.
+    // Numbers of a run that ended early only reflect its failure.
     if (check.group == report::CheckGroup::trust && !recording.outcome.done()) continue;
     say(to_string(check.place), "warning", check.text + "; " + check.remedy);
   }

@@ -5,7 +5,7 @@ namespace gaitlab::app {
 namespace {
 
 constexpr const char* kCpg =
-    R"(// CPG @NAME@: a chain of phase oscillators, to be made your own. What every function is for: core/plugin/cpg.h.
+    R"(// CPG @NAME@: a chain of phase oscillators, to be made your own. Purpose of every function: core/plugin/cpg.h.
 #include <cmath>
 #include <numbers>
 
@@ -27,7 +27,7 @@ class @CLASS@ final : public gaitlab::Cpg {
   // The keys that all oscillators share, frequency, amplitude, offset, phase_lag and couplings, and under `model` those above.
   using Settings = gaitlab::OscillatorSettings<Model>;
 
-  // Once per run. Where the settings do not fit the robot, throw std::invalid_argument: it is reported as an error of the scenario.
+  // Once per run. If the settings do not fit the robot, throw std::invalid_argument: it is reported as an error of the scenario.
   @CLASS@(const gaitlab::RobotInfo& robot, const Settings& settings)
       : joints_(robot.joints.size()), s_(settings), network_(robot, settings, settings.model.coupling) {}
 
@@ -95,7 +95,7 @@ expect(distance GREATER 0.05 "m: it does not walk")
 )";
 
 constexpr const char* kController =
-    R"(// Controller @NAME@: a spring and a damper between joint and set point, to be made your own. What every function is for:
+    R"(// Controller @NAME@: a spring and a damper between joint and set point, to be made your own. Purpose of every function:
 // core/plugin/controller.h.
 #include "core/plugin/plugin.h"
 
@@ -113,7 +113,7 @@ class @CLASS@ final : public gaitlab::Controller {
     }
   };
 
-  // Once per run. Where the settings do not fit the robot, throw std::invalid_argument: it is reported as an error of the scenario.
+  // Once per run. If the settings do not fit the robot, throw std::invalid_argument: it is reported as an error of the scenario.
   @CLASS@(const gaitlab::RobotInfo& robot, const Settings& settings) : joints_(robot.joints.size()), s_(settings) {}
 
   // "V" or "N m", the actuator's; another is an error of the scenario.
@@ -173,7 +173,7 @@ endforeach()
 )";
 
 constexpr const char* kActuator =
-    R"(// Actuator @NAME@: a motor whose torque falls linearly with its speed, to be made your own. What every function is for:
+    R"(// Actuator @NAME@: a motor whose torque falls linearly with its speed, to be made your own. Purpose of every function:
 // core/plugin/actuator.h.
 #include <algorithm>
 #include <vector>

@@ -10,7 +10,7 @@ std::atomic<bool>& stopped() {
 }
 
 StopOnSignal::StopOnSignal(Second second) {
-  (void)stopped();  // made before a signal comes
+  (void)stopped();  // creates the flag before a signal arrives
   struct sigaction action = {};
   action.sa_handler = [](int) { stopped() = true; };
   if (second == Second::ends_the_process) action.sa_flags = static_cast<int>(SA_RESETHAND);

@@ -1,10 +1,10 @@
-// How a person, a scheduler or a closed terminal ends what runs.
+// Signals with which a user, a scheduler or a closed terminal stops a run.
 #pragma once
 #include <atomic>
 
 namespace gaitlab::app {
 
-/// Set by the first SIGINT, SIGTERM or SIGHUP after StopOnSignal was made; a signal that is ignored already stays so.
+/// Set by the first SIGINT, SIGTERM or SIGHUP after StopOnSignal was made; an ignored signal remains ignored.
 std::atomic<bool>& stopped();
 
 struct StopOnSignal {

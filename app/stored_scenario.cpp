@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A text under a path, for a reader of files; nothing is left on the disk, however the program ends.
+/// A text under a path, for a reader of files; leaves no file on the disk, even after a crash.
 class MemoryFile {
  public:
   explicit MemoryFile(std::string_view text) : descriptor_(::memfd_create("scenario", MFD_CLOEXEC)) {
@@ -72,7 +72,7 @@ Scenario read_inside(const StoredScenario& stored, const std::vector<std::string
   }
 }
 
-/// `plugins:` of a resolved scenario: path and hash of each; nothing where it has another form, which its reader will say.
+/// `plugins:` of a resolved scenario: path and hash of each; nothing if it has another form, which its reader will report.
 std::vector<PluginFile> recorded_plugins(const StoredScenario& stored) {
   Problems ignored;
   const std::optional<Node> root = parse_yaml(stored.text, stored.shown, ignored);
@@ -108,7 +108,7 @@ std::vector<PluginChange> changed_plugins(const StoredScenario& stored) {
 
 Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugins others, std::vector<std::string> sets) {
   if (others == OtherPlugins::taken && !changed_plugins(stored).empty()) {
-    nlohmann::json paths = nlohmann::json::array();  // JSON is YAML: it quotes whatever a path holds
+    nlohmann::json paths = nlohmann::json::array();  // JSON is YAML: it quotes any character of a path
     for (const PluginFile& file : recorded_plugins(stored)) paths.push_back(file.path);
     sets.push_back("plugins=" + paths.dump());
   }
@@ -117,7 +117,7 @@ Scenario read_stored(const StoredScenario& stored, Catalog& catalog, OtherPlugin
 
 namespace {
 
-/// The scenario that the recording holds; where it holds none, as a CSV file alone, the resolved one of the folder.
+/// The scenario in the recording or, if it has none, as a CSV file alone, the resolved one of the folder.
 StoredScenario scenario_of(const std::string& run, const StoredRecording& read) {
   if (read.origin.scenario.empty()) return stored_scenario(run);
   const fs::path trace = trace_file(run);
@@ -125,7 +125,7 @@ StoredScenario scenario_of(const std::string& run, const StoredRecording& read) 
   return {"", holds.string() + " (its scenario)", read.origin.scenario};
 }
 
-/// InputError where the recording cannot be one of the scenario: only of files that somebody made up.
+/// Throws InputError if the recording does not fit the scenario: possible only for forged files.
 void check_fit(const std::string& run, const Scenario& scenario, const Recording& recording) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(SourceLocation{run}, "its recording does not fit its scenario: " + what +
@@ -149,15 +149,17 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
   if (!whole && recording.rows() > 0) refuse("columns that every recording has are not there");
 }
 
-/// Units and definitions where the file holds none: it is CSV.
+/// Adds units and definitions if the file has none: it is CSV.
 void name_units(const Scenario& scenario, Trace& trace) {
   const auto bare = [](const Column& column) { return column.definition.empty(); };
   if (std::ranges::none_of(trace.columns, bare)) return;
-  const std::vector<Column> known = Probes::known(scenario);
-  for (Column& column : trace.columns) {
-    const auto same = std::ranges::find(known, column.name, &Column::name);
-    if (bare(column) && same != known.end()) column = *same;
-  }
+  const ColumnList known = Probes::known(scenario);
+  trace.columns.change([&](std::vector<Column>& columns) {
+    for (Column& column : columns) {
+      const std::size_t same = known.find(column.name);
+      if (bare(column) && same < known.size()) column = known[same];
+    }
+  });
 }
 
 }  // namespace

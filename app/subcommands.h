@@ -1,11 +1,11 @@
-// The subcommands of the programs, each beside its code; apart from commands.h, so that no main.cpp is compiled with CLI11.
+// Subcommands of the programs; separate from commands.h, so that main.cpp is compiled without CLI11.
 #pragma once
 
 namespace gaitlab::app {
 
 struct Commands;
 
-/// In the order of the help.
+/// Functions in the order of the help.
 void add_run(Commands& commands);
 void add_report(Commands& commands);
 void add_check(Commands& commands);

@@ -14,6 +14,7 @@
 #include "core/simulation/batch.h"
 #include "golden/report.h"
 #include "report/figures/run/coincide.h"
+#include "report/figures/run/figure.h"
 #include "report/page/page.h"
 #include "report/page/swap_page.h"
 
@@ -22,14 +23,12 @@ namespace gaitlab::app {
 namespace {
 
 struct SwapArguments : ScenarioArguments {
-  std::vector<std::string> files;  ///< of the scenarios; `file` is the one that is read
-  std::string cpgs;                ///< types, with commas between
+  std::vector<std::string> files;  ///< scenario files; `file` is the present one
+  std::string cpgs;                ///< types, separated by commas
   std::optional<std::string> out;  ///< folder of figure and numbers
   int jobs = 1;                    ///< threads
-  bool report = false;             ///< also a page of every run, and one of all
+  bool report = false;             ///< also a page for every run, and one for all
 };
-
-constexpr double kShown = 8;  // s, of set point and torque: their last
 
 struct Swapped {
   std::string cpg;
@@ -40,7 +39,7 @@ struct Swapped {
   report::Verdict verdict = {};
 };
 
-/// The CPG that the scenario has, which keeps what --set says of its model.
+/// The scenario's CPG, which keeps the settings that --set gives its model.
 std::string own_cpg(const SwapArguments& arguments, Catalog& catalog) {
   auto quiet = static_cast<const ScenarioArguments&>(arguments);
   quiet.quiet = true;
@@ -60,7 +59,28 @@ std::vector<std::string> split(const std::string& list) {
   return names;
 }
 
-/// The scenario under each CPG; what is wrong with any of them is told of all at once.
+/// Adds the problems of reading under a CPG that no other CPG has.
+void add_new(const InputError& error, const std::string& cpg, std::vector<Problem>& problems) {
+  for (Problem problem : error.problems()) {
+    if (problem.place.file == "--set cpg.type=" + cpg) problem.place = SourceLocation{"--cpg"};  // the option typed by the user
+    const auto alike = [&](const Problem& p) {
+      return p.text == problem.text && to_string(p.place) == to_string(problem.place);
+    };
+    if (std::none_of(problems.begin(), problems.end(), alike)) problems.push_back(problem);
+  }
+}
+
+/// The scenario under another CPG than its own: settings of a model are of the own one, and dropped with a note.
+void exchange(ScenarioArguments& with, Swapped& swapped) {
+  const auto of_model = [](const std::string& set) { return set.starts_with("cpg.model"); };
+  for (const std::string& set : with.sets) {
+    if (of_model(set)) swapped.notes.push_back({{with.file}, fmt::format("{}: dropped --set {}", swapped.cpg, set)});
+  }
+  std::erase_if(with.sets, of_model);
+  with.sets.push_back("cpg.type=" + swapped.cpg);
+}
+
+/// The scenario under each CPG; errors of all are reported together.
 std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) {
   std::vector<Swapped> all;
   std::vector<Problem> problems;
@@ -78,26 +98,13 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
     }
     Swapped swapped{cpg};
     auto with = static_cast<const ScenarioArguments&>(arguments);
-    with.quiet = true;  // notes are told once all names are read
-    if (cpg != own) {
-      const auto of_model = [](const std::string& set) { return set.starts_with("cpg.model"); };
-      for (const std::string& set : with.sets) {
-        if (of_model(set)) swapped.notes.push_back({{with.file}, fmt::format("{}: dropped --set {}", cpg, set)});
-      }
-      std::erase_if(with.sets, of_model);
-      with.sets.push_back("cpg.type=" + cpg);
-    }
+    with.quiet = true;  // notes are printed once all names are read
+    if (cpg != own) exchange(with, swapped);
     try {
       swapped.scenario = read(with, catalog);
       swapped.notes.insert(swapped.notes.end(), swapped.scenario->notes.begin(), swapped.scenario->notes.end());
     } catch (const InputError& error) {
-      for (Problem problem : error.problems()) {
-        if (problem.place.file == "--set cpg.type=" + cpg) problem.place = SourceLocation{"--cpg"};  // what the user wrote
-        const auto alike = [&](const Problem& p) {
-          return p.text == problem.text && to_string(p.place) == to_string(problem.place);
-        };
-        if (std::none_of(problems.begin(), problems.end(), alike)) problems.push_back(problem);
-      }
+      add_new(error, cpg, problems);
     }
     all.push_back(std::move(swapped));
   }
@@ -110,7 +117,7 @@ std::vector<Swapped> read_all(const SwapArguments& arguments, Catalog& catalog) 
   return all;
 }
 
-/// Runs all of them; false: stopped. InputError: the first that is refused.
+/// Runs all of them; false: stopped. Throws InputError for the first refused one.
 bool run_all(const std::vector<Swapped*>& all, int jobs) {
   std::size_t next = 0;
   std::vector<std::vector<Problem>> refused(all.size());
@@ -146,7 +153,7 @@ std::vector<report::NamedRun> named_runs(const std::vector<Swapped>& all) {
 
 // ---- the figure
 
-/// Set point and torque of the joint that is the most loaded under the first CPG, where something drives it; and the travel.
+/// Set point and torque of the most loaded joint under the first CPG, if it has a motor; and the travel.
 report::CurvesInput figure(const std::vector<Swapped>& all) {
   const Scenario& first = *all.front().scenario;
   report::CurvesInput input;
@@ -161,7 +168,7 @@ report::CurvesInput figure(const std::vector<Swapped>& all) {
     setpoint.title += where + " (rad)";
     torque.title += where + " (N m)";
   }
-  setpoint.from = torque.from = std::max(0.0, first.duration - kShown);
+  setpoint.from = torque.from = std::max(0.0, first.duration - report::kShownSeconds);
   for (const Swapped& swapped : all) {
     const Recording& r = swapped.record;
     input.names.push_back(swapped.cpg);
@@ -191,7 +198,7 @@ void print_verdicts(const std::vector<Swapped>& all) {
   }
 }
 
-/// A page of every run, CPG.html, and swap.html, which leads to them.
+/// Writes a page of every run, CPG.html, and swap.html, which links to them.
 void write_pages(const std::vector<Swapped>& all, const std::filesystem::path& folder) {
   std::vector<report::SwapEntry> entries;
   for (const Swapped& one : all) {
@@ -211,7 +218,7 @@ void print_coinciding(const std::vector<Swapped>& all, const report::CurvesInput
   }
 }
 
-/// The command that does it all again.
+/// The command that repeats this one.
 std::string again(const SwapArguments& arguments) {
   std::string line = "gaitlab swap";
   const auto add = [&](const std::string& word) { line += " " + shell_word(word); };
@@ -225,7 +232,7 @@ std::string again(const SwapArguments& arguments) {
   return line;
 }
 
-/// Runs them as run_all does; false: it was stopped, which is told.
+/// Runs them as run_all does; false, with a message: stopped.
 bool run_or_tell(const std::vector<Swapped*>& all, const SwapArguments& arguments) {
   if (run_all(all, arguments.jobs)) return true;
   say(fmt::format("{}: interrupted: nothing is written; run it again with\n{}\n", arguments.files.front(), again(arguments)));
@@ -236,7 +243,7 @@ bool any_broke_off(const std::vector<Swapped>& all) {
   return std::ranges::any_of(all, [](const Swapped& s) { return !s.summary.outcome.done(); });
 }
 
-/// What is written of one scenario.
+/// Writes the files of one scenario.
 void write_swap(const std::vector<Swapped>& all, const report::CurvesInput& shown, const std::filesystem::path& folder,
                 bool pages) {
   const std::vector<report::NamedRun> runs = named_runs(all);
@@ -268,11 +275,11 @@ int swap_one(const SwapArguments& arguments, Catalog& catalog) {
 
 // ---- several scenarios
 
-/// Each scenario under each CPG; what is wrong with any of them is told of all at once.
+/// Each scenario under each CPG; errors of all are reported together.
 std::vector<std::vector<Swapped>> read_matrix(const SwapArguments& arguments, Catalog& catalog) {
   std::vector<std::vector<Swapped>> all;
   std::vector<Problem> problems;
-  std::vector<std::pair<std::string, std::string>> names;  // of scenarios, and their files
+  std::vector<std::pair<std::string, std::string>> names;  // names and files of scenarios
   for (const std::string& file : arguments.files) {
     SwapArguments one = arguments;
     one.file = file;
@@ -300,7 +307,7 @@ std::vector<std::vector<Swapped>> read_matrix(const SwapArguments& arguments, Ca
   return all;
 }
 
-/// By CPG, then by scenario.
+/// Ordered by CPG, then by scenario.
 std::vector<report::MatrixRun> matrix_runs(const std::vector<std::vector<Swapped>>& all) {
   std::vector<report::MatrixRun> runs;
   for (std::size_t c = 0; c < all.front().size(); ++c) {

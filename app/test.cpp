@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostDrawn = 6;  // columns; the figure is to be seen at one look
+constexpr std::size_t kMostDrawn = 6;  // columns in a figure that can be read at a glance
 
 // ---- the table
 
@@ -80,8 +80,8 @@ std::string counts(const std::vector<GoldenCase>& cases) {
 
 // ---- what failed
 
-/// Of the columns outside their bands the worst, the first to stray first; where only numbers are, the column nearest to its
-/// band.
+/// The worst of the columns outside their bands, the first to leave its band first; if only numbers are outside, the column
+/// nearest to its band.
 std::vector<const ColumnCheck*> strayed(const GoldenCase& c) {
   std::vector<const ColumnCheck*> found;
   for (const ColumnCheck& check : c.difference.columns) {
@@ -117,14 +117,14 @@ std::vector<report::OverlayPanel> panels(const GoldenCase& c) {
   return panels;
 }
 
-/// The folder of the figures, made for the first of them where --out does not name it.
+/// The folder of the figures, created with the first of them if --out does not name it.
 class Figures {
  public:
   explicit Figures(const std::optional<std::string>& out) {
     if (out) folder_.emplace(*out, "");
   }
 
-  /// Names both files in the case; none where there is nothing to draw.
+  /// Writes both files and names them in the case; none if there is nothing to draw.
   void write(GoldenCase& c) {
     const std::vector<report::OverlayPanel> shown = panels(c);
     if (shown.empty()) return;
@@ -148,7 +148,7 @@ class Figures {
   std::optional<RunFolder> folder_;
 };
 
-/// What changed, what strayed farthest, and where the rest is.
+/// Text of a failure: changes, largest deviations, and the files with the rest.
 std::string failure(const GoldenCase& c, bool all) {
   const GoldenProvenance now = golden_origin(*c.scenario);
   const std::string changes = origin_changes(c.golden->origin, now, all ? kAllSettings : kFewSettings);
@@ -164,8 +164,8 @@ std::string failure(const GoldenCase& c, bool all) {
   return text + (c.figure.empty() ? "" : "  figure: " + c.figure + "\n");
 }
 
-/// What is not a failure: numbers of which little is seen; another verdict; and another text than was approved, which explains
-/// a failure.
+/// Prints notes that are not failures: numbers with wide bands; a changed verdict; and a text that differs from the approved
+/// one, which explains a failure.
 void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
     if (c.verdict != Verdict::passed) continue;
@@ -186,7 +186,7 @@ void print_notes(const std::vector<GoldenCase>& cases) {
 
 std::string junit(const std::vector<GoldenCase>& cases) {
   const std::size_t errors = count(cases, Verdict::bad_input) + count(cases, Verdict::run_failed);
-  double seconds = 0;  // of all runs, which may have run side by side
+  double seconds = 0;  // sum over all runs, which may have run side by side
   for (const GoldenCase& c : cases) seconds += c.seconds;
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
   text += fmt::format(
@@ -218,7 +218,7 @@ std::string junit(const std::vector<GoldenCase>& cases) {
   return text + "</testsuite>\n</testsuites>\n";
 }
 
-/// Before the runs, so that a wrong path costs nothing: no input is overwritten, and there is a folder for it.
+/// Before the runs, so that a wrong path costs no time: no input is overwritten, and the folder exists.
 void check_report(const std::string& path) {
   const SourceLocation place{"--junit " + path};
   const fs::file_type kind = kind_of(path);
@@ -248,10 +248,10 @@ int test_goldens(const TestArguments& arguments) {
     run_cases(cases, arguments, std::cref(progress));
   }
   bool written = true;
-  const auto write = [&](const std::function<void()>& file) {  // what was found counts more than a file that cannot be written
+  const auto write = [&](const std::function<void()>& file) {  // the results matter more than a file that cannot be written
     try {
       file();
-    } catch (const std::runtime_error& error) {  // InputError: a folder that cannot be made
+    } catch (const std::runtime_error& error) {  // InputError: a folder that cannot be created
       say("gaitlab", "error", error.what());
       written = false;
     }
@@ -288,11 +288,11 @@ void add_test(Commands& commands) {
                            "on the method, are left out");
         command.add_option("--golden", arguments.golden, "golden folder to compare one scenario with, not its own")
             ->check(not_empty);
-        command.add_option("--out", arguments.out, "folder for figures and pages of what failed (default runs/test)");
+        command.add_option("--out", arguments.out, "folder for figures and pages of failed tests (default runs/test)");
         command.add_flag("--fail-infeasible", arguments.fail_infeasible,
-                         "exit code 3 where the verdict on a run with motors is not feasible, and nothing worse came up");
-        command.add_flag("--all", arguments.all, "of what failed, show all columns, numbers and settings, not the worst ones");
-        command.add_flag("--strict", arguments.strict, "in a folder, too, a scenario without a golden is an error");
+                         "exit code 3 if the verdict on a run with motors is not feasible, and nothing worse happened");
+        command.add_flag("--all", arguments.all, "show all columns, numbers and settings of failed tests, not the worst ones");
+        command.add_flag("--strict", arguments.strict, "a scenario without a golden is an error, also in a folder");
       });
 }
 

@@ -1,4 +1,4 @@
-// What engine `articulated` costs: a step of the kernel, a control tick, a whole run; chains of 10 to 1000 modules.
+// Benchmarks of engine `articulated`: a step of the kernel, a control tick, a whole run; chains of 10 to 1000 modules.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStep = 5e-4;  // s
 
-/// Lives as long as the scenarios made from it.
+/// Outlives the scenarios made from it.
 Catalog& catalog() {
   static Catalog all = app::standard_catalog();
   return all;
@@ -36,7 +36,7 @@ Scenario chain(std::size_t modules) {
   return s;
 }
 
-/// Steps of the implicit method alone, of `lanes` rollouts: standing on the ground, motors without a command. Time a pack.
+/// Steps of the implicit method alone, of `lanes` rollouts: standing on the ground, motors without a command. Time per pack.
 void kernel(benchmark::State& state, const Scenario& s, std::size_t lanes) {
   const auto& widths = s.physics.engine->lanes;
   if (std::find(widths.begin(), widths.end(), lanes) == widths.end()) {
@@ -62,7 +62,7 @@ void kernel(benchmark::State& state, const Scenario& s, std::size_t lanes) {
   for (int i = 0; i < 200; ++i) plant->advance(command, kStep);  // until it stands
   const std::vector<double> standing = x;
   for ([[maybe_unused]] auto once : state) {
-    std::copy(standing.begin(), standing.end(), x.begin());  // every call does the same
+    std::copy(standing.begin(), standing.end(), x.begin());  // so that every call computes the same
     plant->advance(command, kStep);
     benchmark::DoNotOptimize(x.data());
     benchmark::ClobberMemory();
@@ -74,13 +74,13 @@ void kernel_of(benchmark::State& state, const char* file) {
   kernel(state, shipped(file), static_cast<std::size_t>(state.range(0)));
 }
 
-/// Argument: modules. The cost a module is fitted; the exponent is log10(t(1000) / t(10)) / 2.
+/// Argument: modules. The cost per module is fitted; the exponent is log10(t(1000) / t(10)) / 2.
 void kernel_of_chain(benchmark::State& state) {
   kernel(state, chain(static_cast<std::size_t>(state.range(0))), 1);
   state.SetComplexityN(state.range(0));
 }
 
-/// Loop, CPG, controllers and one step: control and trace at every step, less what a step costs, is what a tick costs.
+/// Loop, CPG, controllers and one step with control and trace at every step; the cost of a tick is this minus that of a step.
 void tick_of(benchmark::State& state, const char* file) {
   const std::string period = "=0.0005";  // kStep
   const Scenario s =
@@ -89,7 +89,7 @@ void tick_of(benchmark::State& state, const char* file) {
   for ([[maybe_unused]] auto once : state) simulation.step();
 }
 
-/// Two simulated seconds at the engine's own step; counter: simulated seconds per second.
+/// Two simulated seconds at the engine's default step; counter: simulated seconds per second.
 void run_of(benchmark::State& state, const char* file) {
   const Scenario s = shipped(file, {"duration=2"});
   for ([[maybe_unused]] auto once : state) {

@@ -8,8 +8,9 @@ namespace gaitlab::versus {
 
 namespace {
 
+/// The estimate's companion rollouts are a separate contender.
 std::vector<std::string> sets(const std::string& engine, const std::string& integrator) {
-  return {"physics.engine=" + engine, "physics.integrator=" + integrator};
+  return {"physics.engine=" + engine, "physics.integrator=" + integrator, "physics.estimate=off"};
 }
 
 bool has(const Engine* engine, const std::string& integrator) {
@@ -19,18 +20,18 @@ bool has(const Engine* engine, const std::string& integrator) {
 // Steps divide the trace's 5 ms and the controller's 15 ms.
 const std::vector<double> kShort{2.5e-5, 5e-5};
 const std::vector<double> kUser{2.5e-5, 5e-5, 1e-4, 1e-3};
-const std::vector<double> kImplicit{1e-4, 1e-3};  // two and a half times as dear, no better
+const std::vector<double> kImplicit{1e-4, 1e-3};  // 2.5 times the cost, no smaller error
 const std::vector<double> kLong{2.5e-4, 5e-4, 6.25e-4, 1e-3, 1.25e-3, 5e-3 / 3, 2.5e-3, 5e-3};
 const std::vector<double> kLonger{5e-4, 1e-3, 1.25e-3, 5e-3 / 3, 2.5e-3, 5e-3};
 
-// Of steps of 5 ms, which the integrator divides.
+// For steps of 5 ms, which the integrator divides.
 const std::vector<double> kAccuracies{0.05, 0.02, 0.01, 0.003, 0.001};
 
 void add_bullet(Field& field) {
   const auto penalty = sets("bullet", "semi_implicit");
   field.references.push_back({"bullet", penalty, {2.5e-5, 1.25e-5}});
   field.contenders.push_back({"bullet", Group::bullet, "bullet", penalty, kShort});
-  const std::vector<std::string> solver{"physics.engine=bullet", "contact.law=bullet"};
+  const std::vector<std::string> solver{"physics.engine=bullet", "contact.law=bullet", "physics.estimate=off"};
   field.references.push_back({"bullet solver", solver, {1e-4, 5e-5}});
   field.contenders.push_back({"bullet solver", Group::bullet_solver, "bullet solver", solver, {2.5e-4, 5e-4, 1e-3}});
 }
@@ -43,7 +44,7 @@ void add_mujoco(Field& field, const Engine* engine) {
     field.contenders.push_back({fmt::format("mujoco {}", integrator), Group::mujoco_user, "mujoco user",
                                 sets("mujoco", integrator), std::string(integrator) == "implicit" ? kImplicit : kUser});
   }
-  if (has(engine, "dcmotor")) {  // limits the current, not the torque at rest: another limit
+  if (has(engine, "dcmotor")) {  // limits the current, not the torque at rest, and so has another limit
     const auto motors = sets("mujoco", "dcmotor");
     field.references.push_back({"mujoco dcmotor", motors, {1e-5, 5e-6}});
     field.contenders.push_back({"mujoco dcmotor", Group::mujoco_user, "mujoco dcmotor", motors, kUser});
@@ -78,6 +79,10 @@ void add_articulated(Field& field, const Engine& engine, std::vector<std::string
                                   lanes});
     }
   }
+  auto estimated = sets("articulated", "adaptive");
+  estimated.back() = "physics.estimate=full";
+  field.contenders.push_back(
+      {"articulated adaptive, estimated", Group::ours, "articulated", std::move(estimated), {kLonger.back()}});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Who runs against whom: engines, their set-ups and steps.
+// Contenders of a benchmark: engines, their set-ups and steps.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace gaitlab::versus {
 
-/// Whose converged run an engine's errors are measured against: the last of its steps; the one before shows how converged.
+/// Reference for an engine's errors: the last of its steps; the one before shows its convergence.
 struct Reference {
   std::string name;
   std::vector<std::string> sets;  ///< texts of --set
@@ -30,10 +30,10 @@ struct Field {
   std::vector<Contender> contenders;
 };
 
-/// All that the catalog's engines can do; `left_out` says what they cannot.
+/// All contenders possible with the catalog's engines; `left_out` lists the impossible ones.
 Field field(const Catalog& catalog, std::vector<std::string>& left_out);
 
-/// Name of the reference that the errors of `ours` are measured against, besides their own.
+/// Name of the reference for the errors of `ours`, besides their own.
 inline constexpr const char* kOther = "bullet";
 
 }  // namespace gaitlab::versus

@@ -22,12 +22,13 @@ namespace gaitlab {
 namespace {
 
 constexpr double kPointRadius = 1e-6;  // m; MuJoCo has no points
-// Contacts of set-up armature: solref's time constant, s, and solimp's share of the force at once when a contact begins and
+// Contacts of set-up armature: solref's time constant, s, and solimp's initial share of the force when a contact begins and
 // depth over which the whole is reached, m. MuJoCo has 0.02, 0.9 and 0.001: then the torques converge slowly, whatever the
-// solver does (hexapod: 4 % off at 1.25 ms, with these 0.9 %). Chosen among those with about our own depth.
+// solver does (hexapod: 4 % off at 1.25 ms, with these 0.9 %). Chosen among values with about the same depth as gaitlab's law.
 constexpr double kTime = 0.01, kOnset = 0.001, kDepth = 0.002;
 
-// Set-up armature: Newton's method starts from the last step's solution and needs no more (default: 100, until the tolerance).
+// Set-up armature: Newton's method starts from the last step's solution, so that this number is sufficient (default: 100, until
+// the tolerance).
 constexpr int kIterations = 3;
 
 struct Delete {
@@ -36,8 +37,7 @@ struct Delete {
 };
 using Model = std::unique_ptr<mjModel, Delete>;
 
-/// What a plant knows of its scenario, as far as the export asks: no motors (they are forces on the joints here), nothing
-/// drawn.
+/// Part of the scenario for the export: without motors (they are forces on the joints here) and without shapes.
 Scenario bare(const PlantSettings& s) {
   Scenario scenario;
   scenario.name = "versus";
@@ -57,7 +57,7 @@ Scenario bare(const PlantSettings& s) {
   return scenario;
 }
 
-/// The export without its sites, and with docked bodies as one for MuJoCo, too: what a user in need of speed would do.
+/// The export without its sites, and with docked bodies fused, as a user in need of speed would do.
 std::string lean(const std::string& mjcf) {
   std::string out;
   for (std::size_t at = 0; at < mjcf.size();) {
@@ -71,10 +71,10 @@ std::string lean(const std::string& mjcf) {
   return out;
 }
 
-/// The motors as MuJoCo's own actuators, one per joint, in the order of the joints. Theirs has one constant K for torque and
+/// The motors as MuJoCo's DC motors, one per joint, in the order of the joints. MuJoCo's has one constant K for torque and
 /// back-EMF, and no efficiency:
 ///     T = n K (u - K n w) / R', |T| <= n T_max.
-/// It is ours, T = eta Kt n (u - Ks n w) / R and |T| <= eta Kt n i_max, for K = Ks, R' = R Ks / (eta Kt) and
+/// It equals gaitlab's, T = eta Kt n (u - Ks n w) / R and |T| <= eta Kt n i_max, for K = Ks, R' = R Ks / (eta Kt) and
 /// T_max = eta Kt i_max.
 std::string dc_motors(const PlantSettings& s) {
   const DcMotor* motor = s.actuator == nullptr ? nullptr : s.actuator->dc_motors();
@@ -154,7 +154,6 @@ class MujocoPlant final : public Plant {
     }
   }
 
-  [[nodiscard]] std::size_t lanes() const override { return 1; }
   void bind(Out numbers, Out) override { numbers_ = numbers; }
 
   void advance(In command, double h) override {
@@ -168,7 +167,7 @@ class MujocoPlant final : public Plant {
     }
     write();
     part_.set(torque_, speed_, In(numbers_).subspan(layout_.angles(), joints_), h);
-    // MuJoCo starts anew after what it takes for divergence: a run must not go on from there.
+    // MuJoCo restarts after what it takes for divergence: a run must not continue from there.
     for (const int bad : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
       if (data_->warning[bad].number > 0) numbers_[0] = std::numeric_limits<double>::quiet_NaN();
     }
@@ -176,7 +175,6 @@ class MujocoPlant final : public Plant {
 
   [[nodiscard]] StepEffort applied() const override { return part_.applied(works_); }
 
-  [[nodiscard]] std::optional<Vec3> com(std::size_t) const override { return {}; }
   void accelerate(std::size_t, const RobotState&, In, std::span<const BodyWrench>, Acceleration&) override {
     throw RunError("engine mujoco of the benchmarks gives no accelerations: leave out the columns reaction.*");
   }
@@ -192,12 +190,10 @@ class MujocoPlant final : public Plant {
       sample.fn = force[0];
       sample.penetration = -contact.dist;
       sample.point = Vec3(contact.pos[0], contact.pos[1], contact.pos[2]);
-      sample.force = Eigen::Map<const Mat3>(contact.frame) * Vec3(force[0], force[1], force[2]);  // its rows are the axes
+      sample.force =
+          Eigen::Map<const Mat3>(contact.frame) * Vec3(force[0], force[1], force[2]);  // the rows of contact.frame are the axes
     }
   }
-
-  /// No rule is known.
-  [[nodiscard]] Stability stability(std::size_t, In, bool) override { return {}; }
 
  private:
   static Model make_model(const PlantSettings& s) {
@@ -223,8 +219,8 @@ class MujocoPlant final : public Plant {
 #endif
   }
 
-  /// The exported geoms touch nothing: elements shall touch the ground, and only that. MuJoCo 3 first
-  /// compares masks of the bodies, which it computed from those of their geoms when it compiled the model.
+  /// Enables contact: the exported geoms are without contact, and elements shall touch only the ground. MuJoCo 3 first compares
+  /// masks of the bodies, which it computed from those of their geoms when it compiled the model.
   void touch_with_contacts() {
     mjModel& m = *model_;
     element_.assign(static_cast<std::size_t>(m.ngeom), 0);
@@ -301,8 +297,8 @@ class MujocoPlant final : public Plant {
   Out numbers_;
   Model model_;
   std::unique_ptr<mjData, Delete> data_;
-  std::vector<int> dof_, q_;          // of a joint
-  std::vector<std::size_t> element_;  // of a geom
+  std::vector<int> dof_, q_;          // of each joint
+  std::vector<std::size_t> element_;  // of each geom
   std::vector<double> slope_, torque_, speed_, zero_;
   std::array<double, 4> works_ = {};
   OnePart part_;

@@ -1,3 +1,5 @@
+#include "report/plot/plot.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <cmath>
 
 #include "bench/results.h"
-#include "report/plot/axes.h"
 #include "report/plot/svg.h"
 
 namespace gaitlab::versus {
@@ -31,7 +32,7 @@ report::Style style_of(std::size_t contender) {
           .dash = kDashes[contender / kColours.size() % kDashes.size()]};
 }
 
-/// Whole decades around what is added; values above 0.
+/// Whole decades that include the added values, which are above 0.
 struct Decades {
   int lo = 100, hi = -100;
   void add(double value) {
@@ -115,10 +116,10 @@ class ScenarioPanel {
 std::string plot(const Results& results) {
   const std::vector<std::string> scenarios = unique(results, &Point::scenario);
   const std::vector<std::string> contenders = unique(results, &Point::contender);
-  const std::size_t lines = (contenders.size() + 2) / 3;  // three a line
+  const std::size_t lines = (contenders.size() + 2) / 3;  // three per line
   double top = kTitleHeight + kLegendLine * static_cast<double>(lines) + kHead;
   report::Svg svg(kWidth, top + (kHeight + kFoot + kHead) * static_cast<double>(scenarios.size()) - kHead);
-  svg.text({kWidth / 2, 28}, "What a simulated second costs, and how right its torques are",
+  svg.text({kWidth / 2, 28}, "Cost of a simulated second, and error of its torques",
            {.size = 18, .anchor = report::Anchor::middle, .bold = true});
   for (std::size_t c = 0; c < contenders.size(); ++c) {
     const std::size_t line = c / 3;

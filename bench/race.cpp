@@ -11,7 +11,7 @@ namespace gaitlab::versus {
 
 namespace {
 
-/// A point and what it runs.
+/// A point with its simulation settings.
 struct Runner {
   Point point;
   std::vector<Scenario> lanes;
@@ -31,12 +31,12 @@ class Race {
 
  private:
   void run(const std::string& file, const Field& all) {
-    const std::string name = scenario(file, {}, 0).name;  // throws what is wrong with the file itself
+    const std::string name = scenario(file, {}, 0).name;  // throws errors of the file
     std::vector<const Contender*> contenders;
     for (const Contender& c : all.contenders) {
       if (glob(settings_.only, c.name)) contenders.push_back(&c);
     }
-    // Room for all, so that pointers to them stay.
+    // Reserves memory, so that pointers to the elements stay valid.
     std::vector<Converged> references;
     references.reserve(all.references.size());
     for (const Reference& r : all.references) {
@@ -53,7 +53,7 @@ class Race {
     for (int round = 0; round < settings_.rounds; ++round) {
       settings_.say(fmt::format("{}: round {} of {}", name, round + 1, settings_.rounds));
       for (std::size_t i = 0; i < runners.size(); ++i) {
-        // Neighbours change from round to round, too: a stride that divides no likely number.
+        // Neighbours change from round to round also: a stride that divides no likely number.
         step(runners[(i + static_cast<std::size_t>(round) * 7) % runners.size()]);
       }
     }
@@ -95,11 +95,11 @@ class Race {
     return at == references.end() ? nullptr : &*at;
   }
 
-  /// Every lane drives other motors, so that lanes differ as they do in a study.
+  /// Every lane has other motors, so that lanes differ as they do in a study.
   void enter(const std::string& file, const std::string& name, const Contender& c, const std::vector<Converged>& references,
              std::vector<Runner>& runners) {
     const Converged* reference = find(references, c.reference);
-    if (reference == nullptr) return;  // and said why
+    if (reference == nullptr) return;  // the reason was reported
     for (const double step : c.steps) {
       Runner runner;
       runner.point = {name, c.name, c.group, step, c.lanes, settings_.seconds * static_cast<double>(c.lanes), {}, {},
@@ -129,7 +129,7 @@ class Race {
       if (!p.note.empty()) return;
       p.wall.push_back(measured.timing.wall);
       p.cpu.push_back(measured.timing.cpu);
-      if (p.wall.size() > 1) return;  // the same run again
+      if (p.wall.size() > 1) return;  // a repetition of the run
       p.error = torque_error(measured.torques, r.reference->torques, settings_.seconds / 2);
       p.worst_joint = r.lanes[0].robot->joints[p.error.joint].name;
       if (p.group == Group::ours && r.bullet != nullptr) {
@@ -154,7 +154,7 @@ const Point* Results::fastest(const std::string& scenario, Group group, double e
   const Point* best = nullptr;
   for (const Point& p : points) {
     if (p.scenario != scenario || p.group != group || !p.ran() || p.error.worst > error) continue;
-    if (best == nullptr || p.speed() > best->speed()) best = &p;
+    if (best == nullptr || p.cpu_speed() > best->cpu_speed()) best = &p;
   }
   return best;
 }

@@ -1,4 +1,4 @@
-// The runs: references, then every contender once a round, in an order that rotates.
+// Runs of a race: references, then every contender once per round, in a rotating order.
 #pragma once
 #include <functional>
 #include <map>
@@ -16,7 +16,7 @@ struct RaceSettings {
   std::string only = "*";              ///< pattern of the contenders' names
   double seconds = 8;                  ///< simulated; errors are of the second half
   int rounds = 5;
-  double least = 0.2;  ///< s; a point's shorter runs are repeated in a round until that has passed
+  double least = 0.2;  ///< s; shorter runs of a point are repeated within a round until this time has passed
   std::function<void(const std::string&)> say = [](const std::string&) {};
 };
 
@@ -36,12 +36,12 @@ struct Point {
   double step = 0;  ///< s
   std::size_t lanes = 1;
   double seconds = 0;  ///< simulated by a run, all lanes
-  std::string note;    ///< why it does not count: refused, diverged, another walk than bullet's
-  TorqueError error;   ///< against its own reference
+  std::string note;    ///< reason not to count it: refused, diverged, another walk than bullet's
+  TorqueError error;   ///< against the engine's reference
   std::string worst_joint;
-  std::optional<TorqueError> other;  ///< ours: against kOther
+  std::optional<TorqueError> other;  ///< for gaitlab's engines: against kOther
   Course course;
-  std::vector<double> wall, cpu;  ///< s a run; one a round
+  std::vector<double> wall, cpu;  ///< s per run; one per round
 
   [[nodiscard]] bool ran() const { return note.empty() && !wall.empty(); }
   /// Simulated seconds per second.
@@ -60,8 +60,9 @@ struct Results {
   [[nodiscard]] const Point* fastest(const std::string& scenario, Group group, double error) const;
 };
 
-/// What strays from the walk of reference kOther (strays(), bench/measure.h) does not count: a point has a note then, and a
-/// reference is left out with all that are measured against it. Throws InputError: a scenario that no engine reads.
+/// Runs the race. A point whose walk differs from that of reference kOther (strays(), bench/measure.h) gets a note and does not
+/// count; such a reference is left out with all contenders measured against it. Throws InputError for a scenario that no engine
+/// can read.
 Results race(const RaceSettings& settings, Catalog& catalog);
 
 }  // namespace gaitlab::versus

@@ -8,23 +8,24 @@ namespace gaitlab::versus {
 
 inline constexpr double kGood = 0.01;  ///< worst joint's error at which engines are compared
 
-/// A line per point that counts, the fastest of each kind at kGood with what it is to MuJoCo at its best and to bullet, and why
-/// the other points do not count.
+/// A line per point that counts, the fastest of each kind at kGood in comparison with MuJoCo's best set-up and bullet, and the
+/// reasons why other points do not count.
 std::string table(const Results& results, bool markdown);
 
-/// For a page: of the table above only the fastest points, as Markdown.
+/// Only the fastest points of the table above, as Markdown for a page.
 std::string digest(const Results& results);
 
-/// `page` with `part` between its lines `<!-- versus: written by --renew -->` and `<!-- end of versus -->`. Throws RunError: it
-/// does not have them.
+/// `page` with `part` between its lines `<!-- versus: written by --renew -->` and `<!-- end of versus -->`. Throws RunError if
+/// it does not have them.
 std::string renewed(const std::string& page, const std::string& part);
 
-/// Everything: machine, versions, settings, references, every point with the times of every round.
+/// All results as JSON: machine, versions, settings, references, every point with the times of every round.
 std::string json(const Results& results, const RaceSettings& settings);
 
-std::string processor();  ///< the machine's, by name
+std::string processor();  ///< name of the machine's processor
 
-/// SVG: error of the worst joint over simulated seconds per second, both logarithmic; a panel a scenario, a curve a contender.
+/// SVG: error of the worst joint over simulated seconds per second, both logarithmic; one panel per scenario, one curve per
+/// contender.
 std::string plot(const Results& results);
 
 }  // namespace gaitlab::versus

@@ -1,4 +1,4 @@
-// What one more rollout of a scenario costs before it runs: reading it anew, or taking it from a template.
+// Benchmarks of a rollout's set-up: reading its scenario from a file, or from a template.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 #include <sys/resource.h>
@@ -45,7 +45,7 @@ void simulation(benchmark::State& state, const char* name) {
   for ([[maybe_unused]] auto once : state) benchmark::DoNotOptimize(Simulation({&one, 1}).step_number());
 }
 
-/// Ten thousand rollouts of 0.5 s, one after the other: the memory that the process takes at most.
+/// Largest memory of the process during ten thousand rollouts of 0.5 s, one after the other.
 void stream(benchmark::State& state) {
   Catalog catalog = app::standard_catalog();
   const ScenarioTemplate from(kScenarios + "hexapod.yaml", {"physics.engine=articulated", "duration=0.5"}, catalog);

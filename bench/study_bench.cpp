@@ -1,8 +1,10 @@
-// What a study costs beside its rollouts: the quantities of a run, its row in the journal, a look at many rows.
+// Benchmarks of a study without its rollouts: the quantities of a run, its row in the journal, reading many rows.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <atomic>
 #include <filesystem>
+#include <optional>
 
 #include "app/app.h"
 #include "app/study/study_quantities.h"
@@ -39,11 +41,41 @@ void overlaps(benchmark::State& state, const char* name) {
   for ([[maybe_unused]] auto once : state) benchmark::DoNotOptimize(report::overlaps(run.scenarios[0], run.recording));
 }
 
-/// All of it: summary, overlaps, verdict and the columns of the journal.
+/// Complete evaluation: summary, overlaps, verdict and the columns of the journal.
 void measure(benchmark::State& state, const char* name) {
   const Recorded run(name);
   const studies::Measure of = app::quantity_measure(app::quantity_offer().common, run.scenarios[0]);
   for ([[maybe_unused]] auto once : state) benchmark::DoNotOptimize(of(run.scenarios[0], run.recording).quantities.data());
+}
+
+/// Four rollouts of 20 s side by side, as in a sweep: run and judged, with all quantities.
+void rollouts(benchmark::State& state, const char* name) {
+  Catalog catalog = app::standard_catalog();
+  const ScenarioTemplate from(std::string(GAITLAB_SOURCE_DIR) + "/scenarios/" + name,
+                              {"physics.engine=articulated", "physics.estimate=off", "duration=20"}, catalog);
+  std::vector<Scenario> pack;
+  for (const char* frequency : {"0.42", "0.47", "0.52", "0.57"})
+    pack.push_back(from.with({std::string("cpg.frequency=") + frequency}));
+  const studies::Measure of = app::quantity_measure(app::quantity_offer().common, pack[0]);
+  double simulated = 0;
+  for ([[maybe_unused]] auto once : state) {
+    std::size_t next = 0;
+    std::atomic<bool> stop = false;
+    const BatchStream stream{.next = [&]() -> std::optional<Rollout> {
+                               if (next == pack.size()) return {};
+                               const std::size_t number = next++;
+                               return Rollout{number, pack[number]};
+                             },
+                             .end =
+                                 [&](std::vector<RolloutEnd>&& ended) {
+                                   for (const RolloutEnd& one : ended) {
+                                     simulated += one.recording.simulated;
+                                     benchmark::DoNotOptimize(of(one.rollout.scenario, one.recording).quantities.data());
+                                   }
+                                 }};
+    run_pulled(stream, {1, 4}, of.reads, stop);
+  }
+  state.counters["simulated s/s"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
 }
 
 /// A study of 6 parameters and 30 quantities.
@@ -94,7 +126,7 @@ void journal_write(benchmark::State& state) {
   state.counters["bytes/row"] = bytes / static_cast<double>(rows);
 }
 
-/// What `study show` reads.
+/// Reading for `study show`.
 void journal_results(benchmark::State& state) {
   const test::Folder folder;
   studies::Journal journal(folder.path() / studies::kJournalFile, head(), studies::Journal::Build::same);
@@ -106,6 +138,8 @@ BENCHMARK_CAPTURE(summary, caterpillar, "caterpillar.yaml")->Unit(benchmark::kMi
 BENCHMARK_CAPTURE(overlaps, caterpillar, "caterpillar.yaml")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(measure, caterpillar, "caterpillar.yaml")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(measure, hexapod, "hexapod.yaml")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(rollouts, caterpillar, "caterpillar.yaml")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(rollouts, hexapod, "hexapod.yaml")->Unit(benchmark::kMillisecond);
 BENCHMARK(journal_write)->Unit(benchmark::kMillisecond);
 BENCHMARK(journal_results)->Arg(100000)->Unit(benchmark::kMillisecond);
 

@@ -44,7 +44,7 @@ std::string percent(double share) {
   return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
 }
 std::string times(const Point& p, const Point* than) {
-  return than == nullptr ? "-" : fmt::format("{:.3g}", p.speed() / than->speed());
+  return than == nullptr ? "-" : fmt::format("{:.3g}", p.cpu_speed() / than->cpu_speed());
 }
 
 Row row(const Point& p, const Point* mujoco, const Point* bullet) {
@@ -65,7 +65,7 @@ std::vector<std::string> scenarios(const Results& results) {
   return names;
 }
 
-/// The fastest good points: one a group, of ours one a number of lanes.
+/// The fastest points that count: one per group, for gaitlab's engines one per number of lanes.
 std::vector<const Point*> fastest(const Results& results, const std::string& scenario) {
   std::vector<const Point*> best;
   for (const Point& p : results.points) {
@@ -73,7 +73,7 @@ std::vector<const Point*> fastest(const Results& results, const std::string& sce
     const auto at = std::ranges::find_if(best, [&](const Point* b) { return b->group == p.group && b->lanes == p.lanes; });
     if (at == best.end()) {
       best.push_back(&p);
-    } else if (p.speed() > (*at)->speed()) {
+    } else if (p.cpu_speed() > (*at)->cpu_speed()) {
       *at = &p;
     }
   }
@@ -88,7 +88,7 @@ std::string best_table(const Results& results, const std::string& scenario, bool
   return lay_out(rows, markdown);
 }
 
-/// Of the points that do not count.
+/// Reasons why points do not count.
 std::string reasons(const Results& results, const std::string& scenario) {
   std::string out;
   for (const Point& p : results.points) {

@@ -1,4 +1,4 @@
-// Controller `hold`: a constant command, in the actuator's own unit.
+// Controller `hold`: a constant command, in the actuator's unit.
 #pragma once
 #include "core/plugin/registry.h"
 

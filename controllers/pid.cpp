@@ -24,7 +24,7 @@ void Pid::Settings::fields(Fields& f) {
   f.per_joint("Kd", Kd, {"V s/rad", 0, 1e9, "Derivative gain."});
   f.per_joint("N", N, {"V/rad", 1e-9, 1e9, "Filter of the derivative: its time constant is Kd / N."});
   f.flag("anti_windup", anti_windup, "Hold I while the last command exceeded the actuator's limit and the error had its sign.");
-  f.choice("unit", unit, kUnits, "Of the command; gains are in this unit per rad.");
+  f.choice("unit", unit, kUnits, "Unit of the command; gains are in this unit per rad.");
 }
 
 void Pid::start(Out x) const { std::fill(x.begin(), x.end(), 0.0); }

@@ -17,7 +17,7 @@ class Pid final : public Controller {
 
   Pid(const RobotInfo& robot, Settings settings) : joints_(robot.joints.size()), s_(std::move(settings)) {}
   [[nodiscard]] std::string_view command_unit() const override { return s_.unit == Unit::volt ? "V" : "N m"; }
-  /// Whether it has run, then I, D, e and u of the last tick for every joint.
+  /// A flag set by the first tick, then I, D, e and u of the last tick for every joint.
   [[nodiscard]] std::size_t states() const override { return 1 + 4 * joints_; }
   void start(Out x) const override;
   void update(const Measured& measured, In setpoint, In command_limit, Out x, Out command) const override;

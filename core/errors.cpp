@@ -14,8 +14,9 @@ std::string to_string(const SourceLocation& place) {
 
 namespace {
 
-constexpr std::size_t kMostProblems = 200;  // more help nobody
-constexpr std::size_t kMostBytes = 500;  // of one: what a user wrote is clipped where it is put in, this is for what was missed
+constexpr std::size_t kMostProblems = 200;  // largest number printed
+constexpr std::size_t kMostBytes =
+    500;  // largest length of one; a user's texts are clipped where they are inserted, this limit is for any that are not
 
 /// Number of bytes of the control character that begins at `i`, in UTF-8: ASCII, the second set, or a bidirectional mark, which
 /// shows a text in another order than its bytes; else 0.
@@ -33,7 +34,7 @@ std::size_t control_at(std::string_view text, std::size_t i) noexcept {
   return marks || isolates ? 3 : 0;
 }
 
-/// Gives `put` the text piece by piece, each control character but `kept` as \xHH.
+/// Passes the text to `put` piece by piece, each control character except `kept` as \xHH.
 template <class Put>
 void escape(std::string_view text, char kept, const Put& put) {
   constexpr std::string_view kHex = "0123456789abcdef";
@@ -54,7 +55,7 @@ std::string escaped_but(char kept, const std::string& text) {
   return out;
 }
 
-/// Between two characters.
+/// Clips a text, between two characters.
 std::string cut(const std::string& text) {
   if (text.size() <= kMostBytes) return text;
   std::size_t end = kMostBytes;
@@ -79,8 +80,8 @@ std::string report(const std::vector<Problem>& problems) {
   return text;
 }
 
-// Levenshtein distance; a swap of neighbours, the commonest typing error, counts one. Not below `enough` it may be any number
-// from there on: a name that is no nearer than another need not be read to its end.
+// Levenshtein distance; a swap of neighbours, the commonest typing error, counts one. For a distance of `enough` or more the
+// result is any number from `enough` on: a name that is not nearer than another need not be read to its end.
 std::size_t distance(const std::string& a, const std::string& b, std::size_t enough) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
@@ -130,12 +131,12 @@ InputError::InputError(SourceLocation place, std::string text)
     : InputError(std::vector<Problem>{{std::move(place), std::move(text), {}}}) {}
 
 std::string nearest(const std::string& found, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongest = 200;  // what is longer is near to no name, and its distances would take seconds
+  constexpr std::size_t kLongest = 200;  // longer texts are not near any name, and their distances would take seconds
   if (found.size() > kLongest) return {};
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, found.size() / 3) + 1;
   for (const std::string& name : known) {
-    // Each letter more or less is a step of the distance.
+    // Each letter more or less adds one to the distance.
     if (std::max(name.size(), found.size()) - std::min(name.size(), found.size()) >= best_distance) continue;
     const std::size_t d = distance(found, name, best_distance);
     if (d < best_distance) {
@@ -144,7 +145,7 @@ std::string nearest(const std::string& found, const std::vector<std::string>& kn
     }
   }
   if (!best.empty() || found.size() < 3) return best;
-  // An abbreviation is not a typing error: the one name that begins with it.
+  // An abbreviation: the only name that begins with it.
   for (const std::string& name : known) {
     if (!name.starts_with(found)) continue;
     if (!best.empty()) return {};

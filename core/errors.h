@@ -1,4 +1,4 @@
-// What goes wrong, with its address: bad input (exit code 2) and a failed run (exit code 1).
+// Errors, each with its location: bad input (exit code 2) and a failed run (exit code 1).
 #pragma once
 #include <cstddef>
 #include <stdexcept>
@@ -9,7 +9,7 @@
 
 namespace gaitlab {
 
-/// A position in a text the user wrote; line and column count from 1, 0 means "the whole file".
+/// A position in a text that the user wrote; line and column count from 1, 0 means "the whole file".
 struct SourceLocation {
   std::string file = {};
   int line = 0;
@@ -17,10 +17,10 @@ struct SourceLocation {
   bool operator==(const SourceLocation&) const = default;
 };
 
-/// `FILE:LINE:COL` (`FILE` alone where there is no line).
+/// `FILE:LINE:COL`, or `FILE` alone without a line.
 std::string to_string(const SourceLocation& place);
 
-/// One finding: where, what was found and expected, and notes that point elsewhere or offer a remedy.
+/// One finding: its place, the value found and the value expected, and notes with other places or a remedy.
 struct Problem {
   SourceLocation place;
   std::string text;
@@ -36,7 +36,7 @@ class Problems {
   [[nodiscard]] bool empty() const { return list_.empty(); }
   [[nodiscard]] std::size_t size() const { return list_.size(); }
   [[nodiscard]] const std::vector<Problem>& list() const { return list_; }
-  /// Throws InputError with everything found so far; does nothing if there is nothing.
+  /// Throws InputError with all findings so far; does nothing without findings.
   void raise() const;
 
  private:
@@ -46,15 +46,15 @@ class Problems {
 /// A name in one line, its control characters as \x1b.
 std::string one_line(const std::string& name);
 
-/// Prints a text on stderr, by its length and without allocating: control characters (NUL, too, but no end of a line) as \x1b,
-/// because names of files and texts of strangers stand in messages. Every message of the program goes through here. Where
-/// stderr takes nothing, nobody is left to be told.
+/// Prints a text on stderr, by its length and without allocating. Control characters (also NUL, but not newlines) are printed
+/// as \x1b, because messages contain names of files and texts from unknown sources. Every message of the program is printed
+/// here. If stderr cannot be written, the message is lost.
 void say(std::string_view text) noexcept;
-/// `NAME: KIND: TEXT` in a line; KIND is error, warning or note.
+/// `NAME: KIND: TEXT` on a line; KIND is error, warning or note.
 void say(const std::string& name, const char* kind, const std::string& text);
 
-/// Bad input: exit code 2; what() is the whole text for stderr, one `FILE:LINE:COL: error: TEXT` per finding: at most 200, each
-/// of at most 500 bytes behind its place, and how many more there are; without control characters.
+/// Bad input: exit code 2. what() is the whole text for stderr, one `FILE:LINE:COL: error: TEXT` per finding: at most 200, each
+/// of at most 500 bytes behind its place, and the number of further ones; without control characters.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Problem> problems);

@@ -26,14 +26,14 @@ concept NamedEnum = requires {
   EnumNames<Enum>::kTable;
 };
 
-/// Whether an enum has the value. Compilers show one that it has by its name, all others as a cast: `(gaitlab::Word)4`.
+/// True if an enum has the value. The compiler prints a value of the enum by its name, any other as a cast: `(gaitlab::Word)4`.
 template <auto kValue>
 constexpr bool is_enumerator() {
   constexpr std::string_view kShown = __PRETTY_FUNCTION__;  // `... kValue = gaitlab::Word::feasible]`
   return kShown[kShown.find_last_not_of("0123456789", kShown.size() - 2)] != ')';
 }
 
-/// Whether the table has every value of the enum, in their order.
+/// True if the table has every value of the enum, in the enum's order.
 template <NamedEnum Enum>
 constexpr bool all_named() {
   constexpr std::size_t kSize = std::size(EnumNames<Enum>::kTable);
@@ -60,7 +60,7 @@ constexpr const char* name_of(Enum value) {
   return enum_row(value).text;
 }
 
-/// The value of a name; none: there is no such name.
+/// The value with a name; none: unknown name.
 template <NamedEnum Enum>
 constexpr std::optional<Enum> named(std::string_view text) {
   for (const auto& row : enum_table<Enum>()) {

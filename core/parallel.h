@@ -13,7 +13,7 @@
 
 namespace gaitlab {
 
-/// Once a process: fewer threads than asked for give the same, only later.
+/// Prints once per process that fewer threads run than requested, with the same results.
 inline void say_no_room(std::size_t started, std::size_t wanted, const std::error_code& why) {
   static std::atomic<bool> said = false;
   if (said.exchange(true)) return;
@@ -23,9 +23,9 @@ inline void say_no_room(std::size_t started, std::size_t wanted, const std::erro
           "; -j asks for fewer, and limits of memory or processes (ulimit -v, ulimit -u, a container's) leave room for more");
 }
 
-/// Calls work(i) for every i < count, up to `jobs` at once, each i once. Every piece writes only what is its own, so that the
-/// result does not depend on `jobs`; where there is no room for so many threads, fewer do it. All are done before the first
-/// exception, in the order of i, is thrown.
+/// Calls work(i) once for every i < count, up to `jobs` at once. Each call writes to separate data, so that the result does not
+/// depend on `jobs`; if the system refuses threads, fewer are used. All calls have returned before the first exception, in the
+/// order of i, is thrown.
 template <class Work>
 void parallel(std::size_t count, int jobs, Work&& work) {
   std::vector<std::exception_ptr> errors(count);

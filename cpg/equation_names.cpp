@@ -11,7 +11,7 @@ namespace {
 using Kind = EquationNames::Kind;
 using Where = EquationNames::Where;
 
-/// Hinges between the joint's and the base.
+/// Number of hinges between the joint and the base.
 double depth(const RobotInfo& robot, std::size_t joint) {
   double count = 0;
   for (std::int64_t p = robot.joints[joint].parent; p >= 0; p = robot.joints[static_cast<std::size_t>(p)].parent) ++count;
@@ -59,7 +59,7 @@ const char* text_of(Where where) {
 }  // namespace
 
 std::string offer_name(const std::string& found, const std::vector<std::string>& known, const std::string& kind) {
-  // To one letter every other is near; a name far too long is near to none, and its edit distance costs time.
+  // Every single letter is near to one letter; a very long name is near to none, and its edit distance takes time.
   const std::string near = found.size() < 2 || found.size() > 200 ? std::string() : nearest(found, known);
   if (!near.empty()) return "; did you mean '" + near + "'?";
   std::string all;
@@ -83,7 +83,7 @@ std::string EquationNames::declare(const std::string& name, Kind kind, std::size
   if (taken != nullptr && (taken->kind == Kind::parameter || taken->kind == Kind::state)) {
     return in_quotes(name) + " is a parameter and a state; give one of them another name";
   }
-  if (word || taken != nullptr) return in_quotes(name) + " has a meaning of its own in equations; take another name";
+  if (word || taken != nullptr) return in_quotes(name) + " has a fixed meaning in equations; choose another name";
   entries_.push_back({name, kind, slot});
   return {};
 }
@@ -134,7 +134,7 @@ void EquationNames::check_name(const Term& term, const SourceLocation& place, st
   if (!may_name(*entry, place)) {
     if (entry->kind == Kind::parameter) return wrong(name + " stands below; a parameter may name those above it");
     const bool measured = entry->kind != Kind::state && entry->kind != Kind::time;
-    return wrong(name + " may not stand in " + text_of(place.where) + "; only in a derivative" +
+    return wrong(name + " may not be used in " + text_of(place.where) + "; only in a derivative" +
                  (measured ? "" : " or the output"));
   }
   if (pair != (term.index == Term::Index::ij)) {

@@ -1,4 +1,4 @@
-// What the texts of `equations` may name, and where.
+// Names that each text of `equations` may use.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,10 +12,10 @@ namespace gaitlab::cpg {
 using expression::Function;
 using expression::Term;
 
-/// How a message on an unknown name ends: the nearest name, or all.
+/// End of a message on an unknown name: the nearest name, or all.
 std::string offer_name(const std::string& found, const std::vector<std::string>& known, const std::string& kind);
 
-/// Values per joint that are there without being declared: the common keys and the joint's place in the robot's tree.
+/// Predeclared values per joint: the common keys and the joint's place in the robot's tree.
 struct GivenValue {
   const char* name;
   double (*value)(const RobotInfo&, const OscillatorKeys&, const std::vector<double>& phases, std::size_t joint);
@@ -24,21 +24,21 @@ std::span<const GivenValue> given_values();
 
 class EquationNames {
  public:
-  /// What a text belongs to. parameter: it may name those declared above it.
+  /// Kind of a text. parameter: it may contain parameters declared above it.
   enum class Where { parameter, initial, derivative, output };
   enum class Kind { pi, time, given, parameter, state, angle, speed, torque, touching, weight, lag };
   struct Entry {
     std::string name;
     Kind kind;
-    std::size_t slot = 0;  ///< given, parameter, state: number among its kind
+    std::size_t slot = 0;  ///< given, parameter, state: index among its kind
   };
 
   EquationNames();
-  /// What is wrong with a new name (its offset: npos), or nothing after declaring it.
+  /// Declares a name; returns the error of an invalid one (its offset: npos), or nothing.
   [[nodiscard]] std::string declare(const std::string& name, Kind kind, std::size_t slot);
 
   [[nodiscard]] const Entry* find(const std::string& name) const;
-  /// Adds what is wrong with a tree that belongs to `where`. `slot`: of the parameter itself.
+  /// Adds the faults of a tree that belongs to `where`. `slot`: of the parameter itself.
   void check(const Term& term, Where where, std::size_t slot, std::vector<expression::Fault>& faults) const;
 
  private:

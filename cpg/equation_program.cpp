@@ -45,10 +45,10 @@ EquationProgram::Block EquationProgram::take_scratch() {
 void EquationProgram::give_back(const Block& block) {
   if (block.base != Base::scratch) return;
   const std::size_t number = block.offset / width_;
-  if (std::ranges::find(free_, number) == free_.end()) free_.push_back(number);  // x^2 has one operand twice
+  if (std::ranges::find(free_, number) == free_.end()) free_.push_back(number);  // both operands of x^2 are one number
 }
 
-/// Adds an instruction, or carries it out where all it needs is fixed.
+/// Adds an instruction, or evaluates it if its operands are constant.
 EquationProgram::Block EquationProgram::emit(Instruction instruction, Over over) {
   instruction.count = count(over);
   bool fixed = instruction.move != Move::time;
@@ -145,7 +145,7 @@ EquationProgram::Block EquationProgram::compile_call(const Term& term, Over over
 
 void EquationProgram::put_out(const Block& value, std::size_t text) {
   const Block out{Base::result, text * joints_};
-  if (value.base == Base::scratch) {  // what the last instruction made
+  if (value.base == Base::scratch) {  // the result of the last instruction
     instructions_.back().out = out;
   } else {
     Instruction copy{Move::copy};

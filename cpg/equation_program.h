@@ -7,15 +7,15 @@
 
 namespace gaitlab::cpg {
 
-/// What is known when a program is made; one value per joint unless said otherwise.
+/// Values known when a program is made; one per joint unless stated otherwise.
 struct EquationTables {
   std::size_t joints = 0;
   std::vector<std::vector<double>> given, parameters;  ///< by slot
   std::vector<Coupling> couplings;
-  std::vector<std::size_t> module;  ///< a joint's
+  std::vector<std::size_t> module;  ///< module of each joint
 };
 
-/// What is known when it runs. Spans that no text names may be empty.
+/// Inputs of a run. Spans that no text uses may be empty.
 struct EquationInputs {
   double t = 0;
   In state, angle, speed, torque;  ///< state: slot * joints + joint
@@ -23,8 +23,8 @@ struct EquationInputs {
 };
 
 /// Every instruction is a loop over all joints or, within a neighbour sum, over all couplings (then added up by their target).
-/// What depends on no input is computed once, when the program is made. One object serves one rollout: running it writes to
-/// scratch that it owns, and allocates nothing. Cost: about a nanosecond an instruction and joint, and its functions.
+/// Values that depend on no input are computed once, when the program is made. One object serves one rollout: run() writes to
+/// its scratch memory and does not allocate. Cost: about a nanosecond per instruction and joint, plus its functions.
 class EquationProgram {
  public:
   EquationProgram() = default;
@@ -69,7 +69,7 @@ class EquationProgram {
   std::vector<Instruction> instructions_;
   std::vector<double> fixed_;
   mutable std::vector<double> scratch_;
-  // Only while it is made:
+  // Used only during construction:
   const EquationNames* names_ = nullptr;
   const EquationTables* tables_ = nullptr;
   std::vector<std::size_t> free_;

@@ -55,7 +55,7 @@ namespace {
 using Kind = EquationNames::Kind;
 using Where = EquationNames::Where;
 
-/// A fault of the model as a user must see it: at a byte of the text under `key` (and `name`), npos: at the name itself.
+/// A fault of the model, with its place: at a byte of the text under `key` (and `name`), npos: at the name itself.
 struct Fault {
   const char* key;
   std::string name;
@@ -66,9 +66,9 @@ struct Fault {
 /// The texts as checked trees.
 struct Parsed {
   EquationNames names;
-  std::vector<Term> parameters;  ///< of one given as numbers: 0
+  std::vector<Term> parameters;  ///< 0 for a parameter given as numbers
   std::vector<Term> states;
-  std::vector<Term> initial;  ///< one a state
+  std::vector<Term> initial;  ///< one per state
   Term output;
   std::vector<Fault> faults;
 
@@ -106,7 +106,7 @@ struct Parsed {
     }
   }
 
-  /// An empty text is one whose fault is known already; 0 stands in for it.
+  /// Tree of a text. An empty text has a reported fault already; its tree is 0.
   Term tree(const char* key, const std::string& name, const std::string& text, Where where, std::size_t slot) {
     if (text.empty()) return {};
     std::vector<expression::Fault> wrong;

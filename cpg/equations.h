@@ -5,7 +5,8 @@
 
 namespace gaitlab::cpg {
 
-/// Texts by the grammar of core/expression/expression.h. The defaults are the model of `phase_oscillator`.
+/// Settings of the model: texts by the grammar of core/expression/expression.h. The defaults are the model of
+/// `phase_oscillator`.
 struct EquationsModel {
   double coupling = 1;
   std::vector<Named> states{{"phi", "omega + sum(j in neighbours, w[i,j]*sin(phi[j] - phi[i] - psi[i,j]))"},
@@ -23,9 +24,9 @@ class Equations final : public Cpg {
   static const char* const kManual;
   static constexpr std::size_t kMostStates = 32, kMostParameters = 64;
 
-  /// Throws std::invalid_argument where a text is wrong, or a parameter or initial value is not finite for this robot.
+  /// Throws std::invalid_argument if a text has a fault, or a parameter or initial value is not finite for this robot.
   Equations(const RobotInfo& robot, const Settings& settings);
-  /// One block a state, in their order.
+  /// One block per state, in their order.
   [[nodiscard]] std::size_t states() const override { return states_.size() * joints_; }
   [[nodiscard]] std::string state_name(std::size_t index) const override;
   void start(Out state) const override;

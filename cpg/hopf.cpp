@@ -1,12 +1,14 @@
 #include "cpg/hopf.h"
 
 #include "core/math/functions.h"
+#include "core/math/runge_kutta.h"
 
 namespace gaitlab::cpg {
 namespace {
 
-constexpr double kFirstRadius = 0.01;      // the set points grow from almost nothing
-constexpr std::size_t kTableSteps = 4096;  // many within the change from swing to stance at the largest sharpness, 0.01 rad
+constexpr double kFirstRadius = 0.01;  // the set points grow from nearly zero
+constexpr std::size_t kTableSteps =
+    4096;  // several within the transition from swing to stance at the largest sharpness, 0.01 rad
 
 double sigmoid(double x) { return 1 / (1 + math::exp(-x)); }
 
@@ -38,21 +40,19 @@ void HopfModel::fields(Fields& f) {
 }
 
 Hopf::Hopf(const RobotInfo& robot, const Settings& settings) : OscillatorCpg(robot, settings, kBlocks) {
-  if (s_.model.duty_factor == 0.5) return;  // the pace is even
-  // The period in units of 1 / f is the mean of 1 / pace; the rule of even steps has no better for a smooth periodic function.
+  if (s_.model.duty_factor == 0.5) return;  // the pace is constant
+  // The period in units of 1 / f is the mean of 1 / pace; equal steps are optimal for a smooth periodic function.
   double sum = 0;
   for (std::size_t k = 0; k < kTableSteps; ++k) sum += 1 / pace(-math::cos(kTurn * static_cast<double>(k) / kTableSteps));
   scale_ = sum / kTableSteps;
   // d(angle)/d(phase) = pace, by RK4.
   std::vector<double> angles(kTableSteps + 1, 0.0);
   const double h = kTurn / kTableSteps;
+  math::RungeKutta method(1);
+  const auto slope = [this](double, In at, Out out) { out[0] = pace(-math::cos(at[0])); };
   for (std::size_t k = 0; k < kTableSteps; ++k) {
-    const auto slope = [&](double at) { return pace(-math::cos(at)); };
-    const double at = angles[k];
-    const double k1 = slope(at);
-    const double k2 = slope(at + h / 2 * k1);
-    const double k3 = slope(at + h / 2 * k2);
-    angles[k + 1] = at + h / 6 * (k1 + 2 * k2 + 2 * k3 + slope(at + h * k3));
+    angles[k + 1] = angles[k];
+    method.step(Out(angles).subspan(k + 1, 1), h, slope, math::RungeKutta::in_order);
   }
   angles.back() = kTurn;
   angle_ = PhaseTable(std::move(angles));

@@ -14,7 +14,7 @@ struct HopfModel {
 class Hopf final : public OscillatorCpg<HopfModel> {
  public:
   static const char* const kManual;
-  static constexpr const char* kBlocks[] = {"x", "y"};  ///< of its states
+  static constexpr const char* kBlocks[] = {"x", "y"};  ///< of the states
 
   Hopf(const RobotInfo& robot, const Settings& settings);
   void start(Out state) const override;
@@ -25,7 +25,7 @@ class Hopf final : public OscillatorCpg<HopfModel> {
   [[nodiscard]] double pace(double y) const;
 
  private:
-  double scale_ = 1;  ///< so that the mean frequency is f
+  double scale_ = 1;  ///< for a mean frequency of f
   PhaseTable angle_;  ///< angle on the circle at a phase, and back
 };
 

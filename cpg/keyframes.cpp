@@ -30,7 +30,7 @@ Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, chapter IV.
 
 namespace {
 
-// What is wrong with the times, or "".
+// Error in the times, or "".
 std::string wrong_times(const std::vector<Keyframes::Frame>& frames) {
   if (frames.size() < 2) return "at least two frames are needed; found " + std::to_string(frames.size());
   if (frames[0].time != 0) return "the first frame's time must be 0";
@@ -120,16 +120,16 @@ std::vector<double> clamped_spline(const std::vector<double>& t, const std::vect
 
 void Keyframes::Frame::fields(Fields& f) {
   f.number("time", time, {"s", 0, 1e6, "When; the first frame's is 0."});
-  f.per_joint("angles", angles, {"rad", -1000, 1000, "Set points at that time; within +-3.2 where the hinge has a range."});
+  f.per_joint("angles", angles, {"rad", -1000, 1000, "Set points at that time; within +-3.2 for a hinge with a range."});
 }
 
 void Keyframes::Model::fields(Fields& f) {
   static constexpr const char* kInterpolations[] = {"spline", "linear"};
   f.list("frames", frames, "At least two, by rising time; default: two that hold every joint at its default.");
   if (const std::string wrong = wrong_times(frames); !wrong.empty()) f.problem("frames", wrong);
-  f.choice("interpolation", interpolation, kInterpolations, "How one frame goes over into the next.");
+  f.choice("interpolation", interpolation, kInterpolations, "Interpolation between frames.");
   f.flag("repeat", repeat, "Start again after the last frame, which must equal the first; else it is held.");
-  f.number("ramp", ramp, {"s", 0, 1e6, "Time over which all angles grow linearly from 0."});
+  f.number("ramp", ramp, {"s", 0, 1e6, "Duration of the start, in which all angles grow linearly from 0."});
 }
 
 void Keyframes::Settings::fields(Fields& f) { f.group("model", model, "Keys of this gait alone."); }
@@ -152,7 +152,7 @@ Keyframes::Keyframes(const RobotInfo& robot, const Settings& settings)
 }
 
 void Keyframes::check_closed(const RobotInfo& robot) {
-  constexpr double kSame = 1e-9;  // rad: what a program rounded when it wrote the frames
+  constexpr double kSame = 1e-9;  // rad: rounding of a program that wrote the frames
   const std::size_t last = angle_.size() - joints_;
   for (std::size_t j = 0; j < joints_; ++j) {
     if (!(std::abs(angle_[last + j] - angle_[j]) <= kSame)) {

@@ -13,7 +13,7 @@ struct KuramotoAmplitudeModel {
 class KuramotoAmplitude final : public OscillatorCpg<KuramotoAmplitudeModel> {
  public:
   static const char* const kManual;
-  static constexpr const char* kBlocks[] = {"phi", "r", "dr", "x", "dx"};  ///< of its states
+  static constexpr const char* kBlocks[] = {"phi", "r", "dr", "x", "dx"};  ///< of the states
 
   KuramotoAmplitude(const RobotInfo& robot, const Settings& settings);
   void start(Out state) const override;

@@ -1,6 +1,7 @@
 #include "cpg/limit_cycle.h"
 
 #include "core/math/functions.h"
+#include "core/math/runge_kutta.h"
 
 namespace gaitlab::cpg {
 namespace {
@@ -9,30 +10,31 @@ constexpr std::size_t kPhases = 2048;  // of the table: linear between them, 1e-
 
 using State = std::array<double, Oscillator::kMost>;
 
-State rk4(const Oscillator& oscillator, const State& x, double h) {
-  const std::size_t n = oscillator.states();
-  State k1{}, k2{}, k3{}, k4{}, at{}, next{};
-  const auto moved = [&](const State& k, double by) {
-    for (std::size_t i = 0; i < n; ++i) at[i] = x[i] + by * k[i];
-    return In(at.data(), n);
-  };
-  oscillator.derivative({x.data(), n}, {k1.data(), n});
-  oscillator.derivative(moved(k1, h / 2), {k2.data(), n});
-  oscillator.derivative(moved(k2, h / 2), {k3.data(), n});
-  oscillator.derivative(moved(k3, h), {k4.data(), n});
-  for (std::size_t i = 0; i < n; ++i) next[i] = x[i] + h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
-  return next;
-}
+/// Steps of an oscillator by the classical Runge-Kutta method.
+class Steps {
+ public:
+  explicit Steps(const Oscillator& oscillator) : oscillator_(oscillator), method_(oscillator.states()) {}
+  State operator()(const State& x, double h) {
+    State next = x;
+    const auto slope = [this](double, In at, Out out) { oscillator_.derivative(at, out); };
+    method_.step(Out(next.data(), oscillator_.states()), h, slope, math::RungeKutta::in_order);
+    return next;
+  }
+
+ private:
+  const Oscillator& oscillator_;
+  math::RungeKutta method_;
+};
 
 double sine(const Oscillator& oscillator, const State& x) { return oscillator.point({x.data(), oscillator.states()}).sine; }
 
 /// Time from x, within one step, at which the sine is 0.
-double crossing(const Oscillator& oscillator, const State& x, double h) {
+double crossing(const Oscillator& oscillator, Steps& step, const State& x, double h) {
   double lo = 0;
   double hi = h;
   while (hi - lo > 1e-14) {
     const double middle = (lo + hi) / 2;
-    (sine(oscillator, rk4(oscillator, x, middle)) < 0 ? lo : hi) = middle;
+    (sine(oscillator, step(x, middle)) < 0 ? lo : hi) = middle;
   }
   return hi;
 }
@@ -48,18 +50,19 @@ Turn settled_turn(const Oscillator& oscillator) {
   const std::size_t n = oscillator.states();
   const double h = oscillator.step();
   Turn turn;
+  Steps step(oscillator);
   State x{};
   oscillator.start({x.data(), n});
   double since = 0;  // the last crossing
   for (std::size_t k = 0; k < kMostSteps; ++k) {
-    const State next = rk4(oscillator, x, h);
+    const State next = step(x, h);
     if (!(sine(oscillator, x) < 0 && sine(oscillator, next) >= 0)) {
       x = next;
       since += h;
       continue;
     }
-    const double part = crossing(oscillator, x, h);
-    x = rk4(oscillator, x, part);
+    const double part = crossing(oscillator, step, x, h);
+    x = step(x, part);
     turn.period = since + part;
     since = 0;
     double change = 0;
@@ -71,7 +74,7 @@ Turn settled_turn(const Oscillator& oscillator) {
     turn.start = x;
     if (change < kSame && size > 1e-3) return turn;
   }
-  throw std::invalid_argument("the oscillator does not come to a limit cycle");
+  throw std::invalid_argument("the oscillator does not reach a limit cycle");
 }
 
 }  // namespace
@@ -83,6 +86,7 @@ LimitCycle::LimitCycle(const Oscillator& oscillator) {
   const double h = period / kPhases;
   const auto parts = static_cast<std::size_t>(std::ceil(h / oscillator.step()));
   State x = turn.start;
+  Steps step(oscillator);
   std::vector<double> angles;
   for (std::size_t k = 0; k <= kPhases; ++k) {
     const In now(x.data(), n);
@@ -91,7 +95,7 @@ LimitCycle::LimitCycle(const Oscillator& oscillator) {
     const auto [sine, cosine] = oscillator.point(now);
     const double before = angles.empty() ? 0 : angles.back();
     angles.push_back(before + std::remainder(math::atan2(sine, cosine) - before, kTurn));
-    for (std::size_t i = 0; i < parts; ++i) x = rk4(oscillator, x, h / static_cast<double>(parts));
+    for (std::size_t i = 0; i < parts; ++i) x = step(x, h / static_cast<double>(parts));
   }
   angles.front() = 0;
   angles.back() = kTurn;
@@ -140,7 +144,7 @@ void CycleNetwork::start(Out state) const {
 
 void CycleNetwork::derivative(const Measured&, In state, Out rate) const {
   const std::size_t n = oscillator_->states();
-  // `rate` keeps the phases in its first block and the paces in its last until both are used.
+  // Until both have been read, the first block of `rate` contains the phases and the last one the paces.
   const Out phase = rate.subspan(0, joints_);
   const Out pace = rate.subspan(n * joints_, joints_);
   for (std::size_t i = 0; i < joints_; ++i) {
@@ -158,7 +162,7 @@ void CycleNetwork::derivative(const Measured&, In state, Out rate) const {
     const Local x = local(state, i);
     Local dx{};
     oscillator_->derivative({x.data(), n}, {dx.data(), n});
-    // Backwards in time the limit cycle is not stable.
+    // The limit cycle is unstable backwards in time.
     const double forward = std::max(0.0, pace[i]) * cycle_.period / kTurn;
     for (std::size_t k = 0; k < n; ++k) rate[k * joints_ + i] = forward * dx[k];
     rate[n * joints_ + i] = model_.amplitude_rate * (keys_.amplitude[i] - state[n * joints_ + i]);

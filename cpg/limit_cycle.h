@@ -10,7 +10,7 @@
 
 namespace gaitlab::cpg {
 
-/// An autonomous oscillator in its own unit of time, whose orbit turns about a centre in a plane.
+/// An autonomous oscillator in its unit of time, whose orbit turns about a centre in a plane.
 class Oscillator {
  public:
   static constexpr std::size_t kMost = 4;  ///< states
@@ -18,7 +18,7 @@ class Oscillator {
   virtual ~Oscillator() = default;
   [[nodiscard]] virtual std::size_t states() const = 0;
   [[nodiscard]] virtual const char* state_name(std::size_t index) const = 0;
-  virtual void start(Out x) const = 0;  ///< a state from which it comes to its limit cycle
+  virtual void start(Out x) const = 0;  ///< a state that converges to the limit cycle
   virtual void derivative(In x, Out rate) const = 0;
   [[nodiscard]] virtual double output(In x) const = 0;
   struct Point {
@@ -27,7 +27,7 @@ class Oscillator {
   /// The point in the plane; its angle atan2(sine, cosine) rises along the orbit and is 0 where the output rises through its
   /// mean.
   [[nodiscard]] virtual Point point(In x) const = 0;
-  [[nodiscard]] virtual double step() const = 0;  ///< of RK4 by which the limit cycle is found
+  [[nodiscard]] virtual double step() const = 0;  ///< step of RK4 in the search for the limit cycle
 };
 
 struct LimitCycle {
@@ -36,8 +36,8 @@ struct LimitCycle {
   PhaseTable angle;
   std::vector<double> orbit;  ///< states at even phases from 0 to 2 pi; phase * states + state
 
-  /// Integrates from Oscillator::start until one turn ends as it began, to 1e-11. Throws std::invalid_argument where it does
-  /// not.
+  /// Integrates from Oscillator::start until one turn ends at its beginning, to 1e-11. Throws std::invalid_argument if it never
+  /// does.
   explicit LimitCycle(const Oscillator& oscillator);
 };
 

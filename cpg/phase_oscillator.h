@@ -14,7 +14,7 @@ struct PhaseOscillatorModel {
 class PhaseOscillator final : public OscillatorCpg<PhaseOscillatorModel> {
  public:
   static const char* const kManual;
-  static constexpr const char* kBlocks[] = {"phi", "r", "x"};  ///< of its states
+  static constexpr const char* kBlocks[] = {"phi", "r", "x"};  ///< of the states
 
   PhaseOscillator(const RobotInfo& robot, const Settings& settings);
   void start(Out state) const override;

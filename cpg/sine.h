@@ -13,7 +13,8 @@ class Sine final : public Cpg {
   struct Model {
     double ramp = 0;
     void fields(Fields& f) {
-      f.number("ramp", ramp, {"s", 0, 1e6, "Time over which all angles, offsets included, grow linearly from 0."});
+      f.number("ramp", ramp,
+               {"s", 0, 1e6, "Duration of the start, in which all angles, offsets included, grow linearly from 0."});
     }
   };
   using Settings = OscillatorSettings<Model>;

@@ -128,7 +128,7 @@ class TableText {
 
   const RobotInfo& robot_;
   bool headed_ = false;
-  std::vector<std::size_t> columns_;  ///< joints
+  std::vector<std::size_t> columns_;  ///< of the joints
   std::vector<Keyframes::Frame> frames_;
 };
 
@@ -146,9 +146,9 @@ Keyframes::Settings keyframes_of(const RobotInfo& robot, const Table::Model& mod
 void Table::Model::fields(Fields& f) {
   static constexpr const char* kInterpolations[] = {"spline", "linear"};
   f.file("file", file, "The CSV: time and joints.");
-  f.choice("interpolation", interpolation, kInterpolations, "How one row goes over into the next.");
+  f.choice("interpolation", interpolation, kInterpolations, "Interpolation between rows.");
   f.flag("repeat", repeat, "Start again after the last row, which must equal the first; else it is held.");
-  f.number("ramp", ramp, {"s", 0, 1e6, "Time over which all angles grow linearly from 0."});
+  f.number("ramp", ramp, {"s", 0, 1e6, "Duration of the start, in which all angles grow linearly from 0."});
 }
 
 Table::Table(const RobotInfo& robot, const Settings& settings) : frames_(robot, keyframes_of(robot, settings.model)) {}

@@ -9,7 +9,7 @@ namespace gaitlab::cpg {
 
 namespace {
 constexpr double kFade = 0.2;       // of the swing
-constexpr double kSteepest = 0.65;  // rad: towards pi / 4 the sole stands on its corner and depth hardly grows with the tilt
+constexpr double kSteepest = 0.65;  // rad: towards pi / 4 the sole stands on its edge, and depth hardly grows with the tilt
 }  // namespace
 
 const char* const Tripod::kManual =
@@ -36,7 +36,7 @@ Source: Chariot, Filippi, Verlinden 2012, section IV-B and figure 11; angles and
     cpg: {type: tripod, frequency: 0.5, amplitude: 0.4})";
 
 void Tripod::Settings::fields(Fields& f) {
-  f.number("frequency", frequency, {"Hz", 0, 20, "Of the whole cycle, stance and swing."});
+  f.number("frequency", frequency, {"Hz", 0, 20, "Frequency of the whole cycle, stance and swing."});
   f.number("amplitude", amplitude, {"rad", 0, 1.5, "A: a leg swings from -A to +A."});
   f.group("model", model, "Keys of this gait alone.");
 }
@@ -46,7 +46,7 @@ void Tripod::Model::fields(Fields& f) {
   f.number("tilt", tilt, {"rad", 0, kSteepest, "d: tilt of the standing feet in mid-stance, which lifts the body."});
   f.number("duty_factor", duty_factor, {"", 0.5, 0.95, "Share of the period that a foot stands."});
   f.choice("order", order, kOrders, "Which legs swing together.");
-  f.number("ramp", ramp, {"s", 0, 100, "Time over which amplitude and tilt grow from 0."});
+  f.number("ramp", ramp, {"s", 0, 100, "Duration of the start, in which amplitude and tilt grow from 0."});
   f.flag("reverse", reverse, "Run the gait backwards in time.");
 }
 
@@ -58,7 +58,7 @@ Tripod::Tripod(const RobotInfo& robot, const Settings& settings) : joints_(robot
                                 std::to_string(legs.size() - left) +
                                 " on the right (a leg is a chain docked sideways, with two hinges about y and feet below)");
   }
-  std::size_t rank[2] = {0, 0};  // from the front, right and left
+  std::size_t rank[2] = {0, 0};  // number from the front, right and left
   for (const Leg& leg : legs) {
     const std::size_t at = rank[leg.left ? 1 : 0]++;
     const bool other = (at + (leg.left ? 1 : 0)) % 2 == 1;
@@ -77,14 +77,14 @@ Tripod::Motion Tripod::motion(const Step& step, double cycles, double amplitude)
   return {false, s, -amplitude * math::cos(std::numbers::pi * s)};
 }
 
-/// The tilt of the foot whose lowest point is `height` below its ankle: z cos(tilt) + x sin(tilt) = height.
+/// Tilt of the foot at which its lowest point is `height` below its ankle: z cos(tilt) + x sin(tilt) = height.
 double Tripod::tilt_to_reach(const Leg& leg, double height) {
   const double longest = std::sqrt(leg.sole_depth * leg.sole_depth + leg.sole_reach * leg.sole_reach);
   const double flat = math::atan2(leg.sole_depth, leg.sole_reach);
   return std::clamp(math::asin(std::min(1.0, height / longest)) - flat, 0.0, kSteepest);
 }
 
-/// D of the manual without the part of the foot that is the leg's own: the depth that flat, unlifted feet would reach, and the
+/// D of the manual without the foot's part, which differs between legs: the depth that flat, unlifted feet would reach, and the
 /// lift.
 Tripod::Depth Tripod::depth(double cycles, double grown) const {
   Depth d;
@@ -115,7 +115,7 @@ void Tripod::output(double t, In, Out setpoint) const {
     if (m.stands) {
       tilted = tilt(step.leg, now, m.forward);
     } else if (m.progress < kFade) {
-      // As it was at the end of the stance, fading: an ankle cannot jump.
+      // Fades from its value at the end of the stance, because an ankle cannot jump.
       const Depth then = depth(cycles - m.progress * swing, grown);
       tilted = (1 - m.progress / kFade) * tilt(step.leg, then, amplitude);
     } else if (m.progress > 1 - kFade) {

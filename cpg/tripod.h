@@ -27,10 +27,10 @@ class Tripod final : public Cpg {
   [[nodiscard]] std::string note() const override;
 
  private:
-  /// A leg and where it is in its cycle.
+  /// A leg with its place in the cycle.
   struct Step {
     Leg leg;
-    double phase = 0;  ///< share of the period by which it is ahead
+    double phase = 0;  ///< phase lead as a share of the period
   };
   struct Motion {
     bool stands = true;

@@ -45,7 +45,7 @@ Reference: B. van der Pol, On relaxation-oscillations, Philosophical Magazine 2 
     cpg: {type: van_der_pol, frequency: 0.25, amplitude: 0.6, phase_lag: 1.2, model: {mu: 1}})";
 
 void VanDerPolModel::fields(Fields& f) {
-  f.number("mu", mu, {"", 0.05, 5, "Nonlinearity: how far from a sine."});
+  f.number("mu", mu, {"", 0.05, 5, "Nonlinearity; 0 gives a sine."});
   CycleNetwork::Model::fields(f);
 }
 

@@ -17,8 +17,8 @@ namespace gaitlab::golden {
 
 namespace {
 
-constexpr double kMargin = 0.9;       // of the limit: the order that was seen is not that of all steps
-constexpr double kLeastOrder = 0.25;  // below, a finer step hardly helps
+constexpr double kMargin = 0.9;       // of the limit: the order measured at these steps may differ from the order at others
+constexpr double kLeastOrder = 0.25;  // below this a finer step hardly helps
 constexpr std::size_t kMostExplained = 3;
 
 double widest(const std::vector<Band>& bands, double Band::*part) {
@@ -36,14 +36,15 @@ double round_below(double limit) {
   return decade;
 }
 
-/// The widest band that half the step makes.
+/// Width of the widest band, caused by half the step.
 double halving_band(const GoldenRun& base, const GoldenRun& halved) {
   return widest(calibrate(base, {}, halved).columns, &Band::halving);
 }
 
 std::string setting_text(double setting) { return fmt::format("{:.12g}", setting); }
 
-/// `physics.step: 5e-05 (...)`, by the bands of the scenario's own setting and of a finer one: the setting that should pass.
+/// `physics.step: 5e-05 (...)`: the setting that should pass, computed from the bands at the scenario's setting and at a finer
+/// one.
 std::string finer_setting(const Scenario& scenario, double band, double finer_band) {
   const Physics& physics = scenario.physics;
   const bool adapts = physics.adapts();
@@ -62,7 +63,7 @@ std::string finer_setting(const Scenario& scenario, double band, double finer_ba
   return fmt::format("{}: {} ({}, so its order is {:.2g})", key, setting_text(nice), seen, order);
 }
 
-/// The same scenario in steps of order 2 as they are given; nothing where the engine cannot, or these are the scenario's.
+/// The same scenario with given steps and an integrator of order 2; nothing if the engine has none, or the scenario uses it.
 std::optional<Scenario> extrapolated(const Scenario& scenario) {
   const Integrator* other = scenario.physics.engine->integrator("extrapolated");
   if (other == nullptr || scenario.physics.integrator->order >= other->order) return {};
@@ -85,7 +86,7 @@ std::vector<std::size_t> wide(const Golden& golden) {
   return found;
 }
 
-/// Why the band is that wide, and the remedy.
+/// Reason for the band's width, and the remedy.
 std::string explanation(const Number& number, const Band& band, const Scenario& scenario) {
   if (band.ensemble > band.halving) {
     return fmt::format(
@@ -105,10 +106,10 @@ std::string explanation(const Number& number, const Band& band, const Scenario& 
                     *number.at_start);
 }
 
-/// The same of integrator `extrapolated`, by its band at `step`; "" where no step will do.
+/// The same for integrator `extrapolated`, from its band at `step`; "" if no step suffices.
 std::string extrapolated_setting(const Scenario& scenario, double step, double band) {
   const bool passes = band <= kWidestColumn;
-  // Its order is 2, but contacts that come and go leave less of it.
+  // Its order is 2, but intermittent contacts reduce it.
   const double smaller = passes ? step : usable_step(scenario, kMargin * kWidestColumn / band * step);
   if (smaller == 0) return "";
   return fmt::format("physics.integrator: extrapolated with physics.step: {} ({} the band is {})", setting_text(smaller),
@@ -135,7 +136,7 @@ std::string narrower_columns(const std::vector<Band>& columns, const Scenario& s
   if (runs.size() == 1 || runs[1].error || runs[2].error) return "take " + own;
   const std::string other = extrapolated_setting(scenario, scenarios[1].physics.step, halving_band(runs[1].run, runs[2].run));
   if (other.empty()) return "take " + own;
-  // Where steps are given, order 2 is the cheaper remedy.
+  // With given steps order 2 is the cheaper remedy.
   return "take " + (scenario.physics.adapts() ? own + ", or " + other : other + ", or " + own);
 }
 

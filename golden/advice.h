@@ -1,4 +1,4 @@
-// What narrows the bands of a golden that are too wide, and what those that stay wide let pass.
+// Advice on bands of a golden that are too wide: settings that narrow them, and changes that wide bands do not detect.
 #pragma once
 #include <functional>
 #include <string>
@@ -9,26 +9,25 @@
 
 namespace gaitlab::golden {
 
-/// Share: approve refuses a column whose band is wider, for a mutant that must be seen moves a torque by 0.4 %.
+/// Share: approve refuses a column with a wider band, because a mutant that has to be detected changes a torque by 0.4 %.
 inline constexpr double kWidestColumn = 0.002;
-/// Share: the band of a number is explained where it is wider.
+/// Share: a number with a wider band is explained.
 inline constexpr double kWideNumber = 0.05;
 
-/// What `halved` in calibrate divides the step by, or the accuracy where the integrator chooses its steps.
+/// Divisor of the step for `halved` in calibrate, or of the accuracy if the integrator chooses its steps.
 double finer_by(const Physics& physics);
 
-/// What brings the widest band of `columns` below kWidestColumn, in the words of a message: a finer step or accuracy, by the
-/// change from `halved` (the run that made the bands) to one that is finer still; integrator `extrapolated` where the
-/// engine has it; or a shorter run, where starts that differ by rounding part too far. Makes up to
-/// three runs.
+/// Setting that brings the widest band of `columns` below kWidestColumn, in the words of a message: a finer step or accuracy,
+/// from the difference of `halved` (the run for the bands) and a still finer one; integrator `extrapolated` if the engine has
+/// it; or a shorter run, if starts that differ by rounding diverge too far. Makes up to three runs.
 std::string narrower_columns(const std::vector<Band>& columns, const Scenario& scenario, const GoldenRun& halved, int jobs,
                              const std::function<void(double)>& progress = {});
 
-/// One line per number whose band is wider than kWideNumber, the widest first, of more than three the first three and how many
-/// more: what would pass unseen, why, and the remedy. "" where there is none.
+/// One line per number with a band wider than kWideNumber, the widest first (of more than three the first three, with the
+/// number of others): the change that would not be detected, the reason, and the remedy. "" if there is none.
 std::string wide_numbers(const Golden& golden, const Scenario& scenario);
 
-/// `m3/active torque peak 42.2 %, ...`: the same numbers by name alone; "" where there is none.
+/// `m3/active torque peak 42.2 %, ...`: the same numbers by name alone; "" if there is none.
 std::string wide_number_names(const Golden& golden);
 
 }  // namespace gaitlab::golden

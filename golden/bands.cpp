@@ -11,8 +11,8 @@ namespace gaitlab::golden {
 namespace {
 
 constexpr double kOfTheLargest = 1e-3;  // range, among columns of one unit
-constexpr double kOfTheUnit = 1e-6;     // um, urad, uN m, uA: below what the model means
-constexpr double kLeastOfRange = 1e-6;  // other compilers' rounding, grown over a run, stays below
+constexpr double kOfTheUnit = 1e-6;     // um, urad, uN m, uA: below any meaning in the model
+constexpr double kLeastOfRange = 1e-6;  // above the rounding of other compilers, grown over a run
 
 struct Extent {
   std::string unit;

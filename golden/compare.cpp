@@ -66,7 +66,7 @@ class Comparison {
     tell(missing(b_, a_), "this run");
   }
 
-  // Rows at other times are not compared: every column would fail and none would say why.
+  // Rows at other times are not compared: every column would fail without a usable reason.
   void match_rows() {
     const double golden = spacing(a_);
     const double now = spacing(b_);
@@ -99,7 +99,7 @@ class Comparison {
       now.push_back(b_.at(k, j));
       const double d = now[k] - golden[k];
       sum += d * d;
-      const double apart = (std::abs(d) - 0.5 * golden_.run.precision[i]) / scale;  // at least, whatever rounding took
+      const double apart = (std::abs(d) - 0.5 * golden_.run.precision[i]) / scale;  // a lower bound for any rounding
       check.maximum = std::max(check.maximum, apart);
       if (!check.outside && apart > kOutside * check.band) check.outside = a_.at(k, 0);
     }

@@ -1,4 +1,4 @@
-// Whether a run is still the golden one, and what strayed where.
+// Comparison of a run with its golden: columns and numbers outside their bands.
 #pragma once
 #include <optional>
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace gaitlab::golden {
 
-inline constexpr double kOutside = 3;  ///< bands; an error whose RMS is one band rarely exceeds three bands
+inline constexpr double kOutside = 3;  ///< bands; an error whose RMS is one band rarely exceeds it
 
-/// One column. `name` is that of the trace, `label` for people: `m7/passive torque`. Shares are of its scale (bands.h); what
-/// the golden's own rounding explains is taken off, so that the same run differs by 0 and one that differs by less than the
-/// precision is measured right.
+/// Comparison of one column. `name` is that of the trace, `label` is readable: `m7/passive torque`. Shares are of its scale
+/// (bands.h); the golden's rounding error is subtracted, so that the same run differs by 0 and a difference below the precision
+/// is measured correctly.
 struct ColumnCheck {
   std::string name, label, unit;
   double rms = 0, maximum = 0;         ///< share
   double band = 0;                     ///< share; the gate is rms <= band
   double scale = 0;                    ///< in the unit
-  double time_shift = 0;               ///< s; positive: the run is late (see best_shift); 0 where no shift explains it
-  double rms_after_shift = 0;          ///< share; rms where time_shift is 0
+  double time_shift = 0;               ///< s; positive: the run is late (see best_shift); 0 if no shift explains the difference
+  double rms_after_shift = 0;          ///< share; rms if time_shift is 0
   std::optional<double> outside = {};  ///< s; first time at which the difference exceeds kOutside bands
   [[nodiscard]] bool passed() const { return rms <= band; }  // false for NaN
   [[nodiscard]] double ratio() const { return band > 0 ? rms / band : rms; }
@@ -36,9 +36,10 @@ struct NumberCheck {
 };
 
 struct GoldenDifference {
-  /// What makes the run another, before any number: values that are not finite, rows, columns, time base; a sentence each.
+  /// Differences of form, found before any number is compared: values that are not finite, rows, columns, time base; a sentence
+  /// each.
   std::vector<std::string> findings;
-  std::vector<ColumnCheck> columns;  ///< those that both have and that are finite, in the golden's order
+  std::vector<ColumnCheck> columns;  ///< finite columns of both, in the golden's order
   std::vector<NumberCheck> numbers;
 
   [[nodiscard]] bool passed() const;
@@ -46,12 +47,12 @@ struct GoldenDifference {
   [[nodiscard]] const NumberCheck* worst_number() const;
 };
 
-/// Compares a run with the golden: form first, then every column over the rows that both have, then the numbers. The maximum,
-/// the shift and the first time outside are reported only: one contact that switches a step earlier moves a maximum by tens of
-/// percent.
-/// `other_engine`: the run is by another than the golden's. Columns are judged alike, for they depend on neither. The numbers
-/// are over all steps: a joint's largest torque is that of a control tick's first step, at whose start one method asks the
-/// motor and of which another takes the mean (10 % apart), and is left out; the others have bands of at least kOtherEngine.
+/// Compares a run with the golden: form first, then every column over the common rows, then the numbers. The maximum, the shift
+/// and the first time outside are reported only: one contact that switches a step earlier moves a maximum by tens of percent.
+/// `other_engine`: the run used another engine than the golden. Columns are judged in the same way, because they do not depend
+/// on it. Numbers are over all steps. Peak torques of joints are left out: they occur in the first step after a control tick,
+/// for which one method evaluates the motor at the start and another takes the mean (10 % apart). The other numbers have bands
+/// of at least kOtherEngine.
 GoldenDifference compare(const Golden& golden, const GoldenRun& run, bool other_engine = false);
 
 }  // namespace gaitlab::golden

@@ -21,10 +21,10 @@ constexpr std::string_view kName = "gaitlab-golden-";
 constexpr std::string_view kVersion = "1";
 constexpr std::string_view kSize = "bytes in all: ";
 constexpr std::string_view kHash = "; FNV-1a of what follows: ";
-constexpr double kSteps = 65534;              // of the grid; the largest whole number
+constexpr double kSteps = 65534;              // of the grid; the largest integer
 constexpr double kEven = 1e-6;                // of the spacing; rounding of k h is some 1e-16 of t
-constexpr std::size_t kMostInflation = 1032;  // times its size is the most that deflate makes of a byte
-constexpr std::size_t kSizeDigits = 20;       // of a size in the header, padded, so that the header has one length
+constexpr std::size_t kMostInflation = 1032;  // largest factor by which deflate expands
+constexpr std::size_t kSizeDigits = 20;       // digits of a size in the header, padded for a header of fixed length
 
 std::string header(std::size_t body_size, std::string_view body) {
   const auto text = [&](std::size_t size) {
@@ -46,7 +46,7 @@ void put(std::string& bytes, const std::string& text) {
   bytes += text;
 }
 
-/// What the bytes cannot mean.
+/// Error for bytes without a valid meaning.
 struct Damage : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -130,7 +130,7 @@ std::string deflated(const std::string& raw) {
   std::string packed(size, '\0');
   const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(raw.data()),
                              raw.size(), Z_BEST_COMPRESSION);
-  if (code != Z_OK) throw std::bad_alloc();  // the only way in which it fails
+  if (code != Z_OK) throw std::bad_alloc();  // the only reason of a failure
   packed.resize(size);
   return packed;
 }
@@ -163,7 +163,7 @@ RoundedTrace from_body(std::string_view body) {
     rounded.precision.push_back(at.real());
   }
   const std::size_t values = std::size_t{columns} * rows;
-  if (rows > kMostInflation * body.size()) throw Damage("more rows than it can hold");  // also where there are no columns
+  if (rows > kMostInflation * body.size()) throw Damage("more rows than it can hold");  // also without columns
   const std::string raw = inflated(at.rest(), 2 * values);
   rounded.trace.values.resize((std::size_t{columns} + 1) * rows);
   for (std::size_t k = 0; k < rows; ++k) rounded.trace.values[k * (columns + 1U)] = static_cast<double>(k) * spacing;
@@ -179,7 +179,7 @@ RoundedTrace from_body(std::string_view body) {
   return rounded;
 }
 
-// What is wrong with the header, or "" and the body.
+// Error of the header, or "" with the body.
 std::string complaint(std::string_view bytes, std::string_view& body) {
   std::string truncated = fmt::format("is truncated: {} bytes", bytes.size());
   const std::size_t expected = header(0, {}).size();

@@ -26,12 +26,12 @@ constexpr const char* kVersionKey = "gaitlab_golden";
 constexpr std::string_view kChecksum = ",\n  \"checksum\": \"";  // the last key, of the text before this
 constexpr const char* kJsonFile = "golden.json";
 constexpr const char* kTraceFile = "trace.golden";
-// A new trace waits under this name until golden.json, which names it by its hash, has replaced the old one.
+// Name of a new trace until golden.json, which contains its hash, has replaced the old one.
 constexpr const char* kNextTraceFile = "trace.golden.next";
 
 std::string checksum_line(std::string_view content) { return fmt::format("{}{}\"\n}}\n", kChecksum, hash(content)); }
 
-// ---- golden.json as text: one line a column, so that a version control system shows what changed
+// ---- golden.json as text: one line per column, so that a version control system shows the changes
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -106,16 +106,16 @@ std::string json_text(const Golden& golden, std::string_view trace_bytes) {
   add("trace", text_of(hash(trace_bytes)));
   add("columns", columns_text(golden));
   add("numbers", numbers_text(golden));
-  // Left out where JSON cannot hold it: a path that is not UTF-8.
+  // Left out if JSON cannot hold it: a path that is not UTF-8.
   if (!o.resolved.empty() && Json::parse(text_of(o.resolved)) == o.resolved) add("resolved", resolved_text(o));
   return text + checksum_line(text);
 }
 
-// ---- and back
+// ---- golden.json read
 
 InputError wrong(const fs::path& file, std::string text) { return {SourceLocation{file.string()}, std::move(text)}; }
 
-/// Discarded where it is not JSON, or is deeper than a golden: copies of what is nested without end would end the stack.
+/// Discarded if it is not JSON, or deeper than a golden: copying endlessly nested data would overflow the stack.
 Json parsed(const std::string& text) {
   constexpr int kDeepest = 8;
   bool deep = false;
@@ -124,7 +124,7 @@ Json parsed(const std::string& text) {
   return deep ? Json(Json::value_t::discarded) : json;
 }
 
-// The document, its version and checksum seen to.
+// The document, with version and checksum checked.
 Json checked(const fs::path& file, const std::string& text) {
   if (text.empty()) throw wrong(file, "is truncated: 0 bytes");
   const std::string start = fmt::format("{{\n  \"{}\": ", kVersionKey);
@@ -155,7 +155,7 @@ Band band_of(const Json& json) { return {json.at("ensemble"), json.at("halving")
 std::string resolved_of(const Json& lines, const std::string& hash_then) {
   std::string text;
   for (const Json& line : lines) text += line.get<std::string>() + "\n";
-  if (hash(text) != hash_then) throw std::runtime_error("its resolved scenario is not the one that was approved");
+  if (hash(text) != hash_then) throw std::runtime_error("its resolved scenario differs from the approved one");
   return text;
 }
 
@@ -175,7 +175,7 @@ Golden from_json(const Json& json) {
   return golden;
 }
 
-// The trace that golden.json was written with: under its own name, or where a kill left it.
+// The trace that belongs to golden.json: under its name, or where an interrupted process left it.
 RoundedTrace matching_trace(const fs::path& folder, const std::string& wanted) {
   std::error_code error;
   const bool missing = !fs::exists(folder / kTraceFile, error);
@@ -186,12 +186,12 @@ RoundedTrace matching_trace(const fs::path& folder, const std::string& wanted) {
   }
   const fs::path file = folder / kTraceFile;
   if (missing) throw wrong(file, "is missing: the golden is only half there");
-  (void)unpack(read_file(file, kMostTrace), file);  // says what is wrong with it, where something is
+  (void)unpack(read_file(file, kMostTrace), file);  // reports errors of the file
   throw wrong(file, "belongs to another approval than golden.json");
 }
 
 void take_bands(const Json& columns, Golden& golden) {
-  const std::vector<Column>& in_trace = golden.run.trace.columns;
+  const ColumnList& in_trace = golden.run.trace.columns;
   golden.bands.assign(1, {});
   golden.rounding.assign(1, 0.0);
   for (const auto& [name, entry] : columns.items()) {
@@ -203,7 +203,8 @@ void take_bands(const Json& columns, Golden& golden) {
   if (golden.bands.size() != in_trace.size()) throw std::runtime_error("its columns are not those of the trace");
 }
 
-/// A kill between the two renames of write_golden left the trace that golden.json names under its other name.
+/// Finishes write_golden after it was killed between its two renames: the trace that golden.json names still has the other
+/// name.
 void finish_rename(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder / kNextTraceFile, error) || !fs::exists(folder / kJsonFile, error)) return;
@@ -229,7 +230,7 @@ void write_golden(const Golden& golden, const fs::path& folder) {
   const std::string bytes = pack(golden.run.trace);
   write_file(folder / kNextTraceFile, bytes);
   try {
-    write_file(folder / kJsonFile, json_text(golden, bytes));  // from here on the new one holds
+    write_file(folder / kJsonFile, json_text(golden, bytes));  // from here on the new one is valid
   } catch (...) {
     fs::remove(folder / kNextTraceFile, error);
     throw;
@@ -252,7 +253,7 @@ Golden read_golden(const fs::path& folder) {
     return golden;
   } catch (const InputError&) {
     throw;
-  } catch (const Json::exception&) {  // whose text names no place
+  } catch (const Json::exception&) {  // its message does not name a place
     throw wrong(file, "is corrupt: an entry is missing or of another type");
   } catch (const std::runtime_error& damage) {
     throw wrong(file, fmt::format("is corrupt: {}", damage.what()));

@@ -16,12 +16,12 @@ namespace {
 
 constexpr std::size_t kMostShown = 10;
 constexpr std::size_t kMostFindings = 5;
-constexpr double kBandChange = 1.2;  // times: less is not news
+constexpr double kBandChange = 1.2;  // factor: smaller changes are not reported
 
 template <class Check>
 using Checks = std::vector<const Check*>;
 
-/// The farthest in bands first; what is not a number is farther than any.
+/// Sorts by the deviation in bands, largest first; NaN is larger than any.
 template <class Check>
 Checks<Check> ordered(Checks<Check> checks) {
   const auto size = [](const Check* check) { return std::isnan(check->ratio()) ? INFINITY : check->ratio(); };
@@ -79,8 +79,8 @@ std::string table(const Checks<NumberCheck>& numbers) {
   return aligned(rows, 2);
 }
 
-/// The number that stands for the others beside a table of columns: how far the robot went, or else the worst; nullptr: none
-/// strayed.
+/// The number shown beside a table of columns to represent the others: the distance, or else the worst; nullptr: all are within
+/// their bands.
 const NumberCheck* first_number(const Checks<NumberCheck>& numbers) {
   const auto distance = std::find_if(numbers.begin(), numbers.end(), [](const auto* n) { return n->name == "distance"; });
   if (distance != numbers.end()) return *distance;
@@ -99,7 +99,7 @@ std::string brief(const GoldenDifference& difference) {
   return text;
 }
 
-/// `0.1.0+abc`, of `0.1.0+abc (GNU 12.2.0; Bullet 3.24)`, where the rest is the same in both.
+/// `0.1.0+abc`, from `0.1.0+abc (GNU 12.2.0; Bullet 3.24)`, if the rest is the same in both.
 std::string build_change(const std::string& then, const std::string& now) {
   const auto rest = [](const std::string& build) { return build.substr(std::min(build.find(" ("), build.size())); };
   const std::string same = rest(then) == rest(now) ? rest(then) : "";

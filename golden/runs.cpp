@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/build_id.h"
+#include "core/math/random.h"
 #include "core/parallel.h"
 #include "core/scenario/resolved.h"
 #include "core/simulation/simulation.h"
@@ -19,9 +20,9 @@ namespace gaitlab::golden {
 
 namespace {
 
-constexpr double kRowEvery = 0.02;      // s; a gait has 0.5 Hz, and the contacts' spikes are not what drifts
-constexpr double kLeastTravel = 0.01;   // m: the work of a robot that stays is divided by noise
-constexpr double kPerturbation = 1e-7;  // rad: above the rounding of another compiler, far below what a torque shows
+constexpr double kRowEvery = 0.02;      // s; a gait has 0.5 Hz, and spikes of contacts do not drift
+constexpr double kLeastTravel = 0.01;   // m: for a robot that does not travel the cost of transport is noise
+constexpr double kPerturbation = 1e-7;  // rad: above the rounding of another compiler, far below a visible change of a torque
 
 std::vector<std::string> columns(const Scenario& scenario) {
   std::vector<std::string> names;
@@ -31,7 +32,7 @@ std::vector<std::string> columns(const Scenario& scenario) {
   return names;
 }
 
-// Every stride-th row; the last one where it is not a trace tick is left out.
+// Every stride-th row; the last one is left out if it is not a trace tick.
 Trace thinned(const Trace& trace, double period) {
   const auto stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(kRowEvery / period * (1 + 1e-9)));
   Trace thin{trace.columns, {}};
@@ -42,7 +43,7 @@ Trace thinned(const Trace& trace, double period) {
   return thin;
 }
 
-/// When the peak was reached of which `number` is the size; nullptr: it is not a peak, or its time is not recorded.
+/// The time of the peak that is `number`; nullptr: it is not a peak, or its time is not recorded.
 const report::SummaryNumber* time_of(const report::SummaryNumber& number) {
   const std::string key = std::string(number.key) + "_time";
   for (const report::SummaryNumber& other : report::summary_numbers()) {
@@ -72,17 +73,6 @@ std::vector<Number> numbers(const Scenario& scenario, const Recording& record) {
   return all;
 }
 
-// Steele, Lea, Flood 2014, the output function of SplittableRandom: every counter is a stream of its own.
-std::uint64_t splitmix64(std::uint64_t counter) {
-  std::uint64_t z = counter * 0x9E3779B97F4A7C15ULL;
-  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
-  return z ^ (z >> 31U);
-}
-
-// In [-1, 1).
-double symmetric(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-52 - 1; }
-
 GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>& progress, bool judged) {
   Scenario ours = scenario;
   ours.trace.columns = columns(scenario);
@@ -101,7 +91,7 @@ GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>
 
 double steps(const Scenario& scenario) { return scenario.duration / scenario.physics.step; }
 
-// One progress for all runs, in steps.
+// Progress bar for all runs, in steps.
 class Bar {
  public:
   Bar(const std::vector<Scenario>& scenarios, const std::function<void(double)>& progress) : progress_(progress) {
@@ -175,8 +165,8 @@ Scenario perturbed(const Scenario& scenario, int member) {
   angles.each.resize(joints);
   for (std::size_t j = 0; j < joints; ++j) {
     const std::uint64_t counter = static_cast<std::uint64_t>(member) * joints + j + 1;
-    const std::uint64_t seed = splitmix64(static_cast<std::uint64_t>(scenario.seed) + 1);
-    angles.each[j] = scenario.initial.angles[j] + kPerturbation * symmetric(splitmix64(seed + counter));
+    const std::uint64_t seed = math::splitmix64(static_cast<std::uint64_t>(scenario.seed) + 1);
+    angles.each[j] = scenario.initial.angles[j] + kPerturbation * math::symmetric(math::splitmix64(seed + counter));
   }
   return moved;
 }

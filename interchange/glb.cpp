@@ -11,7 +11,7 @@ namespace gaitlab::interchange {
 
 namespace {
 
-// Of the specification (glTF 2.0, 4.4 and 3.6).
+// Constants of the specification (glTF 2.0, 4.4 and 3.6).
 constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kVertices = 34962, kIndices = 34963;
 

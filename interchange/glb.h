@@ -1,4 +1,4 @@
-// A glTF 2.0 file under construction: its objects, and the numbers that they refer to.
+// A glTF 2.0 file under construction: its objects, and their numbers.
 #pragma once
 #include <cstddef>
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@
 namespace gaitlab::interchange {
 
 /// Objects (nodes, meshes ...) refer to one another by index. All numbers of the buffer are float32, rounded to nearest, or
-/// uint32, little-endian, each accessor in a view of its own.
+/// uint32, little-endian, each accessor in a separate view.
 class Glb {
  public:
   Glb() = default;
@@ -19,23 +19,23 @@ class Glb {
   Glb(const Glb&) = delete;
   Glb& operator=(const Glb&) = delete;
 
-  /// Adds to one of the file's lists (`nodes`, `materials` ...); the index there.
+  /// Adds an object to one of the file's lists (`nodes`, `materials` ...); returns its index.
   std::size_t add(const char* list, nlohmann::json object);
-  /// An object added before.
+  /// An object that was added.
   nlohmann::json& at(const char* list, std::size_t index) { return json_[list][index]; }
 
-  /// Accessors of `width` numbers each (1, 3 or 4), with their least and largest; for vertices, where `drawn`.
+  /// Adds an accessor with `width` numbers per element (1, 3 or 4), with their least and largest; `drawn`: for vertices.
   std::size_t floats(const std::vector<float>& numbers, std::size_t width, bool drawn = false);
   std::size_t vectors(const std::vector<Vec3>& vectors);
   std::size_t indices(const Triangles& triangles);
 
   [[nodiscard]] std::size_t size() const { return buffer_.size(); }  ///< bytes of numbers
 
-  /// The whole file: header, JSON with `generator`, numbers. The same calls, the same bytes.
+  /// The whole file: header, JSON with `generator`, numbers. The same calls give the same bytes.
   [[nodiscard]] std::string finish(std::string_view generator);
 
  private:
-  /// The view of what was added to the buffer since it had `from` bytes.
+  /// Accessor of the numbers added to the buffer since its size was `from`, in bytes.
   std::size_t accessor(std::size_t from, int component, const char* type, std::size_t count, int target);
 
   nlohmann::json json_;

@@ -20,7 +20,7 @@ namespace {
 using namespace interchange;
 using nlohmann::json;
 
-constexpr double kFullFile = 4e9;  // bytes of numbers; sizes in the file are of 32 bits
+constexpr double kFullFile = 4e9;  // bytes of numbers; sizes in the file have 32 bits
 
 json list(std::initializer_list<double> numbers) {
   json made = json::array();
@@ -49,7 +49,7 @@ const char* role_name(Role role) {
   return "body";
 }
 
-/// How far a body reaches from its origin at most, m.
+/// Largest distance of a body's shapes from its origin, m.
 double reach(const BodyType& type) {
   double most = 0;
   for (const Shape& shape : type.shapes) most = std::max(most, shape.in_body.p.norm() + shape.size.norm());
@@ -65,8 +65,8 @@ class GltfScene {
     const Pose y_up{turn(Vec3::UnitX(), -std::numbers::pi / 2).toRotationMatrix(), Vec3::Zero()};
     const std::size_t world = file_.add("nodes", node("world", y_up));
     json inside = json::array();
-    if (s_.ground.kind != Ground::Kind::none) inside.push_back(write_ground());
-    for (std::size_t b = 0; has_boxes() && b < motion_.boxes.size(); ++b) inside.push_back(write_box(b));
+    if (s_.ground.exists()) inside.push_back(write_ground());
+    for (std::size_t b = 0; b < motion_.boxes.size(); ++b) inside.push_back(write_box(b));
     inside.push_back(write_links());
     file_.at("nodes", world)["children"] = inside;
     file_.add("scenes", {{"name", s_.name}, {"nodes", json::array({world})}});
@@ -78,7 +78,6 @@ class GltfScene {
 
  private:
   [[nodiscard]] const ModuleType& module_type(const Body& body) const { return robot_.types[robot_.modules[body.module].type]; }
-  [[nodiscard]] bool has_boxes() const { return s_.ground.kind == Ground::Kind::boxes; }
 
   std::size_t colour(const std::string& name, std::string_view colour) {
     const auto [found, is_new] = materials_.try_emplace(name, 0);
@@ -97,7 +96,7 @@ class GltfScene {
     return {{"attributes", vertices}, {"indices", file_.indices(triangles)}, {"material", material}};
   }
 
-  /// What the robot walks over, and as much around it as it is large.
+  /// Area under the robot's path, extended on each side by the robot's size.
   [[nodiscard]] Area walked() const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Area area{kInfinity, -kInfinity, kInfinity, -kInfinity};
@@ -113,8 +112,8 @@ class GltfScene {
       size = std::max(size, (place - k.p[0]).norm() + reach(module_type(body).bodies[body.type]));
     }
     for (const Vec3& place : motion_.base.places) add(place, 2 * size);
-    for (std::size_t b = 0; has_boxes() && b < motion_.boxes.size(); ++b) {
-      for (const Vec3& place : motion_.boxes[b].places) add(place, s_.ground.boxes[b].size.norm());
+    for (std::size_t b = 0; b < motion_.boxes.size(); ++b) {
+      for (const Vec3& place : motion_.boxes[b].places) add(place, s_.ground.boxes()[b].size.norm());
     }
     return area;
   }
@@ -122,7 +121,8 @@ class GltfScene {
   std::size_t write_ground() {
     json drawn = node("ground", {});
     const std::size_t light = colour("ground", look_.ground);
-    const Tiles floor = s_.ground.kind == Ground::Kind::heightfield ? tiles(s_.ground.field, walked()) : tiles(walked());
+    const Heightfield* relief = s_.ground.relief();
+    const Tiles floor = relief != nullptr ? tiles(*relief, walked()) : tiles(walked());
     const std::string name = fmt::format("ground, tiles of {} m", floor.edge);
     const json shared = vertices(floor.light);
     json primitives = json::array({primitive(shared, floor.light.triangles, light)});
@@ -132,9 +132,9 @@ class GltfScene {
     return file_.add("nodes", drawn);
   }
 
-  /// Boxes are one cube, scaled.
+  /// All boxes share one cube mesh, scaled.
   std::size_t write_box(std::size_t number) {
-    const Box& box = s_.ground.boxes[number];
+    const Box& box = s_.ground.boxes()[number];
     const bool moves = box.mass > 0;
     std::size_t& cube = cubes_[moves ? 1 : 0];
     if (cube == 0) {
@@ -153,7 +153,7 @@ class GltfScene {
     return made;
   }
 
-  /// The node of the base.
+  /// Writes the links; returns the node of the base.
   std::size_t write_links() {
     std::vector<std::size_t> nodes;
     for (std::size_t l = 0; l < robot_.links.size(); ++l) nodes.push_back(l == 0 ? write_base() : write_joint(robot_.links[l]));
@@ -218,7 +218,7 @@ class GltfScene {
     animate(node, "rotation", numbers, 4);
   }
 
-  /// Nothing where it never changes: the node stands so.
+  /// Adds a channel. A value that never changes has none; it is stored in the node.
   void animate(std::size_t node, const char* path, const std::vector<float>& numbers, std::size_t width) {
     const auto moved = [&](std::size_t i) { return numbers[i] != numbers[i % width]; };
     bool any = false;
@@ -258,8 +258,8 @@ std::vector<std::string> bodies_without_shape(const Robot& robot) {
 
 std::vector<std::size_t> boxes_without_way(const Scenario& scenario, const Recording& recording) {
   std::vector<std::size_t> numbers;
-  for (std::size_t b = 0; b < scenario.ground.boxes.size(); ++b) {
-    if (scenario.ground.boxes[b].mass > 0 && !has_way(recording, b)) numbers.push_back(b);
+  for (std::size_t b = 0; b < scenario.ground.boxes().size(); ++b) {
+    if (scenario.ground.boxes()[b].mass > 0 && !has_way(recording, b)) numbers.push_back(b);
   }
   return numbers;
 }

@@ -1,4 +1,4 @@
-// A robot that moves, for viewers and Blender.
+// A moving robot as glTF, for viewers and Blender.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -11,9 +11,9 @@
 
 namespace gaitlab::interchange {
 
-inline constexpr double kGltfRate = 60;  ///< Hz, of keyframes at most
+inline constexpr double kGltfRate = 60;  ///< Hz, largest rate of keyframes
 
-/// What a glTF file holds besides the run. Colours: `#RRGGBB`, sRGB.
+/// Appearance in a glTF file. Colours: `#RRGGBB`, sRGB.
 struct GltfLook {
   std::string generator;                     ///< of the file: program and version
   std::string_view (*body)(Role) = nullptr;  ///< colour
@@ -26,25 +26,25 @@ struct Gltf {
 };
 
 /// A binary glTF 2.0 file of the robot and its ground, and with a `recording` one animation of its run: keyframes at trace rows
-/// at least 1/60 s apart and at the last row. Without one, or with one row only, the robot stands as it starts.
+/// at least 1/60 s apart and at the last row. Without a recording, or with only one row, the robot has its initial pose.
 ///
-/// Nodes: `world` turns z up into glTF's y up. In it stand the ground, its boxes, and the links in one another: `base`, `joint
-/// m3/passive` ...; in each link the bodies that move with it, one mesh per body type. So a joint is a turn about its axis, at
-/// every time between two keyframes, too: bodies that each had a pose of their own would leave their hinges there; and a joint
-/// takes 16 bytes a keyframe where such bodies take 28. What does not move has no channel.
+/// Nodes: `world` turns z up into glTF's y up. Its children are the ground, the ground's boxes, and the links, nested: `base`,
+/// `joint m3/passive` ...; each link contains the bodies that move with it, one mesh per body type. A joint therefore rotates
+/// about its axis also between two keyframes, when separately animated bodies would leave their hinges, and takes 16 bytes per
+/// keyframe instead of 28. Nodes that do not move have no channel.
 ///
-/// Numbers of the animation are float32. A quaternion, of length 1 in double, so turns by up to 2^-23 rad (1.2e-7) wrongly,
-/// which moves what is a distance d away by 1.2e-7 d; these errors add up along a chain of joints. The base and moving boxes
-/// are off by up to 2^-24 (6e-8) of each of their coordinates, and times of themselves. Signs of quaternions are continuous.
+/// Numbers of the animation are float32. A quaternion of length 1 in double then has an error of up to 2^-23 rad (1.2e-7),
+/// which moves a point at distance d by 1.2e-7 d; these errors add up along a chain of joints. Coordinates of the base and of
+/// moving boxes have a relative error of up to 2^-24 (6e-8), as have times. Signs of quaternions are continuous.
 ///
-/// Assumes recording->has_states(robot). Boxes that move stand as they start where the recording does not hold them.
-/// InputError: numbers that are not finite; more than 4 GiB.
+/// Requires recording->has_states(robot). Movable boxes have their initial pose if the recording does not contain their motion.
+/// Throws InputError for numbers that are not finite, and for more than 4 GiB.
 Gltf to_gltf(const Scenario& scenario, const Recording* recording, const GltfLook& look);
 
-/// Bodies that no shape draws, by name.
+/// Names of bodies without a shape.
 std::vector<std::string> bodies_without_shape(const Robot& robot);
 
-/// Boxes that may move and whose way the recording does not hold, by number in `ground.boxes`.
+/// Movable boxes whose motion the recording does not contain, by number in `ground.boxes`.
 std::vector<std::size_t> boxes_without_way(const Scenario& scenario, const Recording& recording);
 
 }  // namespace gaitlab::interchange

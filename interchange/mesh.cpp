@@ -24,12 +24,12 @@ class Surface {
     return static_cast<std::uint32_t>(mesh_.places.size() - 1);
   }
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { mesh_.triangles.insert(mesh_.triangles.end(), {a, b, c}); }
-  /// Corners in a row around it.
+  /// Adds a quad with these corners, in order around it.
   void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
     triangle(a, b, c);
     triangle(a, c, d);
   }
-  /// A convex side in a plane.
+  /// Adds a convex planar polygon.
   void flat(const std::vector<Vec3>& around, const Vec3& normal) {
     std::vector<std::uint32_t> corners;
     corners.reserve(around.size());
@@ -124,13 +124,20 @@ std::vector<double> tile_lines(double edge, double lo, double hi) {
   return at;
 }
 
-/// Where an axis of a heightfield is cut: its cells into `parts`, tiles, and the ends of what is drawn. Lines that are nearly
-/// one become one: float32 might not tell them apart.
-std::vector<double> field_lines(double origin, double spacing, std::size_t nodes, std::size_t parts, double edge, double lo,
-                                double hi) {
-  const double part = spacing / static_cast<double>(parts);
+/// Nodes of a heightfield along an axis: each is drawn with `parts` - 1 lines behind it, or only every `stride`-th.
+struct FieldAxis {
+  double origin, spacing;
+  std::size_t nodes, parts, stride;
+};
+
+/// Lines that divide an axis of a heightfield: its cells into parts, tiles, and the ends of the drawn area. Lines that nearly
+/// coincide are merged: float32 might not distinguish them.
+std::vector<double> field_lines(const FieldAxis& axis, double edge, double lo, double hi) {
+  const double part = axis.spacing / static_cast<double>(axis.parts);
   std::vector<double> all{lo, hi};
-  for (std::size_t k = 0; k <= (nodes - 1) * parts; ++k) all.push_back(origin + part * static_cast<double>(k));
+  const std::size_t last = (axis.nodes - 1) * axis.parts;
+  for (std::size_t k = 0; k < last; k += axis.stride) all.push_back(axis.origin + part * static_cast<double>(k));
+  all.push_back(axis.origin + part * static_cast<double>(last));
   for (const double x : tile_lines(edge, lo, hi)) {
     if (x > lo && x < hi) all.push_back(x);
   }
@@ -189,6 +196,11 @@ Tiles tiles(const Area& area) {
               });
 }
 
+std::size_t drawn_stride(const Heightfield& field) {
+  constexpr double kMost = 512;
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(std::sqrt(static_cast<double>(field.values.size())) / kMost)));
+}
+
 Tiles tiles(const Heightfield& field, const Area& area) {
   const std::size_t cells = (field.columns - 1) * (field.rows() - 1);
   const std::size_t parts = cells > 64000 ? 1 : cells > 16000 ? 2 : 4;
@@ -196,8 +208,9 @@ Tiles tiles(const Heightfield& field, const Area& area) {
   const Area drawn{std::min(area.x_lo, field.origin.x()), std::max(area.x_hi, end(field.origin.x(), field.columns)),
                    std::min(area.y_lo, field.origin.y()), std::max(area.y_hi, end(field.origin.y(), field.rows()))};
   const double edge = tile_edge(std::max(drawn.x_hi - drawn.x_lo, drawn.y_hi - drawn.y_lo));
-  const auto xs = field_lines(field.origin.x(), field.spacing, field.columns, parts, edge, drawn.x_lo, drawn.x_hi);
-  const auto ys = field_lines(field.origin.y(), field.spacing, field.rows(), parts, edge, drawn.y_lo, drawn.y_hi);
+  const std::size_t stride = drawn_stride(field);
+  const auto xs = field_lines({field.origin.x(), field.spacing, field.columns, parts, stride}, edge, drawn.x_lo, drawn.x_hi);
+  const auto ys = field_lines({field.origin.y(), field.spacing, field.rows(), parts, stride}, edge, drawn.y_lo, drawn.y_hi);
   return grid(edge, xs, ys, [&field](Surface& to, double x, double y) {
     const Heightfield::SurfacePoint at = field.at(x, y);
     to.vertex({x, y, at.z}, at.normal);

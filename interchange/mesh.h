@@ -1,4 +1,4 @@
-// Triangles of what is drawn: shapes of bodies, the ground.
+// Triangle meshes of shapes of bodies and of the ground.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -11,8 +11,8 @@ namespace gaitlab::interchange {
 /// Triangles, counter-clockwise as seen from outside; three corners each.
 using Triangles = std::vector<std::uint32_t>;
 
-/// Vertices with their normals (unit vectors, outwards), and triangles over them. A vertex of a sharp edge is there once for
-/// each side of it, so that boxes have flat sides and cylinders round ones. m.
+/// Vertices with their normals (unit vectors, outwards), and triangles over them. A vertex of a sharp edge is repeated for each
+/// side, so that boxes have flat sides and cylinders round ones. m.
 struct Mesh {
   std::vector<Vec3> places, normals;
   Triangles triangles;
@@ -27,9 +27,9 @@ struct Area {
   double x_lo = 0, x_hi = 0, y_lo = 0, y_hi = 0;
 };
 
-/// A ground as square tiles with an edge of 1, 2 or 5 times a power of ten, at most 40 (and what is left of two) along either
-/// side of what is drawn; a corner of four is at the world's x = y = 0. Tiles of both kinds, as a chessboard's, share the
-/// vertices.
+/// A ground as square tiles with an edge of 1, 2 or 5 times a power of ten, at most 40 (and two partial ones) along either side
+/// of the drawn area; a corner of four tiles is at the world's x = y = 0. Tiles of both kinds alternate as on a chessboard and
+/// share the vertices.
 struct Tiles {
   double edge = 0;  ///< m
   Mesh light;       ///< with all vertices
@@ -39,8 +39,11 @@ struct Tiles {
 /// The plane z = 0, in whole tiles that cover the area.
 Tiles tiles(const Area& area);
 
+/// Stride of the heights that are drawn in x and in y, so that there are at most about 512 x 512.
+std::size_t drawn_stride(const Heightfield& field);
+
 /// The surface over its grid and the area. Each cell is cut into 4 by 4 (2 by 2 above 16 000 cells, not at all above 64 000),
-/// since it is curved, and where tiles begin; the normals are the field's own.
+/// because it is curved, and at the edges of tiles; the normals are those of the field.
 Tiles tiles(const Heightfield& field, const Area& area);
 
 }  // namespace gaitlab::interchange

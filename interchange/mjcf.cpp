@@ -18,7 +18,7 @@ namespace {
 
 using namespace interchange;
 
-// MuJoCo wants mass and inertia above 1e-15 of whatever a joint moves.
+// MuJoCo requires mass and inertia above 1e-15 for every moved body.
 constexpr double kMassless = 2e-15;
 constexpr double kPointSize = 0.001;  // m, drawn
 
@@ -60,13 +60,14 @@ class Mjcf {
 
  private:
   void write_ground(Xml& world) {
-    if (s_.ground.kind == Ground::Kind::heightfield) {
-      throw InputError(s_.place("ground.type"), "MJCF holds no heightfield of this kind; expected type: none, plane or boxes");
+    if (const GroundType& ground = s_.ground.type(); !ground.plane_and_boxes) {
+      throw InputError(s_.place("ground.type"),
+                       fmt::format("MJCF holds no {} of this kind; expected type: {}", ground.name, plane_and_box_types()));
     }
-    if (s_.ground.kind == Ground::Kind::none) return;
+    if (!s_.ground.exists()) return;
     set(geom(world, "ground", "plane", "0 0 1"), "group", "2");
-    for (std::size_t i = 0; s_.ground.kind == Ground::Kind::boxes && i < s_.ground.boxes.size(); ++i) {
-      const Box& box = s_.ground.boxes[i];
+    for (std::size_t i = 0; i < s_.ground.boxes().size(); ++i) {
+      const Box& box = s_.ground.boxes()[i];
       Xml& e = geom(world, fmt::format("ground/{}", i), "box", text(Vec3(box.size / 2)));
       set_pose(e, {box.R, box.center});
       set(e, "group", "2");
@@ -108,7 +109,7 @@ class Mjcf {
     return element;
   }
 
-  /// The base's joints turn and shift a body that stands as the scenario starts it: world axes are R^T e there.
+  /// The base's joints turn and shift a body that has its initial pose: world axes are R^T e there.
   void write_base_joints(Xml& element) {
     if (s_.base == Base::floating) set(add(element, "freejoint"), "name", "base");
     if (s_.base != Base::planar) return;
@@ -144,15 +145,15 @@ class Mjcf {
   }
 
   const BodyType& type(const Body& body) const { return robot_.types[robot_.modules[body.module].type].bodies[body.type]; }
-  /// Mass and moments below what MuJoCo moves (a moment of a rod about itself, say) are raised to it.
+  /// Masses and moments below MuJoCo's minimum (a moment of a rod about its axis, say) are raised to it.
   static bool raised(const BodyType& t) {
     Vec3 moments;
     principal_axes(t.inertia, moments);
     return t.mass < kMassless || moments.minCoeff() < kMassless;
   }
-  /// Where the integrator divides its steps, MuJoCo gets one that is short enough for its own.
+  /// If the integrator divides its steps, MuJoCo gets a step that is short enough for its integrator.
   [[nodiscard]] double step() const { return s_.physics.adapts() ? s_.physics.engine->step : s_.physics.step; }
-  /// Methods of two programs differ by their errors: RK4, whose error is small, stands for any of ours.
+  /// MuJoCo's method: RK4, whose error is small, for any integrator.
   std::string method() const {
     if (s_.physics.integrator == nullptr || s_.physics.integrator->name == "rk4") return "";
     const Integrator& own = *s_.physics.integrator;
@@ -177,7 +178,7 @@ class Mjcf {
     Xml& e = add(element, "inertial");
     set(e, "pos", text(t.com));
     set(e, "mass", text({std::max(t.mass, kMassless)}));
-    // MuJoCo takes whole tensors, too, but turns them with errors of 1e-12 kg m^2: principal axes are exact.
+    // MuJoCo also takes whole tensors, but diagonalises them with errors of 1e-12 kg m^2: principal axes are exact.
     Vec3 moments;
     const Mat3 axes = principal_axes(t.inertia, moments);
     set(e, "quat", quaternion(Quat(axes)));
@@ -249,7 +250,7 @@ class Mjcf {
       q = {0, 0, 0};
       v = {velocity.x(), velocity.z(), start_.angular_velocity.y()};
     }
-    // MuJoCo numbers joints as the bodies come, depth first.
+    // MuJoCo numbers joints in the order of the bodies, depth first.
     std::map<std::string_view, std::size_t> numbers;
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) numbers.emplace(robot_.joints[j].name, j);
     append_joints(world, numbers, q, v);
@@ -277,7 +278,7 @@ class Mjcf {
   RobotState start_;
   BodyTree tree_;
   std::vector<MotorLimits> limits_;
-  std::vector<std::vector<ContactElement>> elements_;  ///< a body
+  std::vector<std::vector<ContactElement>> elements_;  ///< per body
 };
 
 }  // namespace

@@ -6,11 +6,11 @@
 
 namespace gaitlab::interchange {
 
-/// MJCF (MuJoCo 2.2 and later) of the robot as the scenario starts it: one MuJoCo body for each of the robot's, docked ones
-/// without a joint between them; whole inertia tensors (by their principal axes); hinges with their ranges; a free, planar
-/// (slide x, slide z, hinge y) or fixed base; the start as keyframe `start`; gravity, step and RK4; shapes, contact
-/// elements, the plane and its boxes as geoms that touch nothing; motors as torques. A heightfield is an InputError. What MJCF
-/// cannot hold is said in a comment at its top. Numbers read back to the same doubles.
+/// MJCF (MuJoCo 2.2 and later) of the robot in its initial state: one MuJoCo body for each of the robot's, docked ones without
+/// a joint between them; whole inertia tensors (by their principal axes); hinges with their ranges; a free, planar (slide x,
+/// slide z, hinge y) or fixed base; the start as keyframe `start`; gravity, step and RK4; shapes, contact elements, the plane
+/// and its boxes as geoms without contact; motors as torques. Throws InputError for a heightfield. A comment at the top lists
+/// the parts of the scenario that MJCF cannot hold. Numbers are read back as the same doubles.
 std::string to_mjcf(const Scenario& scenario);
 
 }  // namespace gaitlab::interchange

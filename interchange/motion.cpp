@@ -15,7 +15,7 @@ Way fixed(const Pose& pose) { return {{pose.p}, {Quat(pose.R).normalized()}}; }
 
 std::vector<Way> fixed_boxes(const Ground& ground) {
   std::vector<Way> ways;
-  for (const Box& box : ground.boxes) ways.push_back(fixed({box.R, box.center}));
+  for (const Box& box : ground.boxes()) ways.push_back(fixed({box.R, box.center}));
   return ways;
 }
 
@@ -25,13 +25,13 @@ std::string box_name(std::size_t number) { return fmt::format("box.{}.", number)
 class Frames {
  public:
   Frames(const Scenario& scenario, const Recording& recording, double rate) : scenario_(scenario), recording_(recording) {
-    const double least = (1 - 1e-9) / rate;  // rows that are 1/rate apart but for rounding are
+    const double least = (1 - 1e-9) / rate;  // accepts rows that are 1/rate apart up to rounding
     const std::vector<double> t = recording.series("t").values();
     for (std::size_t row = 0; row < t.size(); ++row) {
       const bool last = row + 1 == t.size();
       if (!rows_.empty() && !last && t[row] - t[rows_.back()] < least) continue;
       const auto time = static_cast<float>(t[row]);
-      if (!times_.empty() && !(time > times_.back())) continue;  // after days
+      if (!times_.empty() && !(time > times_.back())) continue;  // possible after days of simulated time
       rows_.push_back(row);
       times_.push_back(time);
     }

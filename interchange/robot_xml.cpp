@@ -20,10 +20,10 @@ std::string joined_numbers(const Numbers& numbers) {
   return out;
 }
 
-/// Speeds at which the torques of the joints under `command` vanish, rad/s; 0 where one never does. All are halved at once,
-/// because an actuator is asked for all joints at once.
+/// Speeds at which the torques of the joints under `command` become zero, rad/s; 0 if one never does. One bisection for all
+/// joints at once, because the actuator computes all joints at once.
 std::vector<double> no_load_speeds(const Actuator& actuator, const std::vector<double>& command) {
-  constexpr double kFastest = 1e6;  // rad/s on a joint: nothing turns faster
+  constexpr double kFastest = 1e6;  // rad/s on a joint: above any speed
   constexpr int kMostHalvings = 200;
   const std::size_t joints = command.size();
   std::vector<double> lo(joints, 0.0);
@@ -79,8 +79,8 @@ std::vector<MotorLimits> motor_limits(const Scenario& scenario) {
 
 std::string left_out(const Scenario& s) {
   std::string out;
-  if (s.ground.kind != Ground::Kind::none && s.contact.on != ContactSet::none) {
-    out += s.contact.solver()
+  if (s.ground.exists() && s.contact.on != ContactSet::none) {
+    out += !s.contact.model().penalty_settings
                ? fmt::format(" Contact: Bullet's own solver, friction {}, on the contact elements.",
                              number_text(s.ground.friction))
                : fmt::format(

@@ -1,4 +1,4 @@
-// What the robot formats share: numbers that read back to the same double, poses at zero angles, motors as limits.
+// Common parts of the robot formats: numbers that are read back as the same double, poses at zero angles, motors as limits.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,25 +9,25 @@
 
 namespace gaitlab::interchange {
 
-/// Numbers apart by spaces, each the shortest text that reads back to the same double, whatever the locale.
+/// Numbers separated by spaces, each the shortest text that is read back as the same double, in any locale.
 std::string text(std::initializer_list<double> numbers);
 std::string text(const std::vector<double>& numbers);
 inline std::string text(const Vec3& v) { return text({v.x(), v.y(), v.z()}); }
 
-/// For a cylinder whose axis is z elsewhere and y here.
+/// Rotation from axis z, a cylinder's in the other formats, to y, its axis here.
 Mat3 y_from_z();
 
-/// A joint's motor as others know motors: what it gives at rest under the largest command, the speed at which it gives nothing,
-/// and the inertia of its rotor on the joint.
+/// Limits of a joint's motor in the terms of other formats: torque at rest under the largest command, speed without load, and
+/// inertia of its rotor on the joint.
 struct MotorLimits {
-  double effort = 0;    ///< N m; infinity: as much as is asked
-  double speed = 0;     ///< rad/s; 0: gives its torque at every speed
+  double effort = 0;    ///< N m; infinity: no limit
+  double speed = 0;     ///< rad/s; 0: the torque does not depend on speed
   double armature = 0;  ///< kg m^2
 };
 /// One per joint; empty without actuator.
 std::vector<MotorLimits> motor_limits(const Scenario& scenario);
 
-/// What of the scenario no robot format holds, for a comment.
+/// Parts of the scenario that no robot format holds, as a comment.
 std::string left_out(const Scenario& scenario);
 
 }  // namespace gaitlab::interchange

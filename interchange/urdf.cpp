@@ -14,7 +14,7 @@ namespace {
 using namespace interchange;
 
 constexpr double kPointRadius = 0.001;  // m
-constexpr double kUnlimited = 1e6;      // N m, rad/s: a limit must stand there
+constexpr double kUnlimited = 1e6;      // N m, rad/s: the format requires a limit
 
 void add_origin(Xml& element, const Pose& pose) {
   Xml& e = add(element, "origin");

@@ -7,7 +7,7 @@ namespace gaitlab::interchange {
 namespace {
 
 constexpr std::size_t kMostLevels =
-    40;  // of indentation: it would be nearly all of a long chain, whose bodies lie in one another
+    40;  // largest indentation: without a limit it would dominate the text of a long chain of nested bodies
 
 std::string escaped(const std::string& value) {
   std::string out;

@@ -8,7 +8,7 @@ namespace gaitlab::articulated {
 /// Factor of the N x N matrix whose lower triangle is in `m`; solve: b <- m^-1 b.
 template <class T, std::size_t N>
 struct Cholesky {
-  std::array<std::array<T, N>, N> m;  ///< below the diagonal L, on it 1 / D
+  std::array<std::array<T, N>, N> m;  ///< L below the diagonal, 1 / D on it
 
   void factor() {
     for (std::size_t j = 0; j < N; ++j) {

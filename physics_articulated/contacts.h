@@ -1,4 +1,4 @@
-// Which points and spheres touch the ground, what acts there, and how it resists over a step.
+// Contacts of points and spheres with the ground: forces, and their dependence on the velocities at the end of a step.
 #pragma once
 #include <algorithm>
 
@@ -12,60 +12,60 @@ struct Ground;
 
 namespace gaitlab::articulated {
 
-/// What an element finds at the ground of its lane.
+/// Contact geometry of an element on the ground of its lane.
 template <class T>
 struct Touch {
-  T penetration;    ///< m; negative: the gap
-  Vec<T> n, point;  ///< normal; where the force acts, world, m
+  T penetration;    ///< m; negative: gap
+  Vec<T> n, point;  ///< normal; point of action, world, m
   T friction;       ///< Coulomb coefficient
 };
 
-/// What stands around the robot, one per lane. A ground that is not a plane is asked lane by lane: `query`, over Ground::query.
+/// Ground around the robot, one per lane. A ground that is not a plane is evaluated lane by lane: `query`, over Ground::query.
 template <class T>
 struct Environment {
   Vec<T> gravity;
   BasicPenaltyContact<T> law;
-  bool plane = true;  ///< in every lane
-  T friction = 0.0;   ///< of those planes
+  bool plane = true;  ///< all lanes have planes
+  T friction = 0.0;   ///< of the planes
   std::vector<const Ground*> ground;
   Touch<double> (*query)(const Ground&, const Vec<double>& centre, double radius) = nullptr;
 };
 
-/// One element that touches, or may before the step ends, as a step of h takes it: forces at the velocity of the step's end
-/// (vn+, vt+), the depth then being p+ = depth - h vn+,
+/// One element that touches, or may before the step ends: its forces at the velocity (vn+, vt+) at the end of a step of h,
+/// where the depth is p+ = depth - h vn+:
 ///     normal:   Kn p+^k - D vn+ >= 0, while p+ > 0
 ///     friction: -f Fn vt+ / max(|vt+|, v_lim)
-/// D = Cd p^d with p where the body is placed, for what touches at the start; Cd p+^d for what lands. Friction uses the
-/// normal force at the present position and the velocity at the start of the step. All forces fall with the velocity, so that
-/// the step has one solution. A solve takes tangents, with s the direction of slip:
+/// D = Cd p^d, with p at the body's present place, for elements that touch at the start; Cd p+^d for elements that land.
+/// Friction uses the normal force at the present place and the velocity at the start of the step. All forces fall with the
+/// velocity, so that the step has one solution. A solve takes tangents, with s the direction of slip:
 ///     fn - normal_damping (vn - vn_start), -sliding_force s - tangential_damping (1 - s s^T) vt
 template <class T>
 struct Contact {
   std::size_t element = 0, link = 0;
   Touch<T> touch;
-  Vec<T> x, n, vt;                              ///< where it acts, from the base frame's origin; normal; tangential velocity
-  T vn, slip;                                   ///< normal velocity, > 0 separating; size of vt
-  typename BasicPenaltyContact<T>::Normal law;  ///< at the place
+  Vec<T> x, n, vt;                              ///< point of action, from the base frame's origin; normal; tangential velocity
+  T vn, slip;                                   ///< normal velocity, > 0 separating; magnitude of vt
+  typename BasicPenaltyContact<T>::Normal law;  ///< at the present place
   T depth;                                      ///< m, at the start of the step
   T damping;                                    ///< D, N s/m
   T fn, normal_damping;                         ///< tangent of the normal force, N, N s/m
   T friction_limit;                             ///< f Fn, N
-  T sliding_force, tangential_damping;          ///< f Fn while it slides, else 0; slope
-  Vec<T> slip_direction;                        ///< s; 0 while it sticks
-  Vec<T> change, held;                          ///< of the iterate: change of velocity, m/s; force that the solve took, N
-  Vec<T> next_change, next_held;                ///< of the last solve
+  T sliding_force, tangential_damping;          ///< f Fn while the element slides, else 0; slope
+  Vec<T> slip_direction;                        ///< s; 0 while the element sticks
+  Vec<T> change, held;                          ///< at the iterate: change of velocity, m/s; force that the solve took, N
+  Vec<T> next_change, next_held;                ///< the same of the last solve
 
   [[nodiscard]] Vec<T> across(const Vec<T>& v) const { return v - dot(slip_direction, v) * slip_direction; }
   [[nodiscard]] Vec<T> friction(const Vec<T>& v) const {
     return -(sliding_force * slip_direction + tangential_damping * across(v));
   }
   [[nodiscard]] Vec<T> force() const { return fn * n + friction(vt); }
-  /// As the solve takes it, for a change of velocity.
+  /// Tangent force of the solve, for a change of velocity.
   [[nodiscard]] Vec<T> force(const Vec<T>& dv) const {
     const T normal = dot(n, dv);
     return (fn - normal_damping * normal) * n + friction(vt + (dv - normal * n));
   }
-  /// h times the slope: what Body takes for a resistance.
+  /// h times the slope: the resistance for Body.
   [[nodiscard]] Sym<T> slope(double h) const {
     const T zero = 0.0;
     Sym<T> G{h * tangential_damping, h * tangential_damping, h * tangential_damping, zero, zero, zero};
@@ -84,17 +84,27 @@ class Contacts {
     for (std::size_t e = 0; e < tree.points.size(); ++e) order_.push_back(e);
     std::stable_sort(order_.begin(), order_.end(),
                      [&](std::size_t a, std::size_t b) { return tree.points[a].link < tree.points[b].link; });
+    extent_.assign(tree.links.size(), T(0.0));
+    for (const TreePoint<T>& point : tree.points) {
+      T& extent = extent_[point.link];
+      const T own = math::sqrt(dot(point.centre, point.centre)) + point.radius;
+      extent = math::select(own > extent, own, extent);
+    }
   }
 
   /// Fills touching() at the body's present place, to which it has moved for `ahead` seconds at its velocities. With `reach` >
-  /// 0 s also what may come to touch within that time.
+  /// 0 s it also finds elements that may touch within that time.
   void find(const Body<T>& body, double ahead, double reach) {
     touching_.clear();
     std::size_t e = 0;
     for (std::size_t link = 0; link + 1 < first_.size(); ++link) {
       first_[link] = touching_.size();
+      if (e == order_.size() || tree_.points[order_[e]].link != link) continue;
+      const T farthest = reach_of(body, link, reach);
       for (; e < order_.size() && tree_.points[order_[e]].link == link; ++e) {
         const TreePoint<T>& point = tree_.points[order_[e]];
+        if (environment_.plane && !math::any_lane(on_plane(height(body, link, point), point.radius).penetration > -farthest))
+          continue;
         const Touch<T> found = touch(body.point(link, point.centre) + body.origin(), point.radius);
         const Vec<T> x = found.point - body.origin();
         const Vec<T> v = body.velocity(link, x);
@@ -102,13 +112,13 @@ class Contacts {
         const auto near = found.penetration > -gap;
         if (!math::any_lane(near)) continue;
         Contact<T>& c = touching_.emplace_back(contact(order_[e], link, found, x, v, ahead));
-        c.depth = math::select(near, c.depth, T(kFar));  // there for other lanes
+        c.depth = math::select(near, c.depth, T(kFar));  // present because of other lanes
       }
     }
     first_.back() = touching_.size();
   }
 
-  /// Tangents at the start's velocity, for a step of h; 0: the law itself.
+  /// Sets the tangents at the start's velocity, for a step of h; 0: the law itself.
   void begin(double h) {
     for (Contact<T>& c : touching_) {
       const Normal end = h > 0 ? normal(c, c.vn, h) : Normal{c.law.fn, c.law.normal_slope};
@@ -121,7 +131,7 @@ class Contacts {
     }
   }
 
-  /// Loads for Body::solve.
+  /// Loads of a link for Body::solve.
   void load(std::size_t link, typename Body<T>::Load load, double h) const {
     for (std::size_t i = first_[link]; i < first_[link + 1]; ++i) {
       const Contact<T>& c = touching_[i];
@@ -132,21 +142,28 @@ class Contacts {
     }
   }
 
-  /// After Body::solve.
+  /// Takes the result of Body::solve.
   void solved(const Body<T>& body, double h) {
     for (Contact<T>& c : touching_) {
       c.next_change = T(h) * body.change(c.link, c.x);
       c.next_held = c.force(c.next_change);
     }
   }
-  /// In the lanes `which` the iterate moves `share` of the way to the last solve.
+  /// Moves the iterate by `share` of the way to the last solve, in the lanes `which`.
   void move(const math::Mask<T>& which, const T& share) {
     for (Contact<T>& c : touching_) {
       c.change = between(which, share, c.change, c.next_change);
       c.held = between(which, share, c.held, c.next_held);
     }
   }
-  /// Power along the way to the last solve, at `share` of it, that the force taken has beyond the law.
+  /// The same for the whole way.
+  void move(const math::Mask<T>& which) {
+    for (Contact<T>& c : touching_) {
+      c.change = select(which, c.next_change, c.change);
+      c.held = select(which, c.next_held, c.held);
+    }
+  }
+  /// Power along the way to the last solve, at `share` of it, of the solve's forces minus the laws' forces.
   [[nodiscard]] T excess(const T& share, double h) const {
     T sum = 0.0;
     for (const Contact<T>& c : touching_) {
@@ -155,8 +172,8 @@ class Contacts {
     }
     return sum;
   }
-  /// Where the iterate is off a law by more than the tolerance: normal force 0.1 % and 1e-5 N, friction a tenth of f Fn in
-  /// direction and size, or 1e-6 of it across the corner at v_lim (a tighter one costs solves and changes no error).
+  /// Lanes whose iterate misses a law by more than the tolerance: normal force 0.1 % and 1e-5 N, friction a tenth of f Fn in
+  /// direction and size, or 1e-6 of it across the corner at v_lim (a tighter tolerance costs solves and changes no error).
   [[nodiscard]] math::Mask<T> off(double h) const {
     using math::mask_or;
     math::Mask<T> all{};
@@ -179,7 +196,8 @@ class Contacts {
     }
     return all;
   }
-  /// Lanes in which the last solve had more than half of the load on elements that slide, whose friction holds nothing back.
+  /// Lanes in which the last solve had more than half of the load on sliding elements, whose friction does not damp the motion
+  /// along it.
   [[nodiscard]] math::Mask<T> mostly_slide() const {
     T load = 0.0, sliding = 0.0;
     for (const Contact<T>& c : touching_) {
@@ -189,7 +207,7 @@ class Contacts {
     }
     return sliding > T(0.5) * load;
   }
-  /// Tangents at the iterate, in the lanes `which`.
+  /// Sets the tangents at the iterate, in the lanes `which`.
   void touch(const math::Mask<T>& which, double h) {
     using math::select;
     for (Contact<T>& c : touching_) {
@@ -206,15 +224,28 @@ class Contacts {
   [[nodiscard]] std::span<const Contact<T>> touching() const { return touching_; }
 
  private:
-  static constexpr double kFar = -1e9;  ///< m: what no step closes
-  static constexpr double kPull = 100;  ///< m/s^2: what changes an element's velocity in the air, at most: weight and motors
+  static constexpr double kRoom = 1 + 1e-9;
+  static constexpr double kFar = -1e9;  ///< m: depth that no step closes
+  static constexpr double kPull = 100;  ///< m/s^2: largest acceleration of an element in the air, by weight and motors
   static constexpr double kNormalTolerance = 1e-3, kNormalFloor = 1e-5, kFrictionTolerance = 0.1, kCornerTolerance = 1e-6;
   static constexpr double kFrictionFloor = 1e-9;  // N
+
+  /// Largest gap of an element of the link that find() takes, m; with a margin for rounding.
+  [[nodiscard]] T reach_of(const Body<T>& body, std::size_t link, double reach) const {
+    const Vec<T> v = body.velocity(link, body.point(link, {}));
+    const Vec<T>& w = body.turning(link);
+    const T speed = math::sqrt(dot(v, v)) + math::sqrt(dot(w, w)) * extent_[link];
+    return T(kRoom * reach) * speed + T(kRoom * kPull * reach * reach + kRoom - 1);
+  }
+  /// Height of an element's centre, m: the same bits as in find().
+  [[nodiscard]] T height(const Body<T>& body, std::size_t link, const TreePoint<T>& point) const {
+    return body.height(link, point.centre) + body.origin().z;
+  }
 
   struct Normal {
     T fn, slope;
   };
-  /// The normal force where a step of h ends with vn.
+  /// Normal force if a step of h ends with vn.
   [[nodiscard]] Normal normal(const Contact<T>& c, const T& vn, double h) const {
     using math::select;
     const T zero = 0.0;
@@ -229,7 +260,7 @@ class Contacts {
     const auto acts = math::mask_and(down, fn > zero);
     return {select(acts, fn, zero), select(math::mask_and(acts, slope > zero), slope, zero)};
   }
-  /// Of friction, at a tangential velocity.
+  /// Friction force at a tangential velocity.
   [[nodiscard]] Vec<T> friction(const Contact<T>& c, const Vec<T>& v) const {
     const T speed = math::sqrt(dot(v, v));
     return -(c.friction_limit / math::select(speed > environment_.law.v_lim, speed, environment_.law.v_lim)) * v;
@@ -274,7 +305,7 @@ class Contacts {
     return c;
   }
 
-  /// In the lanes `which`: sliding with velocity v of size `speed`, or sticking.
+  /// Sets the friction tangent in the lanes `which`: sliding with velocity v of magnitude `speed`, or sticking.
   void slide(Contact<T>& c, const math::Mask<T>& which, const math::Mask<T>& sliding, const Vec<T>& v, const T& speed) const {
     using math::select;
     const T per_size = math::any_lane(sliding) ? 1.0 / select(sliding, speed, environment_.law.v_lim) : per_v_lim_;
@@ -288,7 +319,8 @@ class Contacts {
   T per_v_lim_;
   std::vector<std::size_t> order_;    // elements by link
   std::vector<Contact<T>> touching_;  // in that order
-  std::vector<std::size_t> first_;    // of each link in touching_, and the end
+  std::vector<std::size_t> first_;    // index in touching_ of each link's first element, and the end
+  std::vector<T> extent_;             // m: largest distance of a link's points from its origin
 };
 
 }  // namespace gaitlab::articulated

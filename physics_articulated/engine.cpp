@@ -19,11 +19,11 @@ using articulated::LaneModel;
 using articulated::Rollout;
 using articulated::vec3;
 
-/// Kernels by the number of rollouts they run side by side.
+/// Kernels by number of rollouts side by side.
 struct Width {
   std::size_t lanes;
   std::unique_ptr<Kernel> (*make)(const KernelSettings&);
-  bool (*runs)();  ///< on this processor
+  bool (*runs)();  ///< whether this processor can run it
 };
 const std::array kWidths{
     Width{1, articulated::make_kernel_1, [] { return true; }},
@@ -39,7 +39,7 @@ std::vector<std::size_t> widths() {
   return all;
 }
 
-/// What the engine offers; the first is its default.
+/// Integrators of the engine; the first is the default.
 struct Offer {
   articulated::Method method;
   const char* name;
@@ -81,19 +81,18 @@ class ArticulatedPlant final : public Plant {
       throw std::invalid_argument("no kernel for so many rollouts side by side on this processor");
     }
     kernel_ = width->make({rollouts, s.actuator, method_of(s.integrator), articulated::query});
+    history_ = kernel_->history().size() * layout_.lanes;
   }
 
-  [[nodiscard]] std::size_t lanes() const override { return layout_.lanes; }
-  [[nodiscard]] std::size_t history() const override { return kernel_->history().size() * layout_.lanes; }
   void bind(Out numbers, Out history) override {
     numbers_ = numbers;
-    history_ = history;
+    kept_ = history;
   }
-  void advance(In command, double h) override { kernel_->step(numbers_, history_, command, h); }
+  void advance(In command, double h) override { kernel_->step(numbers_, kept_, command, h); }
   void tally(std::size_t lane, StepTally& out) const override {
     if (explicit_) return;
     const articulated::History at = kernel_->history();
-    const auto number = [&](std::size_t entry) { return history_[entry * layout_.lanes + lane]; };
+    const auto number = [&](std::size_t entry) { return kept_[entry * layout_.lanes + lane]; };
     out.solves = number(at.solves());
     out.off = number(at.off());
     out.coarse = number(at.coarse());
@@ -106,9 +105,7 @@ class ArticulatedPlant final : public Plant {
     models_[lane]->accelerate(x_, state, torque, wrenches, out);
   }
 
-  bool evaluate_motors(In command, In speed, const Actuator::Electrical& out) override {
-    return kernel_->evaluate_motors(command, speed, out);
-  }
+  [[nodiscard]] MotorLaws* motor_laws() override { return kernel_.get(); }
   void update_contacts() override { kernel_->update_contacts(numbers_); }
   [[nodiscard]] std::optional<Vec3> com(std::size_t lane) const override { return vec3(kernel_->com(lane)); }
 
@@ -119,7 +116,7 @@ class ArticulatedPlant final : public Plant {
     }
   }
 
-  /// The rule is that of the explicit method; what damps acts implicitly in the others, and limits no step.
+  /// The stability rule applies to the explicit method; the others treat damping implicitly and have no limit.
   [[nodiscard]] Stability stability(std::size_t lane, In command, bool standing) override {
     if (!explicit_) return {};
     layout_.read(numbers_, lane, state_);
@@ -131,7 +128,7 @@ class ArticulatedPlant final : public Plant {
   PlantSettings settings_;
   StateLayout layout_;
   bool explicit_;
-  Out numbers_, history_;
+  Out numbers_, kept_;
   std::unique_ptr<Kernel> kernel_;
   std::vector<std::unique_ptr<LaneModel>> models_;
   std::vector<double> x_;
@@ -153,7 +150,7 @@ void register_articulated(Catalog& catalog) {
                      "    implicit      order 1, steps as given by physics.step. The default where a step is given.\n"
                      "    extrapolated  order 2, steps as given: two half steps and a whole one.\n"
                      "    rk4           order 4, explicit; its step must be at most 1 / lambda (docs/equations.md, 7).\n\n"
-                     "The summary tells the error that the steps leave in the torques, by an estimate.",
+                     "The summary gives an estimate of the torque error of the steps.",
                      integrators(), 5e-4, widths(), true,
                      [](const PlantSettings& s) -> std::unique_ptr<Plant> { return std::make_unique<ArticulatedPlant>(s); },
                      0});

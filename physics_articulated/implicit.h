@@ -7,29 +7,31 @@
 
 namespace gaitlab::articulated {
 
-/// What one implicit step did.
+/// Result of one implicit step.
 template <class T>
 struct StepResult {
-  std::vector<T> torque, speed, angle;           ///< of the motors, N m; of the joints at the step's end
+  std::vector<T> torque, speed, angle;           ///< motor torques, N m; joint speeds and angles at the step's end
   T contact = 0.0, friction = 0.0, stops = 0.0;  ///< work of the robot on them, J
-  T hinges = 0.0;                                ///< and on dampers and friction of passive hinges
+  T hinges = 0.0;                                ///< work on dampers and friction of passive hinges, J
   explicit StepResult(std::size_t joints) : torque(joints), speed(joints), angle(joints) {}
 };
 
-/// State: entries as in StateLayout, SI. Nothing allocates after the constructor. The step from (q, v) to (q+, v+) solves
+/// Integrates one step. State: entries as in StateLayout, SI. Only the constructor allocates. The step from (q, v) to (q+, v+)
+/// solves
 ///     M (v+ - v) = h (weight - c + tau(v+) + sum J^T f(v+))        q+ = q (+) h v+
-/// with M, c, J and which elements are near the ground at q (+) h v: for motors, stops and contacts that fall with their speed
-/// the v+ that makes the strictly convex
+/// with M, c, J and the set of elements near the ground at q (+) h v. If motors, stops and contacts fall with their speed, v+
+/// minimises the strictly convex
 ///     phi(v+) = (v+ - v_free)^T M (v+ - v_free) / 2 + h sum of the laws' potentials
-/// least: there is one, for any h. Newton: every law is replaced by its tangent at the iterate, the recursion solves (Body),
-/// and where the whole way to that solution ends uphill, it is gone only as far as phi falls (docs/decisions/0017).
+/// and exists and is unique for any h. Newton's method: every law is replaced by its tangent at the iterate and the recursion
+/// solves (Body); if phi rises at the end of the whole way to that solution, only the part is taken on which phi falls
+/// (decision 17).
 template <class T>
 class Implicit {
  public:
-  static constexpr int kSolves = 100;               ///< of one step; most need 1
+  static constexpr int kSolves = 100;               ///< largest number in one step; most steps need 1
   static constexpr double kTorqueTolerance = 1e-9;  ///< of a motor's largest torque at rest
   static constexpr double kStopTolerance = 1e-9;    ///< N m
-  static constexpr double kRounding = 1e-11;        ///< of the torque of a passive hinge: of q, before K makes it a torque
+  static constexpr double kRounding = 1e-11;  ///< relative rounding of a passive hinge's torque: that of q, times the stiffness
 
   Implicit(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator)
       : body(tree, environment.gravity),
@@ -48,7 +50,7 @@ class Implicit {
     std::copy(inertia.begin(), inertia.end(), math::numbers(std::span<T>(rotor)).begin());
   }
 
-  /// Takes the lanes `which` of x a step further and fills done, solves and off. Held commands: joint * lanes + lane.
+  /// Advances the lanes `which` of x by a step and fills done, solves and off. Held commands: joint * lanes + lane.
   void step(std::span<T> x, In command, double h, const math::Mask<T>& which) {
     std::copy(x.begin(), x.end(), place_.begin());
     drift<T>(place_, h);
@@ -58,7 +60,7 @@ class Implicit {
     solves = T(0.0);
     off = T(0.0);
     unfinished = {};
-    math::Mask<T> open = which;  // lanes in which a law is not met
+    math::Mask<T> open = which;  // lanes in which a law is missed
     for (int solve = 0; math::any_lane(open); ++solve) {
       if (solve == kSolves) {
         unfinished = open;
@@ -67,14 +69,18 @@ class Implicit {
       }
       solves = solves + math::select(open, T(1.0), T(0.0));
       this->solve(h);
-      move(open, solve == 0 ? T(1.0) : share(open, x, command, h));
+      if (solve == 0) {
+        move(open);
+      } else {
+        move(open, share(open, x, command, h));
+      }
       open = math::mask_and(open, misses(x, command, h));
       if (math::any_lane(open)) touch(open, x, h);
     }
     finish(x, h, which);
   }
 
-  /// The laws themselves at x, and the accelerations that they make: for an explicit method.
+  /// Evaluates the laws at x and the resulting accelerations, for an explicit method.
   void evaluate(std::span<const T> x, In command) {
     body.forward_kinematics(x);
     contacts.find(body, 0, 0);
@@ -90,8 +96,8 @@ class Implicit {
     accelerate(0);
   }
   [[nodiscard]] std::span<const T> accelerations() const { return next_.a; }  ///< of evaluate
-  /// After evaluate: W that the robot gives to the ground along its normal, along it, to the stops, and to dampers and friction
-  /// of passive hinges.
+  /// After evaluate: power given to the ground along its normal, along its surface, to the stops, and to dampers and friction
+  /// of passive hinges, W.
   std::array<T, 4> powers(std::span<const T> x) const {
     std::array<T, 4> sum{T(0.0), T(0.0), T(0.0), T(0.0)};
     for (const Contact<T>& c : contacts.touching()) {
@@ -107,7 +113,7 @@ class Implicit {
     return sum;
   }
 
-  /// next_.a from motors and stops, and contacts as they are for a step of h.
+  /// Computes next_.a from motors, stops and contacts with their tangents for a step of h.
   void accelerate(double h) {
     for (std::size_t j = 0; j < joints_; ++j) {
       force_[j] = motors.torque[j] + stop_[j];
@@ -127,12 +133,12 @@ class Implicit {
   Motors<T> motors;
   std::vector<T> rotor;        ///< reflected inertia of each joint, kg m^2
   StepResult<T> done;          ///< of the last step
-  T solves = 0.0;              ///< that the last step needed
-  math::Mask<T> unfinished{};  ///< lanes whose search did not end
-  T off = 0.0;                 ///< motors and stops that it left off their law
+  T solves = 0.0;              ///< number of solves of the last step
+  math::Mask<T> unfinished{};  ///< lanes whose search did not converge
+  T off = 0.0;                 ///< number of motors and stops that the last step left off their law
 
  private:
-  /// Where the search is: accelerations, and the torques that the solve took there.
+  /// Iterate of the search: accelerations, and the torques that the solve took there.
   struct Iterate {
     explicit Iterate(std::size_t joints) : a(6 + joints), torque(joints), stop(joints) {}
     std::vector<T> a, torque, stop;
@@ -141,7 +147,7 @@ class Implicit {
     T torque, slope;
   };
 
-  /// Tangents at the start's speed: that of the last step's end, so that the branch of every law is the last one's.
+  /// Sets the tangents at the speeds at which the last step ended, so that every law begins on the branch of that step.
   void start(std::span<const T> x, In command, double h) {
     const math::Mask<T> all = T(0.0) <= T(0.0);
     motors.linearise(command, speeds(x));
@@ -163,6 +169,16 @@ class Implicit {
     }
   }
 
+  /// The last solve becomes the iterate.
+  void move(const math::Mask<T>& which) {
+    contacts.move(which);
+    const auto go = [&](std::vector<T>& from, const std::vector<T>& to) {
+      for (std::size_t i = 0; i < from.size(); ++i) from[i] = math::select(which, to[i], from[i]);
+    };
+    go(now_.a, next_.a);
+    go(now_.torque, next_.torque);
+    go(now_.stop, next_.stop);
+  }
   void move(const math::Mask<T>& which, const T& share) {
     contacts.move(which, share);
     const auto go = [&](std::vector<T>& from, const std::vector<T>& to) {
@@ -173,8 +189,9 @@ class Implicit {
     go(now_.stop, next_.stop);
   }
 
-  /// d phi / d share on the way from the iterate to the last solve. As the forces taken are linear on it and meet M (v+ - v) at
-  /// both its ends, M itself is not needed: it is the power that the forces taken have beyond the laws.
+  /// d phi / d share on the way from the iterate to the last solve. The solve's forces are linear on this way and balance M (v+
+  /// - v) at both its ends, so that M itself is not needed: the derivative is the power of the solve's forces minus the laws'
+  /// forces.
   T climb(std::span<const T> x, In command, double h, const T& share) {
     for (std::size_t j = 0; j < joints_; ++j) {
       end_[j] = speeds(x)[j] + T(h) * (now_.a[6 + j] + share * (next_.a[6 + j] - now_.a[6 + j]));
@@ -189,8 +206,8 @@ class Implicit {
     return sum;
   }
 
-  /// Share of the way to the last solve to go: all of it unless it ends uphill, else to where phi is level, to 1 % of the slope
-  /// at its start (regula falsi, every third time a bisection).
+  /// Share of the way to the last solve to take: all of it unless phi rises at its end, else up to where phi is level, to 1 %
+  /// of the slope at its start (regula falsi, every third time a bisection).
   T share(const math::Mask<T>& which, std::span<const T> x, In command, double h) {
     using math::select;
     const T zero = 0.0, one = 1.0;
@@ -214,7 +231,7 @@ class Implicit {
     return result;
   }
 
-  /// Lanes in which a law at the iterate's end is not what the solve took; missed_: how many motors and stops.
+  /// Lanes in which a law at the iterate's end differs from the solve's force; missed_: number of such motors and stops.
   math::Mask<T> misses(std::span<const T> x, In command, double h) {
     for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + T(h) * now_.a[6 + j];
     motors.linearise(command, end_);
@@ -222,7 +239,7 @@ class Implicit {
     missed_ = T(0.0);
     for (std::size_t j = 0; j < joints_; ++j) {
       const auto motor = math::abs(motors.law[j] - now_.torque[j]) > kTorqueTolerance * motors.scale[j];
-      // A passive spring may bear torques whose rounding is more than what a stop's may be off.
+      // The rounding of a passive spring's torque may exceed the tolerance of a stop.
       const T allowed = tree_.passive.empty() ? T(kStopTolerance) : T(kStopTolerance) + T(kRounding) * math::abs(now_.stop[j]);
       const auto stop = math::abs(stopped(x, j, end_[j], h).torque - now_.stop[j]) > allowed;
       const auto joint = math::mask_or(motor, stop);
@@ -232,8 +249,8 @@ class Implicit {
     return any;
   }
 
-  /// Tangents at the iterate in the lanes `which`, after misses: of all laws there, those within their tolerance, too, for
-  /// climb is phi's slope only then.
+  /// Sets the tangents at the iterate in the lanes `which`, after misses: of all laws, also of those within their tolerance,
+  /// because climb is the slope of phi only then.
   void touch(const math::Mask<T>& which, std::span<const T> x, double h) {
     using math::select;
     for (std::size_t j = 0; j < joints_; ++j) {
@@ -245,7 +262,7 @@ class Implicit {
     contacts.touch(which, h);
   }
 
-  /// What stop and passive hinge give together where a step of h ends with the speed qd.
+  /// Torque of stop and passive hinge together if a step of h ends with the speed qd.
   Stop stopped(std::span<const T> x, std::size_t j, const T& qd, double h) const {
     Stop both = stop_at_end(x, j, qd, h);
     for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
@@ -258,8 +275,9 @@ class Implicit {
     return both;
   }
 
-  /// A stop's torque where a step of h ends with the speed qd: -ks (q + h qd - q_lim) - cs qd, cut off where it would pull.
-  /// From within the range the damping is its mean over the step, -cs (q + h qd - q_lim) / h: at the end alone it would jump.
+  /// Torque of a stop if a step of h ends with the speed qd: -ks (q + h qd - q_lim) - cs qd, cut off if it would pull. If the
+  /// joint starts within the range, the damping is its mean over the step, -cs (q + h qd - q_lim) / h; the damping at the end
+  /// alone would jump.
   Stop stop_at_end(std::span<const T> x, std::size_t j, const T& qd, double h) const {
     using math::select;
     const T& q = x[StateLayout::kAngles + j];
@@ -279,7 +297,7 @@ class Implicit {
     return BasicHingeStop<T>::at(x[StateLayout::kAngles + j], speeds(x)[j], tree_.lo[j], tree_.hi[j]);
   }
 
-  /// The iterate becomes the state; works at the mean of the velocities that the step joins.
+  /// Writes the iterate into the state; works use the mean of the velocities at start and end of the step.
   void finish(std::span<T> x, double h, const math::Mask<T>& which) {
     done.contact = done.friction = done.stops = done.hinges = T(0.0);
     for (const Contact<T>& c : contacts.touching()) {
@@ -306,7 +324,7 @@ class Implicit {
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, done.angle.begin());
   }
 
-  /// What the solve took for stop and passive hinge together, into the stop's own torque and the work on the hinge.
+  /// Splits the torque of stop and passive hinge that the solve took into the stop's torque and the work on the hinge.
   void finish_hinge(std::size_t k, std::span<const T> x, double h) {
     const std::size_t j = tree_.passive[k];
     const T end = speeds(x)[j] + T(h) * now_.a[6 + j];
@@ -318,7 +336,7 @@ class Implicit {
 
   const Tree<T>& tree_;
   std::size_t joints_;
-  std::vector<T> passive_;  ///< torques of passive hinges, as evaluate finds them
+  std::vector<T> passive_;  ///< torques of passive hinges, from evaluate
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
   Iterate now_, next_;
   T missed_ = 0.0;

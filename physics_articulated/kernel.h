@@ -1,21 +1,21 @@
-// Steps of rollouts side by side; one implementation a width and instruction set.
+// Steps of rollouts side by side; one implementation per width and instruction set.
 #pragma once
 #include <memory>
 #include <span>
 
-#include "core/plugin/actuator.h"
+#include "core/simulation/motor_laws.h"
 #include "physics_articulated/stepper.h"
 
 namespace gaitlab::articulated {
 
-/// One rollout's constants; `ground` outlives the kernel.
+/// Constants of one rollout; `ground` outlives the kernel.
 struct Rollout {
   Tree<double> tree;
   Vec<double> gravity;
   PenaltyContact law;
   bool plane = true;
   double friction = 0;  ///< of the plane
-  double accuracy = 0;  ///< of torques, relative
+  double accuracy = 0;  ///< relative accuracy of torques
   const Ground* ground = nullptr;
 };
 
@@ -27,22 +27,21 @@ struct ContactForce {
   Touch<double> touch;
 };
 
-class Kernel {
+class Kernel : public MotorLaws {
  public:
   virtual ~Kernel() = default;
   /// As Plant::advance; history: as Plant::history.
   virtual void step(Out state, Out history, In command, double h) = 0;
   [[nodiscard]] virtual History history() const = 0;  ///< of a rollout
   [[nodiscard]] virtual StepEffort applied() const = 0;
-  virtual bool evaluate_motors(In command, In speed, const Actuator::Electrical& out) = 0;
   /// Takes the state for what follows, all lanes at once.
   virtual void update_contacts(In state) = 0;
-  /// Those that touch, in the order of the elements; valid up to the next call.
+  /// Forces of the touching elements, in the order of the elements; valid until the next call.
   virtual std::span<const ContactForce> contact_forces(std::size_t lane) = 0;
   virtual Vec<double> com(std::size_t lane) = 0;  ///< world, m
 };
 
-/// What a kernel is made of: rollouts that are alike, as many as its width; actuator: joint * lanes + lane.
+/// Input of a kernel: rollouts of the same structure, as many as its width; actuator: joint * lanes + lane.
 struct KernelSettings {
   std::span<const Rollout> rollouts;
   const Actuator* actuator = nullptr;

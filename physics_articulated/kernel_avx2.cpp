@@ -1,5 +1,5 @@
-// Four rollouts per step, for processors with AVX2. Nothing that another file uses, too, may be compiled here: the linker would
-// take either.
+// Four rollouts per step, for processors with AVX2. No function that another file compiles also may be compiled here: the
+// linker would take either.
 #include <immintrin.h>
 
 #include "core/math/doubles.h"

@@ -1,5 +1,5 @@
-// Eight rollouts per step, for processors with AVX-512. Nothing that another file uses, too, may be compiled here: the linker
-// would take either.
+// Eight rollouts per step, for processors with AVX-512. No function that another file compiles also may be compiled here: the
+// linker would take either.
 #include <immintrin.h>
 
 #include "core/math/doubles.h"

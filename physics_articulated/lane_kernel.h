@@ -1,4 +1,4 @@
-// The kernel over a scalar T. Included by one translation unit a width, compiled for its processor.
+// The kernel over a scalar T. Included by one translation unit per width, compiled for its processor.
 #pragma once
 #include <algorithm>
 
@@ -40,6 +40,10 @@ class LaneKernel final : public Kernel {
 
   bool evaluate_motors(In command, In speed, const Actuator::Electrical& out) override {
     return stepper_.implicit.motors.evaluate(command, speed, out);
+  }
+
+  bool evaluate_available(In speed, In torque, Out available) override {
+    return stepper_.implicit.motors.available(speed, torque, available);
   }
 
   void update_contacts(In state) override {

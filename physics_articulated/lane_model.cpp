@@ -7,7 +7,7 @@
 namespace gaitlab::articulated {
 
 Touch<double> query(const Ground& ground, const Vec<double>& centre, double radius) {
-  if (ground.kind == Ground::Kind::none) return {-1, {}, {}, 0};
+  if (!ground.exists()) return {-1, {}, {}, 0};
   const Ground::Touch touch = ground.query(vec3(centre), radius);
   return {touch.penetration, vec(touch.normal), vec(touch.point), touch.friction};
 }
@@ -16,7 +16,7 @@ Rollout rollout(const LaneSettings& lane, Base base) {
   return {tree(*lane.robot, base, lane.contacts),
           vec(lane.gravity),
           lane.law,
-          lane.ground.kind == Ground::Kind::plane,
+          lane.ground.is_plane(),
           lane.ground.friction,
           lane.accuracy,
           &lane.ground};

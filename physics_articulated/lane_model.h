@@ -1,27 +1,27 @@
-// One rollout of several, by itself: what is asked of it apart from steps.
+// One rollout of several by itself: its queries apart from steps.
 #pragma once
 #include "core/simulation/stability.h"
 #include "physics_articulated/kernel.h"
 
 namespace gaitlab::articulated {
 
-/// Ground::query for the kernels.
+/// Ground::query, for the kernels.
 Touch<double> query(const Ground& ground, const Vec<double>& centre, double radius);
 
-/// What a kernel needs of a lane; the settings outlive it.
+/// Constants of a lane for the kernel; the settings outlive it.
 Rollout rollout(const LaneSettings& lane, Base base);
 
 class LaneModel final : private InverseMass {
  public:
   LaneModel(const PlantSettings& settings, const LaneSettings& own, std::size_t lane, std::size_t lanes);
 
-  /// As Plant has them; x: the lane's numbers alone.
+  /// As in Plant; x: the lane's numbers alone.
   void accelerate(In x, const RobotState& state, In torque, std::span<const BodyWrench> wrenches, Acceleration& out);
   [[nodiscard]] Stability stability(In x, const RobotState& state, In command, bool standing);
 
  private:
   void apply(In force, Out acceleration) override { body_.respond(force, acceleration); }
-  /// The lane's part of what the actuator says of all.
+  /// Evaluates the actuator for all lanes and takes this lane's part.
   void ask(In command, In speed);
 
   const PlantSettings& settings_;
@@ -32,7 +32,7 @@ class LaneModel final : private InverseMass {
   Body<double> body_;
   Contacts<double> contacts_;
   std::vector<double> rotor_, a_, zero_;
-  std::vector<double> command_, speed_, torque_, slope_;  // of all lanes: joint * lanes + lane
+  std::vector<double> command_, speed_, torque_, slope_;  // all lanes: joint * lanes + lane
   Kinematics kinematics_;
   RateMonitor monitor_;
 };

@@ -1,4 +1,4 @@
-// How a state's positions follow from its velocities, over a scalar T. State: entries as in StateLayout, SI.
+// Integration of positions from velocities, over a scalar T. State: entries as in StateLayout, SI.
 #pragma once
 #include <span>
 
@@ -12,7 +12,7 @@ namespace gaitlab::articulated {
 template <class T>
 void turn(std::span<const T> x, const T& w, const Vec<T>& v, std::span<T> out) {
   constexpr std::size_t o = StateLayout::kOrientation;
-  const T& qw = x[o];  // out may be x: last read where it is overwritten
+  const T& qw = x[o];  // out may be x: each entry is read for the last time where it is overwritten
   const Vec<T> q{x[o + 1], x[o + 2], x[o + 3]};
   const Vec<T> turned = w * q + qw * v + cross(v, q);
   out[o] = w * qw - dot(v, q);

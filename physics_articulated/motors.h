@@ -1,8 +1,9 @@
-// The motors of a step, over a scalar T: their law at any speed, and the tangent of it that a solve takes.
+// The motors of a step, over a scalar T: their law at any speed, and its tangent for a solve.
 #pragma once
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,12 +12,12 @@
 
 namespace gaitlab::articulated {
 
-/// DC motors (Actuator::dc_motors) are evaluated here, lanes at once; others through their plugin. Commands: joint * lanes +
-/// lane. Torques N m, slopes -dT/dw, N m s/rad.
+/// Evaluates motors. DC motors (Actuator::dc_motors) are computed here, all lanes at once; others by their plugin. Commands:
+/// joint * lanes + lane. Torques N m, slopes -dT/dw, N m s/rad.
 template <class T>
 class Motors {
  public:
-  /// passive: joints without a motor, whose DC motor counts as one without voltage and without torque.
+  /// passive: joints without a motor, which are DC motors with neither voltage nor torque here.
   Motors(const Actuator* actuator, std::size_t joints, std::span<const std::size_t> passive)
       : law(joints),
         law_slope(joints),
@@ -53,7 +54,7 @@ class Motors {
 
   [[nodiscard]] bool any() const { return actuator_ != nullptr; }
 
-  /// Fills law and law_slope at these speeds.
+  /// Computes law and law_slope at these speeds.
   void linearise(In command, std::span<const T> speed) {
     if (actuator_ != nullptr && dc_.empty()) actuator_->effort(command, math::numbers(speed), numbers(law), numbers(law_slope));
     for (std::size_t j = 0; j < dc_.size(); ++j) {
@@ -63,19 +64,20 @@ class Motors {
     }
   }
 
-  /// In the lanes `which`, after linearise at `end`: the tangent there, as a solve from the speed `start` takes it. A slope
-  /// below 0, which no actuator should have, counts as 0: the solve keeps a solution, and what its end is off the law is told.
+  /// Sets the tangent at `end`, after linearise there, as a solve from the speed `start` takes it; in the lanes `which`. A
+  /// slope below 0, which no actuator should have, counts as 0: the solve keeps a solution, and the deviation from the law at
+  /// its end is counted.
   void touch(std::size_t j, const math::Mask<T>& which, const T& start, const T& end) {
     const T falls = math::select(law_slope[j] > T(0.0), law_slope[j], T(0.0));
     slope[j] = math::select(which, falls, slope[j]);
     torque[j] = math::select(which, law[j] + falls * (end - start), torque[j]);
   }
 
-  /// Lanes in which the tangent at the last solve is that of a motor at its limit, which damps no speed: a slope below a tenth
-  /// of that at rest. None of a passive joint or of an actuator without a slope.
+  /// Lanes in which the tangent of the last solve is that of a motor at its limit, which damps no speed: its slope is below a
+  /// tenth of the slope at rest. False for a passive joint and an actuator without a slope.
   [[nodiscard]] math::Mask<T> at_limit(std::size_t j) const { return slope[j] < least_slope_[j]; }
 
-  /// Actuator::electrical of DC motors; false: they are none.
+  /// Actuator::electrical of DC motors; false: the motors are not DC motors.
   bool evaluate(In command, In speed, const Actuator::Electrical& out) const {
     for (std::size_t j = 0; j < dc_.size(); ++j) {
       const auto e = dc_[j](of_joint(command, j), of_joint(speed, j));
@@ -89,14 +91,29 @@ class Motors {
     return !dc_.empty();
   }
 
-  std::vector<T> law, law_slope;  ///< what linearise found
-  std::vector<T> torque, slope;   ///< as a solve takes them: torque - slope (w - w_start)
-  std::vector<T> scale;           ///< largest torque at rest; 1 where there is no limit to it
-  std::vector<T> per_speed;       ///< by which an error of the speed is judged: the slope at rest, else scale / kSpeed
+  /// Largest torque of DC motors at these speeds in the direction of these torques, N m; infinity for motors without a largest
+  /// voltage; false: the motors are not DC motors.
+  bool available(In speed, In torque_now, Out most) const {
+    const T infinity = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < dc_.size(); ++j) {
+      const auto backward = of_joint(torque_now, j) < T(0.0);
+      const auto limited = dc_[j].u_max < infinity;
+      const T largest = math::select(limited, dc_[j].u_max, T(0.0));
+      const T there = dc_[j](math::select(backward, -largest, largest), of_joint(speed, j)).torque;
+      store(math::select(limited, math::select(backward, -there, there), infinity), j, most);
+    }
+    return !dc_.empty();
+  }
+
+  std::vector<T> law, law_slope;  ///< results of linearise
+  std::vector<T> torque, slope;   ///< linear torque model of a solve: torque - slope (w - w_start)
+  std::vector<T> scale;           ///< largest torque at rest; 1 if it has no limit
+  std::vector<T> per_speed;       ///< torque per speed error: the slope at rest, else scale / kSpeed
 
  private:
-  static constexpr double kSpeed = 3;    ///< rad/s: about what motors of modules run at
-  static constexpr double kSlope = 0.1;  ///< of the slope at rest: a directional gear changes it by less, a limit by all of it
+  static constexpr double kSpeed = 3;  ///< rad/s: typical speed of modules' motors
+  static constexpr double kSlope =
+      0.1;  ///< share of the slope at rest: a directional gear changes the slope by less, a limit by all of it
 
   void find_scale() {
     const In limit = actuator_->command_limit();
@@ -123,9 +140,9 @@ class Motors {
     std::copy_n(math::numbers(std::span<const T>(&value, 1)).begin(), math::kLanes<T>, to.data() + j * math::kLanes<T>);
   }
 
-  std::vector<T> least_slope_;  // of a motor that is not at its limit; 0: there is none
+  std::vector<T> least_slope_;  // least slope of a motor that is not at its limit; 0: it has no slope
   const Actuator* actuator_;
-  std::vector<BasicDcMotor<T>> dc_;  // empty: asks the actuator
+  std::vector<BasicDcMotor<T>> dc_;  // empty: the actuator plugin is called
 };
 
 }  // namespace gaitlab::articulated

@@ -1,10 +1,10 @@
-// Six-vectors in world axes about the origin of the base frame, where all inertias and forces add up as they are.
+// Six-vectors in world axes about the origin of the base frame, so that inertias and forces are added unchanged.
 #pragma once
 #include "physics_articulated/vector.h"
 
 namespace gaitlab::articulated {
 
-/// Angular part; velocity (or acceleration) of the point of the body that is at the origin.
+/// Angular velocity; velocity (or acceleration) of the body's point at the origin.
 template <class T>
 struct Motion {
   Vec<T> w, v;
@@ -74,7 +74,7 @@ struct Inertia {
   }
 };
 
-/// Inertia about the origin of a body with COM c, first moment h = m c and that inertia about its COM.
+/// Inertia about the origin, of a body with COM c, first moment h = m c and the given inertia about its COM.
 template <class T>
 Sym<T> about(const Vec<T>& c, const Vec<T>& h, Sym<T> about_com) {
   const T hc = dot(h, c);
@@ -87,7 +87,7 @@ Inertia<T> rigid(const T& mass, const Vec<T>& h, const Sym<T>& about_origin) {
   return {about_origin, {{zero, h.z, -h.y}, {-h.z, zero, h.x}, {h.y, -h.x, zero}}, {mass, mass, mass, zero, zero, zero}};
 }
 
-/// What a slope G of a force against the velocity of the point x does: force -G v(x), that is, as an inertia would resist.
+/// Inertia with the effect of a slope G of a force against the velocity of the point x: the force is -G v(x).
 template <class T>
 Inertia<T> resistance(const Vec<T>& x, const Sym<T>& G) {
   const Mat<T> W{cross(x, Vec<T>{G.xx, G.xy, G.xz}), cross(x, Vec<T>{G.xy, G.yy, G.yz}), cross(x, Vec<T>{G.xz, G.yz, G.zz})};

@@ -2,39 +2,43 @@
 #pragma once
 #include <algorithm>
 
+#include "core/math/runge_kutta.h"
 #include "physics_articulated/implicit.h"
 
 namespace gaitlab::articulated {
 
 enum class Method { adaptive, implicit, extrapolated, rk4 };
 
-/// What a step left behind at one moment within it, and how it counts.
+/// Motors and works at one moment within a step, with the moment's weights.
 template <class T>
 struct Part : StepResult<T> {
   using StepResult<T>::StepResult;
-  math::Mask<T> lanes{};  ///< whose moment it is
-  double h = 0;           ///< s that it stands for, alone; 0: the start, where a new command is met
-  T sum = 0.0;            ///< weight in integrals, s: Richardson's, which may be negative
+  math::Mask<T> lanes{};  ///< lanes with this moment
+  double h = 0;           ///< length of the part that it represents, s; 0: the start, under the new command
+  T sum = 0.0;            ///< weight in integrals, s: from Richardson's extrapolation, may be negative
   T share = 0.0;          ///< weight in shares of time, s
-  T off = 0.0;            ///< motors and stops that it left off their law
+  T off = 0.0;            ///< number of motors and stops off their law
 };
 
-/// Numbers that a rollout keeps between steps beside its state: an entry per joint, then single ones.
+/// Layout of the numbers that a rollout keeps between steps beside its state: an entry per joint, then single ones.
 struct History {
   std::size_t joints = 0;
-  [[nodiscard]] std::size_t peak() const { return 0; }  ///< of a joint: largest motor torque at the end of a step so far, N m
+  [[nodiscard]] std::size_t peak() const { return 0; }  ///< per joint: largest motor torque at the end of a step so far, N m
   [[nodiscard]] std::size_t solves() const { return joints; }
   [[nodiscard]] std::size_t off() const { return joints + 1; }     ///< motors and stops that a step left off their law
-  [[nodiscard]] std::size_t coarse() const { return joints + 2; }  ///< s that shortest steps took beyond the accuracy
+  [[nodiscard]] std::size_t coarse() const { return joints + 2; }  ///< s in which the shortest steps exceeded the accuracy
   [[nodiscard]] std::size_t size() const { return joints + 3; }
 };
 
-/// State: entries as in StateLayout, SI. Nothing allocates after the constructor, but where a search does not end.
+/// Advances the state by one step. State: entries as in StateLayout, SI. Only the constructor allocates, except if a search
+/// does not converge, and if a step of a robot of more than about 1000 joints (300 in four lanes) is divided further than any
+/// before.
 ///
 /// implicit (order 1): one implicit step (implicit.h). extrapolated (order 2): 2 x(two steps of h / 2) - x(one step of h),
-/// Richardson. adaptive: that, where its error estimate is within the accuracy, else x(h)/3 - 2 x(h/2) + 8/3 x(h/4) (order 3),
+/// Richardson. adaptive: the same if its error estimate is within the accuracy, else x(h)/3 - 2 x(h/2) + 8/3 x(h/4) (order 3),
 /// else two such steps of half the length. rk4 (order 4, explicit): the classical method on the whole state, for h lambda <= 1.
-/// A search that does not end takes the step in two halves, those lanes alone, down to h / 64; what is left then is counted.
+/// If a search does not converge, the step is taken in two halves, in those lanes alone, down to h / 64; joints still off their
+/// law are counted.
 template <class T>
 class Stepper {
  public:
@@ -49,7 +53,8 @@ class Stepper {
     for (auto* state : {&sum_, &stage_, &rate_}) *state = zero;
     levels_.assign(kLevels, {zero, zero, zero});
     halved_.assign(kHalvings, zero);
-    parts_.assign(method == Method::adaptive ? kMostParts : 4, Part<T>(joints_));
+    parts_.assign(method == Method::adaptive ? std::clamp<std::size_t>(kRoom / size_of_part(), 8, kMostParts) : 4,
+                  Part<T>(joints_));
   }
 
   /// Held commands: joint * lanes + lane.
@@ -68,9 +73,9 @@ class Stepper {
     close();
   }
 
-  /// The numbers to go on from; entries as in History.
+  /// Numbers kept from step to step; entries as in History.
   std::span<T> history() { return history_; }
-  [[nodiscard]] std::size_t most_parts() const { return parts_.size(); }  ///< but where a search does not end
+  [[nodiscard]] std::size_t most_parts() const { return parts_.size(); }  ///< largest number of parts if every search converges
   [[nodiscard]] std::span<const Part<T>> parts() const { return {parts_.data(), used_}; }
 
   Implicit<T> implicit;
@@ -79,23 +84,27 @@ class Stepper {
 
  private:
   static constexpr std::size_t kLevels = 7;    ///< lengths of an adaptive step: h to h / 64
-  static constexpr std::size_t kHalvings = 6;  ///< of a step whose search does not end
-  // What two orders may differ by, in units of the accuracy: chosen, with the base's speeds, as the least that brings the gaits
-  // and limits of docs/validation.md within the accuracy.
+  static constexpr std::size_t kHalvings = 6;  ///< depth of halving a step whose search does not converge
+  // Largest allowed difference of two orders, in units of the accuracy: with the base's speeds the least strict values that
+  // bring the gaits and limits of docs/validation.md within the accuracy.
   static constexpr double kSecondOrder = 1, kThirdOrder = 2;
-  static constexpr double kBaseSpeed = 0.02, kBaseTurn = 0.2;  ///< m/s, rad/s: what the base's differences are relative to
-  // Where an error of speed is not damped it becomes an error of place, and shows in a torque long after the step that made it.
-  static constexpr double kAtLimit = 0.25;  ///< of the tolerance of a joint whose motor is at its limit
-  static constexpr double kLoose = 0.5;     ///< of the base's where a motor is at its limit, or most of the load slides
-  static constexpr double kFloor = 0.01;    ///< of the largest torque at rest: what the accuracy is relative to at least
+  static constexpr double kBaseSpeed = 0.02, kBaseTurn = 0.2;  ///< m/s, rad/s: scales of the base's differences
+  // An undamped error of speed becomes an error of position, and shows in a torque long after the step that
+  // caused it.
+  static constexpr double kAtLimit = 0.25;  ///< factor on the tolerance of a joint whose motor is at its limit
+  static constexpr double kLoose =
+      0.5;  ///< factor on the base's tolerance if a motor is at its limit or most of the load slides
+  static constexpr double kFloor = 0.01;  ///< share of the largest torque at rest: least scale of the accuracy
 
   static constexpr std::size_t kMostParts = 1 + 7 * ((std::size_t{1} << kLevels) - 1);
+  static constexpr std::size_t kRoom = 32 << 20;  ///< bytes of parts that the constructor allocates
+  [[nodiscard]] std::size_t size_of_part() const { return sizeof(Part<T>) + 3 * joints_ * sizeof(T); }
 
   struct Level {
     std::vector<T> start, whole, quarters;
   };
 
-  /// What motors give at the start, under the command that may be new: peaks are there.
+  /// Adds the motors' torques at the start under the possibly new command, which may be peaks.
   void take_start(std::span<const T> x, In command) {
     implicit.motors.linearise(command, implicit.speeds(x));
     Part<T>& part = add_part();
@@ -114,7 +123,7 @@ class Stepper {
     return part;
   }
 
-  /// One implicit step of the lanes `which`; parts are added.
+  /// Takes one implicit step of the lanes `which` and adds its parts.
   void settle(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t halvings = 0) {
     if (halvings < kHalvings) std::copy(x.begin(), x.end(), halved_[halvings].begin());
     implicit.step(x, command, h, which);
@@ -131,7 +140,8 @@ class Stepper {
     for (int half = 0; half < 2; ++half) settle(x, command, h / 2, again, halvings + 1);
   }
 
-  /// Richardson's weight of the parts since `from` up to `to` in the lanes `which`; `finest`: they stand for the motion.
+  /// Adds Richardson's weight to the parts from `from` up to `to` in the lanes `which`; `finest`: these parts represent the
+  /// motion.
   void weigh(std::size_t from, std::size_t to, const math::Mask<T>& which, double weight, bool finest) {
     for (std::size_t i = from; i < to; ++i) {
       Part<T>& part = parts_[i];
@@ -146,9 +156,9 @@ class Stepper {
     weigh(1, used_, which, 1, true);
   }
 
-  /// Lanes in which no speed differs by more than `share` of the accuracy: of a joint, as a torque, relative to its largest
-  /// torque so far; of the base relative to kBaseSpeed and kBaseTurn, for what it does shows in the torques only later. Both
-  /// by the state in which the last solve left the lane.
+  /// Lanes in which no speed differs by more than `share` of the accuracy: for a joint as a torque, relative to its largest
+  /// torque so far; for the base relative to kBaseSpeed and kBaseTurn, because its errors show in the torques only later. Both
+  /// use the state in which the last solve left the lane.
   template <class Difference>
   math::Mask<T> within(double share, const math::Mask<T>& which, Difference difference) {
     math::Mask<T> within = which;
@@ -173,14 +183,14 @@ class Stepper {
     return within;
   }
 
-  /// Lanes that are numbers: no length of step brings the others back.
+  /// Lanes whose state is finite: no shorter step brings the others back.
   static math::Mask<T> finite(std::span<const T> x) {
     T sum = 0.0;
     for (const T& one : x) sum = sum + T(0.0) * one;
     return sum <= T(0.0);
   }
 
-  /// A step of h of the lanes `which`. Level kLevels: second order, whatever its error.
+  /// Takes a step of h of the lanes `which`. Level kLevels: second order, whatever its error.
   void adapt(std::span<T> x, In command, double h, const math::Mask<T>& which, std::size_t level) {
     using math::select;
     const bool fixed = level == kLevels;
@@ -223,11 +233,11 @@ class Stepper {
     for (std::size_t e = 0; e < x.size(); ++e) x[e] = select(taken, whole[e], start[e]);
     const auto shorter = math::mask_and(math::fresh(which, taken), finite(start));
     if (!math::any_lane(shorter)) return;
-    if (!math::any_lane(taken)) used_ = first;  // parts that count for nobody
+    if (!math::any_lane(taken)) used_ = first;  // no lane uses these parts
     for (int i = 0; i < 2; ++i) adapt(x, command, h / 2, shorter, level + 1);
   }
 
-  /// Sums over the parts, and peaks.
+  /// Computes sums over the parts, and peaks.
   void close() {
     for (std::size_t i = 0; i < used_; ++i) {
       const Part<T>& part = parts_[i];
@@ -259,8 +269,8 @@ class Stepper {
   }
 
   void runge_kutta(std::span<T> x, In command, double h) {
-    constexpr std::array<double, 4> kWeight{1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
-    constexpr std::array<double, 4> kReach{0.5, 0.5, 1.0, 0.0};
+    constexpr auto kWeight = math::RungeKutta::kWeight;
+    constexpr auto kReach = math::RungeKutta::kReach;
     std::copy(x.begin(), x.end(), stage_.begin());
     std::copy(x.begin(), x.end(), sum_.begin());
     Part<T>& part = add_part();

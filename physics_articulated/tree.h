@@ -1,4 +1,4 @@
-// The robots of the lanes as the recursion wants them: links whose joint axis is the z of their frame.
+// Robots of the lanes in the form of the recursion: each link's frame has its joint axis as z.
 #pragma once
 #include <span>
 #include <vector>
@@ -16,32 +16,32 @@ namespace gaitlab::articulated {
 
 template <class T>
 struct TreeLink {
-  std::size_t parent = 0, joint = 0;  ///< of links 1..
+  std::size_t parent = 0, joint = 0;  ///< links 1.. have them
   bool leaf = true;                   ///< has no children
-  bool last_child = false;            ///< of its parent
-  Mat<T> at_zero;                     ///< own axes in the parent's at joint angle 0
-  Vec<T> origin;                      ///< of the own frame, in the parent's, m
+  bool last_child = false;            ///< the last child of its parent
+  Mat<T> at_zero;                     ///< link axes in the parent's at joint angle 0
+  Vec<T> origin;                      ///< origin of the link's frame in the parent's, m
   T mass = 0.0;
-  Vec<T> com;      ///< own frame, m
-  Sym<T> inertia;  ///< about the COM, own axes, kg m^2
+  Vec<T> com;      ///< link frame, m
+  Sym<T> inertia;  ///< about the COM, link axes, kg m^2
 };
 
 template <class T>
 struct TreePoint {
   std::size_t link = 0;
-  Vec<T> centre;  ///< own frame of the link, m
+  Vec<T> centre;  ///< link frame, m
   T radius = 0.0;
 };
 
-/// Constants of one robot a lane; links, joints and points are the same ones in all lanes, their numbers may differ.
+/// Constants of the lanes' robots; all lanes have the same links, joints and points, with possibly different numbers.
 template <class T>
 struct Tree {
   Base base = Base::floating;
   std::vector<TreeLink<T>> links;            ///< a parent before its children
-  std::vector<TreePoint<T>> points;          ///< one a contact element
-  std::vector<T> lo, hi;                     ///< range of each joint, rad; infinite: it turns freely
+  std::vector<TreePoint<T>> points;          ///< one per contact element
+  std::vector<T> lo, hi;                     ///< range of each joint, rad; infinite: no stop
   std::vector<std::size_t> passive;          ///< joints without a motor
-  std::vector<BasicPassiveHinge<T>> hinges;  ///< theirs
+  std::vector<BasicPassiveHinge<T>> hinges;  ///< of these joints
 };
 
 Tree<double> tree(const Robot& robot, Base base, const std::vector<ContactElement>& contacts);
@@ -72,7 +72,7 @@ void put(Sym<T>& to, std::size_t lane, const Sym<double>& from) {
   put(to.yz, lane, from.yz);
 }
 
-/// One tree a lane, alike.
+/// Joins the trees of the lanes, which have the same structure.
 template <class T>
 Tree<T> side_by_side(std::span<const Tree<double>* const> lanes) {
   const Tree<double>& first = *lanes[0];

@@ -1,5 +1,5 @@
-// Vectors and matrices of three over a scalar T, a double or lanes. Not Eigen's: those add up in another order where they can
-// use packets, and a rollout must give the same bits alone and beside seven others.
+// Vectors and matrices of three over a scalar T, a double or lanes. Not Eigen's, which add up in another order where they can
+// use packets: a rollout must give the same bits alone and beside seven others.
 #pragma once
 #include "core/math/lanes.h"
 
@@ -31,13 +31,13 @@ Vec<T> select(const math::Mask<T>& mask, const Vec<T>& yes, const Vec<T>& no) {
   return {math::select(mask, yes.x, no.x), math::select(mask, yes.y, no.y), math::select(mask, yes.z, no.z)};
 }
 
-/// In the lanes `which`: `share` of the way from one to the other, which is reached exactly where the share is 1.
+/// Moves from one to the other by `share` of the way, exactly to the other if the share is 1; in the lanes `which`.
 template <class V, class T>
 V between(const math::Mask<T>& which, const T& share, const V& from, const V& to) {
   return select(which, select(share == T(1.0), to, from + share * (to - from)), from);
 }
 
-/// By columns: the axes of a frame.
+/// Matrix by columns: the axes of a frame.
 template <class T>
 struct Mat {
   Vec<T> x, y, z;
@@ -49,7 +49,7 @@ struct Mat {
   friend Mat operator*(const Mat& R, const Mat& b) { return {R * b.x, R * b.y, R * b.z}; }
 };
 
-/// Symmetric.
+/// Symmetric matrix.
 template <class T>
 struct Sym {
   T xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
@@ -76,7 +76,7 @@ Sym<T> turned(const Mat<T>& R, const Sym<T>& s) {
           x.x * R.x.z + y.x * R.y.z + z.x * R.z.z, x.y * R.x.z + y.y * R.y.z + z.y * R.z.z};
 }
 
-/// Of a quaternion of any length but 0.
+/// Rotation matrix of a quaternion of any length but 0.
 template <class T>
 Mat<T> rotation(T w, T x, T y, T z) {
   const T s = 2.0 / (w * w + x * x + y * y + z * z);

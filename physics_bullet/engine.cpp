@@ -14,6 +14,7 @@
 #include "core/laws/hinge_stop.h"
 #include "core/laws/passive_hinge.h"
 #include "core/simulation/stability.h"
+#include "core/simulation/step_advice.h"
 #include "physics_bullet/multibody.h"
 #include "physics_bullet/solver_plant.h"
 
@@ -22,6 +23,7 @@ namespace gaitlab {
 namespace {
 
 constexpr const char* kRk4 = "rk4";
+constexpr double kLongestBulletStep = 5e-5;  // s: a longer step costs a fast gait more than 1 % error of its torques
 
 bool has_rotors(const Actuator* actuator) {
   const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
@@ -55,7 +57,6 @@ class BulletPlant final : public Plant, private InverseMass {
     if (has_rotors(s.actuator)) rotors_.emplace(robot_, s.base, s.actuator->reflected_inertia());
   }
 
-  [[nodiscard]] std::size_t lanes() const override { return 1; }
   void bind(Out numbers, Out) override { numbers_ = numbers; }
 
   void advance(In command, double h) override {
@@ -95,7 +96,6 @@ class BulletPlant final : public Plant, private InverseMass {
     accelerate(state, out);
   }
 
-  [[nodiscard]] std::optional<Vec3> com(std::size_t) const override { return {}; }
   void contacts(std::size_t, std::span<ContactSample> out) const override {
     layout_.read(numbers_, 0, state_);
     kinematics_.update(robot_, state_);
@@ -106,7 +106,7 @@ class BulletPlant final : public Plant, private InverseMass {
   [[nodiscard]] Stability stability(std::size_t, In command, bool standing) override {
     layout_.read(numbers_, 0, state_);
     evaluate(state_, command);
-    accelerate(state_, acceleration_);  // factorises the mass matrix for apply
+    accelerate(state_, acceleration_);  // factorises the mass matrix, which apply needs
     if (standing && settings_.actuator != nullptr) settings_.actuator->effort(at_rest_, at_rest_, torque_, slope_);
     std::copy(slope_.begin(), slope_.end(), monitor_.motor.begin());
     return monitor_.rule(settings_, settings_.base, kinematics_, state_, standing, settings_.step, *this, [&] {
@@ -127,7 +127,7 @@ class BulletPlant final : public Plant, private InverseMass {
     }
   }
 
-  /// Under all forces gathered so far.
+  /// Accelerations under all forces gathered so far.
   void accelerate(const RobotState& state, Acceleration& out) {
     body_.accelerate(state, out);
     if (!rotors_) return;
@@ -139,7 +139,7 @@ class BulletPlant final : public Plant, private InverseMass {
     return HingeStop::at(state.q[j], state.qd[j], robot_.joints[j].lo, robot_.joints[j].hi);
   }
 
-  /// What one element in contact finds.
+  /// Geometry and velocities of one element in contact.
   struct Contact {
     std::size_t element, link;
     Ground::Touch touch;
@@ -150,10 +150,10 @@ class BulletPlant final : public Plant, private InverseMass {
     [[nodiscard]] Vec3 world() const { return force.fn * touch.normal - force.friction_slope * vt; }
   };
 
-  /// Contacts at the present kinematics.
+  /// Visits the contacts at the present kinematics.
   template <class Visit>
   void for_each_contact(Visit&& visit) const {
-    if (settings_.ground.kind == Ground::Kind::none) return;
+    if (!settings_.ground.exists()) return;
     body_.for_each_element(kinematics_, [&](std::size_t element, std::size_t link, const Vec3& centre, double radius) {
       const Ground::Touch touch = settings_.ground.query(centre, radius);
       if (!(touch.penetration > 0)) return;
@@ -165,7 +165,7 @@ class BulletPlant final : public Plant, private InverseMass {
     });
   }
 
-  /// Places the body and gathers every force but the joints': weight, contacts; asks the actuator.
+  /// Sets the body's state and gathers all forces except the joints': weight, contacts; evaluates the actuator.
   void evaluate(const RobotState& state, In command) {
     kinematics_.update(robot_, state);
     body_.set(state, kinematics_);
@@ -184,24 +184,24 @@ class BulletPlant final : public Plant, private InverseMass {
   StateLayout layout_;
   Out numbers_;
   bullet::MultiBody body_;
-  mutable Kinematics kinematics_;  // caches: every entry point fills them anew from numbers_
+  mutable Kinematics kinematics_;  // caches: every public function refills them from numbers_
   mutable RobotState state_;
-  std::optional<RotorInertia> rotors_;  ///< Bullet's algorithm has no place for them
+  std::optional<RotorInertia> rotors_;  ///< Bullet's algorithm has no rotor inertia
   ExplicitIntegrator integrator_;
   Acceleration acceleration_;
   std::vector<double> torque_, slope_, applied_, at_rest_, start_speed_, start_angle_;
   OnePart part_;
-  std::array<double, 2> power_ = {};  ///< given to the ground along its normal and along it, W
+  std::array<double, 2> power_ = {};  ///< given to the ground along its normal and along its surface, W
   std::array<double, 4> work_ = {};   ///< of the last step: contact, friction, stops, hinges
   std::vector<std::size_t> passive_;  ///< joints without a motor
   RateMonitor monitor_;
 };
 
-/// Bullet keeps a number for every pair of joints (btMultiBody::finalizeMultiDof) and counts them in an int; rotors need three
-/// matrices more, and a Cholesky factor at every step. Thrown before either is allocated.
+/// Throws before Bullet allocates a number for every pair of joints (btMultiBody::finalizeMultiDof), whose count is an int;
+/// rotors need three matrices more, and a Cholesky factor at every step.
 void check_joints(const PlantSettings& s) {
   constexpr std::size_t kMost = 10000;           // 0.8 GB
-  constexpr std::size_t kMostWithRotors = 2000;  // a second for each step, which grows with the third power
+  constexpr std::size_t kMostWithRotors = 2000;  // a second per step, which grows with the third power
   const std::size_t joints = s.robot->joints.size();
   if (joints > kMost) {
     throw TooManyJoints(
@@ -233,7 +233,10 @@ void register_bullet(Catalog& catalog) {
       "bullet",
       "One btMultiBody, Bullet's articulated-body algorithm, penalty contacts, explicit integration.\n\n"
       "Contacts act on the points and spheres of the compound shapes of the multibody. Every step must be at most 1 / lambda\n"
-      "long (lambda: largest eigenvalue of M^-1 (B + sum J^T G J), checked at the start and watched at every control tick).\n\n"
+      "long (lambda: largest eigenvalue of M^-1 (B + sum J^T G J), checked at the start and watched at every control tick).\n"
+      "step: auto, the default, is the longest up to 5e-5 s that divides the periods and is at most 0.8 / lambda at the "
+      "start,\n"
+      "0.45 / lambda where contacts set it: a gait that stands on half of its feet doubles their friction.\n\n"
       "contact.law: bullet takes Bullet's own collision world and constraint solver instead, for comparison and clutter: "
       "boxes\n"
       "that move, blocks that touch boxes and one another. Motors, stops and contacts are rows of one solve, stable at 1 ms,\n"
@@ -242,15 +245,16 @@ void register_bullet(Catalog& catalog) {
       "    contact: {law: bullet, on: all}\n"
       "    ground: {type: boxes, boxes: [{center: [0.5, 0, 0.05], size: [0.1, 0.1, 0.1], mass: 0.2}]}",
       {{"semi_implicit", 1}, {kRk4, 4}},
-      2.5e-5,
+      kLongestBulletStep,
       {1},
       true,
       [](const PlantSettings& s) -> std::unique_ptr<Plant> {
         check_joints(s);
-        if (s.solver) return make_solver_plant(s);
+        if (s.contact == ContactLaw::solver) return make_solver_plant(s);
         return std::make_unique<BulletPlant>(s);
       },
-      1e-3});
+      1e-3,
+      [](const Scenario& s) { return stable_step(s, kLongestBulletStep); }});
 }
 
 std::string bullet_version() {

@@ -5,7 +5,7 @@
 namespace gaitlab::bullet {
 
 /// Torque = slope * (target - v+), v+ the joint's speed at the END of the step, within [least, most]: a damper that pulls
-/// towards a speed. As an impulse p = h * torque that is the row
+/// towards a speed. As an impulse p = h * torque this is the row
 ///     A p + p / (h slope) = target - v        least h <= p <= most h
 /// (A: the joint's response to a unit impulse), a constraint with cfm = 1 / (h slope): implicit, so that no slope is too steep
 /// for any step. Bullet's own joint motor is hard up to its limit and would have to be fitted with gains instead.
@@ -15,7 +15,7 @@ class JointRow final : public btMultiBodyConstraint {
 
   /// N m s/rad (0: no row in this step), rad/s, N m, N m.
   void set(double slope, double target, double least, double most);
-  /// N m, of the last step.
+  /// Torque in the last step, N m.
   [[nodiscard]] double torque(double h) { return slope_ > 0 ? getAppliedImpulse(0) / h : 0; }
 
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,

@@ -18,7 +18,7 @@ MultiBody::MultiBody(const Robot& robot, Base base, const std::vector<ContactEle
       at_zero_(robot.links.size(), Quat::Identity()),
       index_of_joint_(robot.joints.size()),
       body_(links_of(robot, base), base == Base::floating ? robot.links[0].mass : 0.0,
-            // Set again below from the principal moments, which the constructor needs before it can know them.
+            // Replaced below by the principal moments, which are computed after the constructor of body_.
             btVector3(0, 0, 0), base != Base::floating, /*canSleep=*/false),
       force_(6 + static_cast<std::size_t>(links_of(robot, base))),
       output_(force_.size()) {
@@ -44,7 +44,7 @@ void MultiBody::set_up_root() {
     body_.setBaseInertia(bt(moments_[0]));
     return;
   }
-  // x, z, then the turn about y carries the root link.
+  // A planar base is a chain of links for x, z and the turn about y that carries the root link.
   const btVector3 none(0, 0, 0);
   body_.setBaseInertia(none);
   body_.setupPrismatic(0, 0, none, -1, btQuaternion::getIdentity(), btVector3(1, 0, 0), none, none, true);
@@ -123,7 +123,7 @@ void MultiBody::set(const RobotState& s, const Kinematics& k) {
   for (std::size_t i = 1; i < robot_.links.size(); ++i) {
     const auto joint = static_cast<std::size_t>(robot_.links[i].joint);
     btMultibodyLink& link = body_.getLink(index_of(i));
-    // What updateCacheMultiDof does, but with the turn that Kinematics has made from our sine and cosine.
+    // As updateCacheMultiDof, except that the rotation is that of Kinematics, with our sine and cosine.
     const Quat& t = k.turns[i];
     const Vec3 v = principal_[i].transpose() * t.vec();
     link.m_jointPos[0] = s.q[joint];
@@ -166,7 +166,7 @@ void MultiBody::read_velocities(RobotState& s, double h) const {
     s.velocity = Vec3(body_.getJointVel(0), 0, body_.getJointVel(1));
     s.angular_velocity = Vec3(0, body_.getJointVel(2), 0);
   } else if (base_ == Base::floating) {
-    // v + h v' of the base frame's origin: Bullet's v' is that of the COM, of which the last term is no part.
+    // v + h v' of the base frame's origin. Bullet's v' is that of the COM, without the last term.
     const Vec3 before = s.angular_velocity;
     s.angular_velocity = vec(body_.getBaseOmega());
     s.velocity = vec(body_.getBaseVel()) - s.angular_velocity.cross(base_com_) - h * before.cross(before.cross(base_com_));

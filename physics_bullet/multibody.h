@@ -18,23 +18,24 @@ inline btVector3 bt(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 inline btQuaternion bt(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 inline Vec3 vec(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Generalised accelerations come from Bullet's articulated-body algorithm; positions and velocities are ours to integrate, and
-/// rotations come from our sine and cosine, not libm's. Every knob of btMultiBody that would act is set in the constructor.
+/// Computes generalised accelerations by Bullet's articulated-body algorithm; positions and velocities are integrated by
+/// gaitlab, and rotations come from gaitlab's sine and cosine, not libm's. The constructor sets every option of btMultiBody
+/// that would have an effect.
 class MultiBody {
  public:
   MultiBody(const Robot& robot, Base base, const std::vector<ContactElement>& elements);
 
-  /// Poses and velocities into Bullet; forces cleared.
+  /// Sets poses and velocities in Bullet; clears forces.
   void set(const RobotState& state, const Kinematics& kinematics);
-  /// Forces for the next accelerate: world axes; joints N m.
+  /// Adds forces for the next accelerate: world axes; joints N m.
   void add_force(std::size_t link, const Vec3& arm_from_com, const Vec3& force, const Vec3& torque = Vec3::Zero());
   void add_weight(const Vec3& gravity);
   void add_torque(std::size_t joint, double torque) { body_.addJointTorque(index_of_joint_[joint], torque); }
-  /// set and every force of a Plant::accelerate.
+  /// Calls set and adds all forces of a Plant::accelerate.
   void load(const RobotState& state, const Kinematics& kinematics, const Vec3& gravity, In torque,
             std::span<const BodyWrench> wrenches);
   void accelerate(const RobotState& state, Acceleration& out);
-  /// Velocities as Bullet has them h seconds after set(s): the rest of s is still as it was then.
+  /// Reads Bullet's velocities h seconds after set(s); the rest of s still holds the earlier state.
   void read_velocities(RobotState& s, double h) const;
   /// y = M^-1 f at the state of the last accelerate (generalised vectors as in stability.h).
   void inverse_mass(In force, Out acceleration);
@@ -53,13 +54,13 @@ class MultiBody {
     }
   }
 
-  /// The shapes of one link: children in Bullet's link frame.
+  /// Shapes of one link: children in Bullet's link frame.
   struct Compound {
     std::size_t link;
     std::unique_ptr<btCompoundShape> shape;
     std::unique_ptr<btMultiBodyLinkCollider> collider;
   };
-  /// Those of the contact elements: spheres (radius 0: points) whose user index is the element's.
+  /// Shapes of the contact elements: spheres (radius 0: points) whose user index is the element's.
   [[nodiscard]] const std::vector<Compound>& compounds() const { return compounds_; }
   /// Bullet's link frame (principal axes at the COM) in the link frame, and in the world.
   [[nodiscard]] Pose frame(std::size_t link) const { return {principal_[link], robot_.links[link].com}; }
@@ -79,7 +80,8 @@ class MultiBody {
   Base base_;
   std::vector<Mat3> principal_;  ///< axes of Bullet's link frame (principal, at the COM) in the link frame
   std::vector<Vec3> moments_;    ///< principal moments
-  std::vector<Quat> at_zero_;    ///< parent's principal frame -> own, at joint angle 0, transposed as Bullet wants it
+  std::vector<Quat>
+      at_zero_;  ///< rotation from the parent's principal frame to the link's, at joint angle 0, transposed as Bullet takes it
   std::vector<int> index_of_joint_;
   btMultiBody body_;
   std::vector<std::unique_ptr<btSphereShape>> spheres_;

@@ -11,7 +11,7 @@ namespace gaitlab::bullet {
 
 namespace {
 
-// Bullet's shapes are a core and a rounding of this radius about it, both inside the outline. Its default, 40 mm, is meant for
+// Margin: Bullet's shapes are a core with a rounding of this radius, both inside the outline. Its default, 40 mm, is meant for
 // crates.
 double margin_of(double half_size) { return std::min(1e-3, 0.1 * half_size); }
 
@@ -26,7 +26,7 @@ HalfCylinderShape::HalfCylinderShape(double radius, double length) {
 }
 
 btVector3 HalfCylinderShape::localGetSupportingVertexWithoutMargin(const btVector3& d) const {
-  const double flat = getMargin();  // the core's flat side, so that the rounded one is at x = 0
+  const double flat = getMargin();  // flat side of the core, so that the rounded one is at x = 0
   const double y = d.y() < 0 ? -half_length_ : half_length_;
   const double size = std::sqrt(d.x() * d.x() + d.z() * d.z());
   // The round side is the arc of radius_ with x >= flat; beyond its ends the corners are farthest.
@@ -40,7 +40,7 @@ void HalfCylinderShape::batchedUnitVectorGetSupportingVertexWithoutMargin(const 
   for (int i = 0; i < count; ++i) vertices[i] = localGetSupportingVertexWithoutMargin(directions[i]);
 }
 
-/// Links have their own inertia, and nothing else is made of this.
+/// The inertia of a shape is not used: links have their own.
 void HalfCylinderShape::calculateLocalInertia(btScalar /*mass*/, btVector3& inertia) const { inertia.setZero(); }
 
 std::unique_ptr<btConvexInternalShape> make_box(const Vec3& size) {

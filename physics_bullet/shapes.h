@@ -8,8 +8,8 @@
 
 namespace gaitlab::bullet {
 
-/// Half a cylinder about y, bulging towards +x: what Bullet has no shape for. Exact but for its edges, which are rounded by the
-/// margin, inside the outline. Convex, any collision algorithm for convex shapes takes it.
+/// Half a cylinder about y, bulging towards +x, which Bullet lacks. Exact except for its edges, which are rounded by the
+/// margin, inside the outline. Convex, so that any collision algorithm for convex shapes accepts it.
 class HalfCylinderShape final : public btConvexInternalShape {
  public:
   HalfCylinderShape(double radius, double length);
@@ -20,12 +20,12 @@ class HalfCylinderShape final : public btConvexInternalShape {
   const char* getName() const override { return "HalfCylinder"; }
 
  private:
-  double radius_, half_length_;  ///< less the margin, m
+  double radius_, half_length_;  ///< reduced by the margin, m
 };
 
-/// Edges in m, along its own axes.
+/// Box with edges in m, along its own axes.
 std::unique_ptr<btConvexInternalShape> make_box(const Vec3& size);
-/// Axes as in Shape: y is the axis of cylinders, in Bullet too.
+/// Axes as in Shape: y is the axis of cylinders, as in Bullet.
 std::unique_ptr<btConvexInternalShape> make_shape(const Shape& shape);
 
 }  // namespace gaitlab::bullet

@@ -14,8 +14,9 @@ namespace gaitlab {
 namespace {
 
 constexpr double kUnlimited = 1e30;  // N m: no limit of a row
-constexpr double kFast = 1e5;        // rad/s: no joint is faster (a run stops there), and a motor with a limit is at it
+constexpr double kFast = 1e5;  // rad/s: above any joint speed (a run stops there); a motor with a limit is at its limit there
 
+/// All that damps is implicit: no rule limits the step.
 class SolverPlant final : public Plant {
  public:
   explicit SolverPlant(const PlantSettings& s)
@@ -38,9 +39,7 @@ class SolverPlant final : public Plant {
     for (std::size_t e = 0; e < s.contacts.size(); ++e) elements_of_body_[s.contacts[e].body].push_back(e);
   }
 
-  [[nodiscard]] std::size_t lanes() const override { return 1; }
   void bind(Out numbers, Out) override { numbers_ = numbers; }
-  [[nodiscard]] bool state_is_complete() const override { return false; }
 
   void advance(In command, double h) override {
     layout_.read(numbers_, 0, state_);
@@ -59,7 +58,6 @@ class SolverPlant final : public Plant {
 
   [[nodiscard]] StepEffort applied() const override { return part_.applied(work_); }
 
-  [[nodiscard]] std::optional<Vec3> com(std::size_t) const override { return {}; }
   void accelerate(std::size_t, const RobotState& state, In torque, std::span<const BodyWrench> wrenches,
                   Acceleration& out) override {
     kinematics_.update(robot_, state);
@@ -73,11 +71,9 @@ class SolverPlant final : public Plant {
 
   void boxes(std::span<BoxMotion> out) const override { world_.boxes(out); }
 
-  [[nodiscard]] Stability stability(std::size_t, In, bool) override { return {}; }  // all that damps is implicit
-
  private:
-  /// The largest torque that way which a motor with a limit ever gives, into `limit`: what is left of it driven backwards at
-  /// any speed.
+  /// Fills `limit` with the largest torque in this direction that a motor with a limit gives at any speed: its torque when
+  /// driven backwards fast.
   void find_limits(double sign, std::vector<double>& limit) {
     if (settings_.actuator == nullptr) return;
     const std::vector<double> off(limit.size(), 0.0);
@@ -89,7 +85,7 @@ class SolverPlant final : public Plant {
     }
   }
 
-  /// Motors and stops as rows of the solver; a torque that no speed changes as it is.
+  /// Sets motors and stops as rows of the solver; a torque that does not depend on speed is applied directly.
   void drive(In command, double h) {
     if (settings_.actuator != nullptr) {
       settings_.actuator->unlimited(command, state_.qd, torque_, slope_);
@@ -102,7 +98,7 @@ class SolverPlant final : public Plant {
       }
       const bool damps = slope_[j] > 0;
       if (damps) {
-        // The limit in force at this speed, where it binds; else that of any speed.
+        // The limit in force at this speed, if it binds; else the limit over all speeds.
         const bool above = torque_[j] > limited_[j];
         const bool below = torque_[j] < limited_[j];
         world_.motor(j).set(slope_[j], state_.qd[j] + torque_[j] / slope_[j], below ? limited_[j] : least_[j],
@@ -116,7 +112,7 @@ class SolverPlant final : public Plant {
     }
   }
 
-  /// The tangent at the start's speed of what a passive hinge gives at the step's end, in the row that has no motor.
+  /// Sets the tangent at the start's speed of a passive hinge's torque at the step's end, in the row of the missing motor.
   void hang(std::size_t j, double h) {
     const PassiveHinge hinge = law(*robot_.joints[j].passive);
     const double qd = state_.qd[j];
@@ -126,15 +122,14 @@ class SolverPlant final : public Plant {
     if (slope > 0) {
       world_.motor(j).set(slope, qd + torque / slope, -kUnlimited, kUnlimited);
     } else {
-      // At speed tanh is flat, and dry friction is all there is: a row at its limit F, which stops the hinge but never turns
-      // it.
+      // At speed tanh is flat and only dry friction is left: a row at its limit F, which stops the hinge but never drives it.
       world_.motor(j).set(hinge.friction / hinge.friction_speed, 0, -hinge.friction, hinge.friction);
     }
     applied_[j] = 0;
     stop(j, h);
   }
 
-  /// -ks (q + h qd+ - q_lim) - cs qd+, only ever opposing.
+  /// Sets the row of a stop: -ks (q + h qd+ - q_lim) - cs qd+, opposing only.
   void stop(std::size_t j, double h) {
     const Joint& joint = robot_.joints[j];
     const double excess = state_.q[j] - std::clamp(state_.q[j], joint.lo, joint.hi);
@@ -143,8 +138,8 @@ class SolverPlant final : public Plant {
                        excess > 0 ? 0 : kUnlimited);
   }
 
-  /// After a step, state_ with its new velocities: torques, works, contact forces. An impulse works at the mean of the
-  /// velocities it joins: that is what it changes the kinetic energy by.
+  /// Computes torques, works and contact forces after a step, from state_ with its new velocities. The work of an impulse uses
+  /// the mean of the velocities before and after it, which gives the change of kinetic energy.
   void settle(double h) {
     after_.update(robot_, state_);
     work_ = {};
@@ -170,7 +165,7 @@ class SolverPlant final : public Plant {
     const Vec3 v = (kinematics_.velocity(link, side.point) + after_.velocity(link, side.point)) / 2;
     work_[0] -= sign * touch.push * touch.normal.dot(v);
     work_[1] -= sign * touch.friction.dot(v);
-    const bool alone = touch.a.link < 0 || touch.b.link < 0;  // not two parts of the robot
+    const bool alone = touch.a.link < 0 || touch.b.link < 0;  // false: both are parts of the robot
     if (!alone || !(touch.push > 0)) return;
     const int element = side.element >= 0 ? side.element : nearest(side);
     if (element < 0) return;
@@ -181,7 +176,7 @@ class SolverPlant final : public Plant {
     sample.penetration = std::max(sample.penetration, -touch.distance);
   }
 
-  /// The element of a body whose surface is nearest to where its outline touches; -1: it has none.
+  /// The element of a body whose surface is nearest to the point of contact of its outline; -1: the body has no element.
   [[nodiscard]] int nearest(const bullet::WorldTouch::Side& side) const {
     int best = -1;
     double least = std::numeric_limits<double>::infinity();

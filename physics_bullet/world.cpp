@@ -6,7 +6,7 @@ namespace gaitlab::bullet {
 
 namespace {
 
-// Who may touch whom, as Bullet's collision groups.
+// Bullet's collision groups.
 enum Group : int { kPlane = 1, kElements = 2, kOutlines = 4, kFixed = 8, kMoving = 16 };
 
 bool robots(const btCollisionObject& object) { return object.getUserIndex() >= 0; }
@@ -17,8 +17,8 @@ double friction_between(const btCollisionObject& a, const btCollisionObject& b) 
   return std::min(a.getFriction(), b.getFriction());
 }
 
-// Sequential impulses until no row changes a velocity by more than kSettled, or kIterations. Sixteen motors in a row are exact
-// to 1e-6 after 50; contacts of stiff feet settle no further with 1000 (docs/equations.md, 7).
+// Limits of the sequential impulses: iterations, and the change of a velocity below which they end. Sixteen motors in a row are
+// exact to 1e-6 after 50 iterations; contacts of stiff feet converge no further with 1000 (docs/equations.md, 7).
 constexpr int kIterations = 50;
 constexpr double kSettled = 1e-9;  // m/s, rad/s
 
@@ -50,7 +50,7 @@ World::Neighbours::Neighbours(const Robot& robot) {
   for (const Link& link : robot.links) parents_.push_back(link.parent);
 }
 
-/// Links with at most two joints between them: the same one, its parent and children, theirs, and siblings.
+/// Links with at most two joints between them: the same link, parents and grandparents, children and grandchildren, siblings.
 bool World::Neighbours::near(int i, int j) const {
   const auto parent = [&](int link) { return link < 0 ? -1 : parents_[static_cast<std::size_t>(link)]; };
   const bool siblings = parent(i) == parent(j) && parent(i) >= 0;
@@ -90,7 +90,7 @@ World::World(const PlantSettings& s, MultiBody& body)
 }
 
 World::~World() {
-  // In the opposite order: the broadphase's pairs refer to the objects.
+  // In the opposite order of creation: the broadphase's pairs refer to the objects.
   for (auto* rows : {&motors_, &stops_}) {
     for (const auto& row : *rows) world_.removeMultiBodyConstraint(row.get());
   }
@@ -119,7 +119,7 @@ void World::add_robot(const Robot& robot, double friction) {
     btMultiBodyLinkCollider& collider = *compound.collider;
     collider.setCollisionShape(compound.shape.get());
     collider.setUserIndex(static_cast<int>(compound.link));
-    collider.setFriction(friction);  // of one part of the robot on another
+    collider.setFriction(friction);  // between parts of the robot
     collider.setActivationState(DISABLE_DEACTIVATION);
     world_.addCollisionObject(&collider, group, mask);
   };
@@ -141,10 +141,10 @@ btRigidBody& World::add_body(double mass, btCollisionShape& shape, const Pose& p
 }
 
 void World::add_ground(const Ground& ground) {
-  if (ground.kind == Ground::Kind::none) return;
+  if (!ground.exists()) return;
   add_body(0, plane_, {}, ground.friction, kPlane, kElements | kMoving);
-  for (std::size_t b = 0; b < ground.boxes.size(); ++b) {
-    const Box& box = ground.boxes[b];
+  for (std::size_t b = 0; b < ground.boxes().size(); ++b) {
+    const Box& box = ground.boxes()[b];
     shapes_.push_back(make_box(box.size));
     if (box.mass > 0) {
       moving_.emplace_back(b, &add_body(box.mass, *shapes_.back(), {box.R, box.center}, box.friction, kMoving,

@@ -16,9 +16,10 @@
 
 namespace gaitlab::bullet {
 
-/// A btMultiBodyDynamicsWorld that solves everything as one island. (Bullet's way of not splitting islands hands the solver as
-/// many multibody constraints as there are others: none. And to split them, every link would need a collider.) Friction is the
-/// ground's, not Bullet's product of two: of what the robot touches; between two others the smaller one.
+/// A btMultiBodyDynamicsWorld that solves everything as one island. (Bullet's option not to split islands passes the wrong
+/// number of multibody constraints to the solver, usually none; splitting them would need a collider for every link.) The
+/// friction of a contact with the robot is that of the touched object, not Bullet's product of both; between two other objects
+/// it is the smaller one.
 class OneIslandWorld final : public btMultiBodyDynamicsWorld {
  public:
   using btMultiBodyDynamicsWorld::btMultiBodyDynamicsWorld;
@@ -28,7 +29,7 @@ class OneIslandWorld final : public btMultiBodyDynamicsWorld {
 /// One point of a contact after a step.
 struct WorldTouch {
   struct Side {
-    int link = -1;     ///< -1: not the robot
+    int link = -1;     ///< -1: not a link of the robot
     int element = -1;  ///< contact element, or
     int body = -1;     ///< body whose outline touches
     Vec3 point = Vec3::Zero();
@@ -36,16 +37,16 @@ struct WorldTouch {
   Side a, b;
   Vec3 normal = Vec3::Zero();    ///< from b to a
   double push = 0;               ///< impulse on a along the normal, N s
-  Vec3 friction = Vec3::Zero();  ///< impulse on a across it, N s
+  Vec3 friction = Vec3::Zero();  ///< impulse on a along the surface, N s
   double distance = 0;           ///< m, negative: penetration
 };
 
-/// Who touches whom:
+/// Bullet's world around one robot, with these contacts:
 /// - the contact elements (points and spheres, as `on` chooses) touch the plane z = 0, as with the penalty law;
-/// - the outlines of the bodies touch the ground's boxes, and one another where at least three joints lie between them (what is
-///   docked or of one module meets at its hinges by construction);
-/// - boxes that have a mass move, and touch one another, fixed boxes and the plane. They are Bullet's alone.
-/// The place and the velocities of the robot are the caller's: step() takes them from the MultiBody as it was set, and leaves
+/// - the outlines of the bodies touch the ground's boxes, and one another if at least three joints lie between them (docked
+/// bodies and bodies of one module overlap at their hinges by construction);
+/// - boxes that have a mass move, and touch one another, fixed boxes and the plane. They exist in Bullet alone.
+/// The caller owns position and velocity of the robot: step() takes them from the MultiBody as it was set, and leaves the new
 /// velocities in it.
 class World {
  public:
@@ -56,9 +57,9 @@ class World {
 
   [[nodiscard]] JointRow& motor(std::size_t joint) { return *motors_[joint]; }
   [[nodiscard]] JointRow& stop(std::size_t joint) { return *stops_[joint]; }
-  /// h seconds from the state that `body` was set to, whose kinematics these are.
+  /// Advances by h seconds from the state to which `body` was set, whose kinematics these are.
   void step(const Kinematics& kinematics, double h);
-  /// Boxes that have a mass.
+  /// Motion of the boxes that have a mass.
   void boxes(std::span<BoxMotion> out) const;
   /// Contacts of the last step: visit(const WorldTouch&).
   template <class Visit>
@@ -70,7 +71,7 @@ class World {
   }
 
  private:
-  /// Bodies of the robot that have too few joints between them to touch.
+  /// Filter of pairs of the robot's bodies that have too few joints between them to touch.
   class Neighbours final : public btOverlapFilterCallback {
    public:
     explicit Neighbours(const Robot& robot);
@@ -78,7 +79,7 @@ class World {
 
    private:
     [[nodiscard]] bool near(int i, int j) const;
-    std::vector<int> parents_;  ///< one a link; -1 for the root
+    std::vector<int> parents_;  ///< one per link; -1 for the root
   };
 
   void add_robot(const Robot& robot, double friction);
@@ -96,7 +97,7 @@ class World {
   std::vector<MultiBody::Compound> outlines_;
   btStaticPlaneShape plane_;
   std::vector<std::unique_ptr<btRigidBody>> ground_;
-  std::vector<std::pair<std::size_t, const btRigidBody*>> moving_;  ///< with their places in Ground::boxes
+  std::vector<std::pair<std::size_t, const btRigidBody*>> moving_;  ///< with their indices in Ground::boxes
   OneIslandWorld world_;
   std::vector<std::unique_ptr<JointRow>> motors_, stops_;
 };

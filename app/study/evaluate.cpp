@@ -1,4 +1,4 @@
-// Runs for another program, which asks for points and is told what came out: a line of JSON each.
+// Runs requested by another program: points and results as a line of JSON each.
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
@@ -31,7 +31,7 @@ struct EvaluateArguments : StudyRunArguments {
   bool as_completed = false, quiet = false;
 };
 
-/// Sets the flag that stops a study when nobody reads standard output any more: the program that asks has ended.
+/// Sets the flag that stops a study when standard output is closed at the other end: the requesting program has ended.
 class WatchReader {
  public:
   ~WatchReader() {
@@ -57,19 +57,19 @@ class WatchReader {
   std::thread thread_{[this] { watch(); }};
 };
 
-/// The questions of a batch, and what is answered.
+/// Questions of a batch, and their answers.
 class Replies {
  public:
   Replies(Journal& journal, bool as_completed) : journal_(journal), as_completed_(as_completed) {}
 
-  /// Takes in a run that has a row in the journal.
+  /// Takes a run with a row in the journal.
   void take(const Brief& run) {
     runs_[run.run / journal_.head().replicates].push_back(run);
     if (!open_.empty()) give();
   }
   void ask(Question&& question, std::uint64_t point) { open_.emplace_back(std::move(question), point); }
   [[nodiscard]] bool asked() const { return !open_.empty(); }
-  /// What can be answered: all of it, or what no question before it waits for.
+  /// Writes the answers that are complete, in the order of the questions or as they come.
   void give() {
     for (auto one = open_.begin(); one != open_.end();) {
       const auto runs = runs_.find(one->second);
@@ -112,37 +112,13 @@ bool read_batch(Lines& lines, const std::vector<studies::Parameter>& parameters,
   return false;
 }
 
-int evaluate_study(const EvaluateArguments& a) {
-  refuse_copies("gaitlab evaluate");
-  std::signal(SIGPIPE, SIG_IGN);  // told as what it is: nobody reads
-  Catalog catalog = standard_catalog();
-  studies::Study study = studies::read_study(a.file, studies::Purpose::evaluate);
-  study.runs = studies::kMostAsked;
-  studies::Plan plan(std::move(study), quantity_offer(), catalog);
-  const studies::Executor executor = study_executor(plan, a);
-  if (!a.quiet)
-    for (const Problem& note : plan.study().notes) say(to_string(note.place), "note", note.text);
-  studies::JournalHead head = study_head(plan);
-  std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
-  head.runs = 0;  // as many as are asked for
-  // Before there is a folder.
-  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
-  const fs::path folder = studies::study_folder(a.out, "evaluate-" + plan.study().name, holds_study(head));
-  head.command = "gaitlab evaluate " + shell_word(a.file);
-  for (const std::string& other : a.answers) head.command += " --answers " + shell_word(other);
-  head.command += " --out " + shell_word(folder.string());
-  const studies::Lock lock(folder / "lock");
-  Journal journal(folder / studies::kJournalFile, head, a.accept_build ? Journal::Build::any : Journal::Build::same);
-
-  const WatchReader reader;
+/// Runs the points of each batch of questions, and gives their answers, until the input ends or the program is stopped.
+void answer(Lines& lines, studies::Plan& plan, Journal& journal, const studies::Executor& executor, Replies& replies,
+            int jobs) {
   studies::Asked asked(plan, journal);
-  Replies replies(journal, a.as_completed);
   studies::Runner runner(
       plan, journal,
-      {.executor = remembering(executor, answers), .shard = {}, .jobs = study_threads(a.jobs), .ended = [&](const Brief& run) {
-         replies.take(run);
-       }});
-  Lines lines;
+      {.executor = executor, .shard = {}, .jobs = study_threads(jobs), .ended = [&](const Brief& run) { replies.take(run); }});
   for (bool more = true; more && !stopped();) {
     more = read_batch(lines, plan.study().parameters, asked, replies);
     if (stopped() || !replies.asked()) continue;
@@ -152,8 +128,36 @@ int evaluate_study(const EvaluateArguments& a) {
     runner.run(asked.end(), stopped());
     replies.give();
   }
+}
+
+int evaluate_study(const EvaluateArguments& a) {
+  refuse_copies("gaitlab evaluate");
+  std::signal(SIGPIPE, SIG_IGN);  // reported as a closed output instead
+  Catalog catalog = standard_catalog();
+  studies::Study study = studies::read_study(a.file, studies::Purpose::evaluate);
+  study.runs = studies::kMostAsked;
+  studies::Plan plan(std::move(study), quantity_offer(), catalog);
+  const studies::Executor executor = study_executor(plan, a);
+  if (!a.quiet)
+    for (const Problem& note : plan.study().notes) say(to_string(note.place), "note", note.text);
+  studies::JournalHead head = study_head(plan);
+  std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
+  head.runs = 0;  // grows with the requests
+  // Before the folder is created.
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
+  const fs::path folder = studies::study_folder(a.out, "evaluate-" + plan.study().name, holds_study(head));
+  head.command = "gaitlab evaluate " + shell_word(a.file);
+  for (const std::string& other : a.answers) head.command += " --answers " + shell_word(other);
+  head.command += " --out " + shell_word(folder.string());
+  const studies::Lock lock(folder / "lock");
+  Journal journal(folder / studies::kJournalFile, head, a.accept_build ? Journal::Build::any : Journal::Build::same);
+
+  const WatchReader reader;
+  Replies replies(journal, a.as_completed);
+  Lines lines;
+  answer(lines, plan, journal, remembering(executor, answers), replies, a.jobs);
   const std::uint64_t rows = journal.rows();
-  const bool finished = lines.ended() && !replies.asked();  // then it does not matter who still reads
+  const bool finished = lines.ended() && !replies.asked();  // then a closed output does not matter
   if (!finished && reader.gone())
     throw RunError(fmt::format("{}: nobody reads the answers; {} runs are in the journal", folder.string(), rows));
   if (!finished && stopped()) {
@@ -170,7 +174,7 @@ int evaluate_study(const EvaluateArguments& a) {
 
 void add_evaluate(Commands& commands) {
   add_command<EvaluateArguments>(
-      commands, "evaluate", "Run the points that another program asks for, in lines of JSON.", evaluate_study,
+      commands, "evaluate", "Run the points that another program requests, in lines of JSON.", evaluate_study,
       [](CLI::App& command, EvaluateArguments& a) {
         command.add_option("STUDY", a.file, "file of a study (YAML); its method and budget do not count")->required();
         add_study_run(command, a, "runs/evaluate-NAME");

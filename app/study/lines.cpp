@@ -28,7 +28,7 @@ std::optional<std::string> Lines::next(const std::atomic<bool>& stop) {
 
 /// False: the input has ended, or `stop` is set.
 bool Lines::read_more(const std::atomic<bool>& stop) {
-  constexpr int kOften = 100;  // ms, to look at `stop`, which a signal may set just before the call
+  constexpr int kOften = 100;  // ms between checks of `stop`, which a signal may set just before the call
   text_.erase(0, std::exchange(at_, 0));
   while (!ended_ && !stop) {
     pollfd input{STDIN_FILENO, POLLIN, 0};

@@ -1,9 +1,7 @@
-// Searches the best point of a study, and tries it again with half the step and in another engine before it is believed.
+// Search for the best point of a study, with verification by half the step and another engine.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "app/commands.h"
 #include "app/study/own_gait.h"
@@ -47,7 +45,7 @@ Study searched_study(const OptimizeArguments& a) {
   return study;
 }
 
-/// All but grids and designs of sensitivity.
+/// All methods except grids and designs of sensitivity studies.
 std::vector<std::string> known_methods() {
   using studies::Method;
   std::vector<std::string> names;
@@ -66,7 +64,7 @@ std::string search_goes_on(const OptimizeArguments& a, const fs::path& folder) {
   return line + " --out " + shell_word(folder.string());
 }
 
-/// Does the runs of the study: those that a search asks for, or, where the method is not a search, those of its points.
+/// Does the runs of the study: those of its search or, if the method is not a search, those of its points.
 SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& executor, const OptimizeArguments& a) {
   StudyProgress progress(a.quiet, objective_unit(journal.head()));
   studies::RunnerSettings settings{
@@ -77,21 +75,7 @@ SearchEnd run_study(Plan& plan, Journal& journal, const studies::Executor& execu
   return runner.run(plan.points().runs(), stopped()) ? SearchEnd::budget : SearchEnd::stopped;
 }
 
-/// How many of the runs that try the best points again have ended.
-class VerifyProgress {
- public:
-  explicit VerifyProgress(bool quiet) : shown_(!quiet && isatty(fileno(stderr)) != 0) {}
-  void operator()(std::size_t done, std::size_t of) const {
-    if (!shown_) return;
-    fmt::print(stderr, "\r{}", done < of ? fmt::format("{} of {} runs again", done, of) : fmt::format("{:40}\r", ""));
-    (void)std::fflush(stderr);
-  }
-
- private:
-  bool shown_;
-};
-
-/// The run folder of the best point that stood, in place of one that was there.
+/// Writes the run folder of the best verified point, replacing an earlier one.
 void write_best(const Plan& plan, std::uint64_t run_number, const fs::path& folder, bool quiet) {
   std::error_code none;
   fs::remove_all(folder, none);
@@ -99,6 +83,40 @@ void write_best(const Plan& plan, std::uint64_t run_number, const fs::path& fold
   arguments.out = folder.string();
   arguments.quiet = quiet;
   (void)run(plan.scenario(run_number), arguments);
+}
+
+void say_verification(const fs::path& folder, std::size_t points) {
+  say(fmt::format("{}: the search has ended; its best {} tried again\n", folder.string(),
+                  points == 1 ? "point is" : fmt::format("{} points are", points)));
+}
+
+/// Prints the end of a search, and simulates its best verified point again. Returns the exit code.
+int finish_search(const Plan& plan, Journal& journal, const studies::Results& results,
+                  const std::vector<studies::Verification>& tried, const fs::path& folder, bool converged, bool quiet) {
+  const std::vector<std::uint64_t> stood = studies::verified(tried);
+  std::vector<std::string> files = write_study_files(journal, results, folder);
+  if (!quiet) {
+    constexpr std::size_t kShown = 5;
+    fmt::print("{}", study_summary(journal, results, folder, kShown));
+    if (converged) fmt::print("all searches have converged before the budget was used\n");
+  }
+  if (!stood.empty()) {
+    if (!quiet) fmt::print("\nrun {}, the best that stood, with its trace and page:\n", stood.front());
+    write_best(plan, stood.front(), folder / "best", quiet);
+    files.emplace_back("best");
+  }
+  if (!quiet) fmt::print("files in {}: {}, {}\n", folder.string(), studies::kJournalFile, fmt::join(files, ", "));
+  if (!stood.empty() || stopped()) return 0;
+  const std::string show = "`gaitlab study show " + shell_word(folder.string()) + "`";
+  if (tried.empty()) {
+    say(fmt::format("{}: no point is kept; {} says which limits most runs break\n", folder.string(), show));
+  } else {
+    say(fmt::format(
+        "{}: none of the best points was verified; {} says why. `verify: {{best: N}}` tries more, --seed N searches "
+        "elsewhere\n",
+        folder.string(), show));
+  }
+  return 3;
 }
 
 int optimize_study(const OptimizeArguments& a) {
@@ -110,12 +128,12 @@ int optimize_study(const OptimizeArguments& a) {
     print_plan(plan, a);
     return 0;
   }
-  // Before the folder, which belongs to one process.
+  // Before the folder is locked, which belongs to one process.
   const studies::Executor executor = study_executor(plan, a);
-  print_notes(plan, a.quiet);  // one process of several comes here
+  print_notes(plan, a.quiet);  // only one process of a team reaches this
   studies::JournalHead head = study_head(plan);
   std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
-  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before there is a folder
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before the folder is created
   const fs::path folder = studies::study_folder(a.out, "optimize-" + plan.study().name, holds_study(head));
   head.command = search_goes_on(a, folder);
   const studies::Lock lock(folder / "lock");
@@ -134,37 +152,12 @@ int optimize_study(const OptimizeArguments& a) {
   if (end == SearchEnd::stopped) return interrupted();
   const studies::Results results = studies::results(journal);
   const std::vector<std::size_t> best = candidates(plan, results);
-  if (!a.quiet && !best.empty())
-    say(fmt::format("{}: the search has ended; its best {} tried again\n", folder.string(),
-                    best.size() == 1 ? "point is" : fmt::format("{} points are", best.size())));
-  const auto tried = verify(plan, journal, results, best, executor, VerifyProgress(a.quiet), stopped());
+  if (!a.quiet && !best.empty()) say_verification(folder, best.size());
+  const auto tried = verify(plan, journal, results, best, executor, AgainProgress(a.quiet), stopped());
   if (!tried) return interrupted();
   journal.write(*tried);
-  const std::vector<std::uint64_t> stood = studies::verified(*tried);
-  std::vector<std::string> files = write_study_files(journal, results, folder);
-  if (!a.quiet) {
-    constexpr std::size_t kShown = 5;
-    fmt::print("{}", study_summary(journal, results, folder, kShown));
-    if (end == SearchEnd::converged) fmt::print("all searches have converged before the budget was used\n");
-  }
-  if (!stood.empty()) {
-    if (!a.quiet) fmt::print("\nrun {}, the best that stood, with its trace and page:\n", stood.front());
-    write_best(plan, stood.front(), folder / "best", a.quiet);
-    files.emplace_back("best");
-  }
-  if (!a.quiet) fmt::print("files in {}: {}, {}\n", folder.string(), studies::kJournalFile, fmt::join(files, ", "));
-  if (stopped()) return interrupted();
-  if (!stood.empty()) return 0;
-  const std::string show = "`gaitlab study show " + shell_word(folder.string()) + "`";
-  if (tried->empty()) {
-    say(fmt::format("{}: no point is kept; {} says which limits most runs break\n", folder.string(), show));
-  } else {
-    say(fmt::format(
-        "{}: none of the best points was verified; {} says why. `verify: {{best: N}}` tries more, --seed N searches "
-        "elsewhere\n",
-        folder.string(), show));
-  }
-  return 3;
+  const int code = finish_search(plan, journal, results, *tried, folder, end == SearchEnd::converged, a.quiet);
+  return stopped() ? interrupted() : code;
 }
 
 }  // namespace
@@ -174,12 +167,12 @@ void add_optimize(Commands& commands) {
       commands, "optimize", "Search the best point of a study, and verify it.", optimize_study,
       [](CLI::App& command, OptimizeArguments& a) {
         command.add_option("STUDY", a.file, "the file of a study (YAML)")->required()->check(not_empty);
-        command.add_option("--runs", a.runs, "budget, instead of that of the file")->check(CLI::Range(1, 1000000000));
-        command.add_option("--seed", a.seed, "seed, instead of that of the file")
+        command.add_option("--runs", a.runs, "budget, instead of the file's")->check(CLI::Range(1, 1000000000));
+        command.add_option("--seed", a.seed, "seed, instead of the file's")
             ->check(CLI::Range(std::int64_t{0}, std::int64_t{999999999999999}));
-        command.add_option("--method", a.method, "method, instead of that of the file: random search beside a search")
+        command.add_option("--method", a.method, "method, instead of the file's: random search beside a search")
             ->check(CLI::IsMember(known_methods()));
-        command.add_flag("--dry-run", a.dry_run, "tell what would be run and how long it takes, and write nothing");
+        command.add_flag("--dry-run", a.dry_run, "print the runs and the time that they take, and write nothing");
         add_study_run(command, a, "runs/optimize-NAME");
         command.add_flag("--quiet", a.quiet, "print no progress and no summary");
       });

@@ -1,4 +1,4 @@
-// The scenario's own gait, tried before a study: what the study's step costs.
+// Trial of the scenario's gait before a study: error caused by the study's step.
 #include "app/study/own_gait.h"
 
 #include <fmt/format.h>
@@ -19,15 +19,15 @@ namespace gaitlab::app {
 
 namespace {
 
-constexpr double kMuch = 0.005;  // of the objective: a step that costs more is said with a remedy
+constexpr double kMuch = 0.005;  // of the objective: above, a note with a remedy is printed
 
 struct Way {
   std::vector<std::string> sets;
-  std::optional<double> objective = {};  ///< of the study, the first; nothing: refused, failed, or not known
+  std::optional<double> objective = {};  ///< first objective of the study; nothing: refused, failed, or not known
   report::TorqueError error = {};
 };
 
-/// As the study has it; with half the step; with steps that the integrator chooses.
+/// Ways to run: as in the study; with half the step; with steps that the integrator chooses.
 std::vector<Way> ways(const Scenario& own) {
   std::vector<Way> all{{{}}};
   if (own.physics.adapts()) return all;
@@ -37,35 +37,28 @@ std::vector<Way> ways(const Scenario& own) {
   return all;
 }
 
-/// False: stopped.
+/// Runs all; false: stopped.
 bool try_all(const studies::Plan& plan, std::size_t scenario, std::vector<Way>& all) {
   const studies::Measure measure = quantity_measure(plan.columns(), plan.scenario());
-  std::size_t next = 0;
-  const BatchStream stream{.next = [&]() -> std::optional<Rollout> {
-                             while (next < all.size()) {
-                               const std::size_t number = next++;
-                               try {
-                                 return Rollout{number, plan.with(all[number].sets, scenario)};
-                               } catch (const InputError&) {  // a step that the engine refuses
-                               }
-                             }
-                             return {};
-                           },
-                           .end =
-                               [&](std::vector<RolloutEnd>&& pack) {
-                                 for (const RolloutEnd& end : pack) {
-                                   Way& way = all[end.rollout.number];
-                                   if (!end.refused.empty() || !end.recording.outcome.done()) continue;
-                                   const studies::Judged judged = measure(end.rollout.scenario, end.recording);
-                                   const double value = plan.judge().score(judged.quantities, judged.verdict).objective();
-                                   if (std::isfinite(value)) way.objective = value;
-                                   way.error = report::torque_error(end.recording);
-                                 }
-                               }};
-  return run_pulled(stream, {}, Loads::recorded, stopped());
+  std::vector<Scenario> tried;
+  std::vector<Way*> of;
+  for (Way& way : all) {
+    try {
+      tried.push_back(plan.with(way.sets, scenario));
+      of.push_back(&way);
+    } catch (const InputError&) {  // a step that the engine refuses
+    }
+  }
+  return run_all(tried, {}, measure.reads, stopped(), [&](std::size_t k, RolloutEnd&& end) {
+    if (!end.refused.empty() || !end.recording.outcome.done()) return;
+    const studies::Judged judged = measure(end.rollout.scenario, end.recording);
+    const double value = plan.judge().score(judged.quantities, judged.verdict).objective();
+    if (std::isfinite(value)) of[k]->objective = value;
+    of[k]->error = report::torque_error(end.recording);
+  });
 }
 
-/// Share of the limit of ever smaller steps (Richardson) by which a value is off.
+/// Relative error of a value against the limit of ever smaller steps (Richardson).
 struct Cost {
   double limit;
   [[nodiscard]] double of(double value) const { return std::abs(value - limit) / std::abs(limit); }

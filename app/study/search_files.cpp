@@ -1,4 +1,4 @@
-// The figures of a search: how it went, and its front.
+// Figures of a search: its convergence, and its front.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ report::StudyAxis objective_axis(const JournalHead& head, std::size_t number) {
   return {clipped(expression), figure == head.quantities.end() ? "" : clipped(figure->unit)};
 }
 
-/// The generation that the budget cut: what the journal has beyond the last whole one. Of a single search; of several it is not
-/// known whose points they are.
+/// Adds the generation that the budget cut: runs beyond the last whole one. Only for a single search; with several, the runs
+/// cannot be assigned.
 void add_cut(report::ConvergenceFigure& figure, const studies::Results& results, std::uint64_t whole) {
   if (figure.searches.size() != 1) return;
   std::vector<double> kept;

@@ -1,4 +1,4 @@
-// What is done with the folder of a study: show, best, export, merge, rerun.
+// Commands on the folder of a study: show, best, export, merge, rerun.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct StudyArguments {
   PluginArguments plugins;         ///< rerun
 };
 
-/// The journal of a folder, to be read.
+/// Opens the journal of a folder for reading.
 Journal opened(const std::string& folder) {
   const fs::path file = fs::path(folder) / studies::kJournalFile;
   std::error_code none;
@@ -91,7 +91,7 @@ int export_study(const StudyArguments& a) {
 /// A set of very many numbers, added in ascending order.
 class Ranges {
  public:
-  /// Adds `first` to `last`, both included and above all earlier numbers.
+  /// Adds the numbers `first` to `last`, above all earlier ones.
   void add(std::uint64_t first, std::uint64_t last) {
     count_ += last - first + 1;
     if (!ranges_.empty() && ranges_.back().second + 1 == first) {
@@ -101,7 +101,7 @@ class Ranges {
     }
   }
   [[nodiscard]] std::uint64_t count() const { return count_; }
-  /// As Slurm's --array takes them: 3,17,20-99; at most 200 of them.
+  /// In the form of Slurm's --array: 3,17,20-99; at most 200 items.
   [[nodiscard]] std::string text() const {
     constexpr std::size_t kMost = 200;
     std::string all;
@@ -156,7 +156,7 @@ int merge_study(const StudyArguments& a) {
   if (shards.count > 0) {
     missing = take_shards(all, folder, shards);
   } else {
-    all.emplace(file);  // of an array of one task
+    all.emplace(file);  // an array with one task
   }
   const std::uint64_t rows = all->rows();
   fmt::print("{}: {} of {} runs\n", file.string(), rows, all->head().runs);
@@ -172,7 +172,7 @@ int merge_study(const StudyArguments& a) {
   return missing.count() > 0 || lacking > 0 ? 1 : 0;
 }
 
-/// What of the row is not what the run gave, a line each.
+/// Differences between a row and the repeated run, a line each.
 std::vector<std::string> differences(const std::vector<std::string>& names, const std::vector<std::string>& row,
                                      const studies::RunColumns& columns, const std::vector<double>& quantities,
                                      const Outcome& outcome) {
@@ -198,7 +198,7 @@ std::vector<std::string> differences(const std::vector<std::string>& names, cons
   return found;
 }
 
-/// The resolved scenario of a row: the study's only one, or that of its name.
+/// The resolved scenario of a row: the only one, or the one of its name.
 std::string scenario_of_row(const studies::JournalHead& head, const std::vector<std::string>& names,
                             const std::vector<std::string>& row) {
   if (head.scenarios.empty()) return head.scenario;
@@ -210,7 +210,7 @@ std::string scenario_of_row(const studies::JournalHead& head, const std::vector<
                    "is not a journal that this program wrote: it lacks the scenario " + in_quotes(name) + " of a run");
 }
 
-/// The settings of a row over the scenario as the journal holds it: the folder is enough.
+/// The settings of a row relative to the scenario in the journal: the folder is sufficient.
 std::vector<std::string> settings_of_row(const Journal& journal, const std::vector<std::string>& names,
                                          const std::vector<std::string>& row) {
   const studies::JournalHead& head = journal.head();
@@ -263,7 +263,7 @@ int rerun_study(const StudyArguments& a) {
     written = read_run(*run_arguments.out, catalog);
   } catch (const InputError&) {
     if (code != 1) throw;
-    return 1;  // the run could not be written, and has said so
+    return 1;  // the run could not be written, which was reported
   }
   const StoredRun& again = *written;
   if (const auto cell =
@@ -292,12 +292,12 @@ void add_study(Commands& commands) {
   const auto folder = [](CLI::App& command, StudyArguments& a) {
     command.add_option("DIR", a.folder, "folder of the study")->required()->check(not_empty);
   };
-  add_command<StudyArguments>(commands, "show", "How far it is, its best and worst points, what failed; also while it runs.",
-                              show_study, folder, study);
-  add_command<StudyArguments>(commands, "report", "Write its table and figures anew, of what the journal holds.", report_study,
+  add_command<StudyArguments>(commands, "show", "Progress, best and worst points, failures; also while it runs.", show_study,
                               folder, study);
+  add_command<StudyArguments>(commands, "report", "Write its table and figures again from the journal.", report_study, folder,
+                              study);
   add_command<StudyArguments>(
-      commands, "best", "Its best points among those that are kept.", best_of_study,
+      commands, "best", "Its best points that keep all constraints.", best_of_study,
       [&](CLI::App& command, StudyArguments& a) {
         folder(command, a);
         command.add_option("-n,--number", a.most, "how many (default 10)")->check(CLI::Range(1, 1000000));
@@ -311,7 +311,7 @@ void add_study(Commands& commands) {
         command.add_option("FILE", a.file, "file to write; must not exist")->required();
       },
       study);
-  add_command<StudyArguments>(commands, "merge", "Make one journal of those of all shards.", merge_study, folder, study);
+  add_command<StudyArguments>(commands, "merge", "Merge the journals of all shards.", merge_study, folder, study);
   add_command<StudyArguments>(
       commands, "rerun", "Run one of its runs again, with its trace, and compare.", rerun_study,
       [&](CLI::App& command, StudyArguments& a) {

@@ -1,4 +1,4 @@
-// What a study would run, and how long that would take: of --dry-run.
+// Output of --dry-run: the runs of a study and their estimated duration.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,34 +9,21 @@
 #include "app/study/study_run.h"
 #include "core/errors.h"
 #include "core/settings/wording.h"
+#include "studies/plan/plan_checks.h"
 
 namespace gaitlab::app {
 
-void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
+namespace {
+
+/// Duration of a run on one thread, s, by the clock: of one pack of runs, from all scenarios if there are several. For the
+/// terminal alone.
+double seconds_of_run(const studies::Plan& plan, const StudyRunArguments& a, bool searched) {
   const studies::Points& points = plan.points();
-  const bool searched = studies::is_search(plan.study().method);  // then its points are not known yet
-  const auto shown = [&](std::uint64_t run) {
-    const std::string& name = plan.scenarios()[points.scenario(run)].name;
-    return fmt::format("{}{}", name.empty() ? "" : "scenario " + name + ": ", fmt::join(plan.sets(run), " "));
-  };
-  double simulated = 0;
-  for (const studies::StudyScenario& one : plan.scenarios())
-    simulated += one.nominal.duration * static_cast<double>(points.points() * points.replicates());
-  fmt::print("{} runs: {} points, {} each\n", points.runs(), points.points(), counted(points.runs_of_point(), "run"));
-  if (searched) {
-    fmt::print("method {} chooses them, and the best {} are run again\n", name_of(plan.study().method),
-               plan.study().verify.best);
-  } else {
-    fmt::print("first  {}\nlast   {}\n", shown(0), shown(points.runs() - 1));
-  }
-  fmt::print("{:.6g} s simulated in all\n", simulated);
-  // One pack tells how long all take: by the clock, for the terminal alone.
   std::uint64_t next = 0;
   std::uint64_t ended = 0;
   std::atomic<bool> stop = false;
   const auto start = std::chrono::steady_clock::now();
   const studies::Measure measure = quantity_measure(plan.columns(), plan.scenario());
-  // Of all scenarios, where there are several.
   const std::uint64_t pack = std::min<std::uint64_t>(points.runs(), 8);
   const auto timed = [&](std::uint64_t k) {
     return searched ? plan.scenarios()[k % plan.scenarios().size()].nominal : plan.scenario(k * points.runs() / pack);
@@ -58,16 +45,39 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
                                    ++ended;
                                  }
                                }};
-  run_pulled(stream, {1, static_cast<std::size_t>(a.lanes)}, Loads::recorded, stop);
+  run_pulled(stream, {1, static_cast<std::size_t>(a.lanes)}, measure.reads, stop);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  const double each = ended == 0 ? 0 : took.count() / static_cast<double>(ended);
+  return ended == 0 ? 0 : took.count() / static_cast<double>(ended);
+}
+
+}  // namespace
+
+void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
+  const studies::Points& points = plan.points();
+  const bool searched = studies::is_search(plan.study().method);  // then its points are not known yet
+  const auto shown = [&](std::uint64_t run) {
+    const std::string& name = plan.scenarios()[points.scenario(run)].name;
+    return fmt::format("{}{}", name.empty() ? "" : "scenario " + name + ": ", fmt::join(plan.sets(run), " "));
+  };
+  double simulated = 0;
+  for (const studies::StudyScenario& one : plan.scenarios())
+    simulated += one.nominal.duration * static_cast<double>(points.points() * points.replicates());
+  fmt::print("{} runs: {} points, {} each\n", points.runs(), points.points(), counted(points.runs_of_point(), "run"));
+  if (searched) {
+    fmt::print("method {} chooses them, and the best {} are run again\n", name_of(plan.study().method),
+               plan.study().verify.best);
+  } else {
+    fmt::print("first  {}\nlast   {}\n", shown(0), shown(points.runs() - 1));
+  }
+  fmt::print("{:.6g} s simulated in all\n", simulated);
+  const double each = seconds_of_run(plan, a, searched);
   const double all = each * static_cast<double>(points.runs());
   const double bytes = static_cast<double>(points.runs()) *
                        (120 + 9.0 * static_cast<double>(plan.columns().size() + plan.study().parameters.size()));
   fmt::print("takes about {:.3g} s on {} ({:.3g} s a run on one)\n", all / study_threads(a.jobs),
              counted(static_cast<std::size_t>(study_threads(a.jobs)), "thread"), each);
   fmt::print("journal about {:.3g} MB\n", bytes / 1e6);
-  if (searched) return;            // each generation waits for the one before
+  if (searched) return;            // each generation waits for the previous one
   constexpr double kShard = 1800;  // s
   fmt::print("shards of 30 min on one thread: {}\n", static_cast<std::uint64_t>(std::max(1.0, std::ceil(all / kShard))));
 }
@@ -75,8 +85,8 @@ void print_plan(const studies::Plan& plan, const StudyRunArguments& a) {
 void print_notes(const studies::Plan& plan, bool quiet) {
   if (quiet) return;
   for (const Problem& note : plan.study().notes) say(to_string(note.place), "note", note.text);
-  for (const Problem& note : plan.short_runs()) say(to_string(note.place), "note", note.text);
-  for (const Problem& note : plan.refused_ends()) say(to_string(note.place), "note", note.text);
+  for (const Problem& note : studies::short_runs(plan)) say(to_string(note.place), "note", note.text);
+  for (const Problem& note : studies::refused_ends(plan)) say(to_string(note.place), "note", note.text);
 }
 
 }  // namespace gaitlab::app

@@ -17,15 +17,15 @@ namespace {
 
 constexpr std::string_view kMargin = "margin.";
 
-/// Checks without a number that could be held against another limit.
+/// Checks without a number that could have another limit.
 constexpr std::array kUnlimited{"outcome", "battery", "evidence", "field"};
 
 bool limited(const report::CheckKind& kind) {
   return std::ranges::find(kUnlimited, std::string_view(kind.id)) == kUnlimited.end();
 }
 
-/// -1 of what fails, or of checks that only warn what warns, without a margin, and of evidence that is missing; not a number:
-/// the run does not have it.
+/// Margin of a check. Without a number: -1 if it fails, or if it warns and can only warn, and for missing evidence; NaN: the
+/// run does not have it.
 double margin(const report::Check& check) {
   if (!std::isnan(check.margin)) return check.status == report::CheckStatus::pass ? std::max(0.0, check.margin) : check.margin;
   const auto kind =
@@ -40,7 +40,7 @@ double margin_against(const report::Check& check, double limit) {
   return report::Criterion{check.value, limit, check.unit, check.least}.margin();
 }
 
-/// A quantity that the verdict holds: `feasible`, `margin`, `margin.ID`, `margin.ID[LIMIT]`.
+/// A quantity of the verdict: `feasible`, `margin`, `margin.ID`, `margin.ID[LIMIT]`.
 class OfVerdict {
  public:
   static std::optional<OfVerdict> find(const std::string& name) {
@@ -59,6 +59,11 @@ class OfVerdict {
     if (std::ranges::none_of(report::check_kinds(), known)) return {};
     return found;
   }
+  /// Whether it needs more than Loads::judged.
+  [[nodiscard]] bool of_all_loads() const {
+    const auto kind = std::ranges::find_if(report::check_kinds(), [&](const report::CheckKind& k) { return check_ == k.id; });
+    return limit_ && kind->of_all_loads;
+  }
   [[nodiscard]] double value(const report::Verdict& verdict) const {
     if (whole_ == "feasible") return verdict.word == report::Word::feasible ? 1 : 0;
     if (whole_ == "margin") return verdict.tightest() == nullptr ? std::nan("") : verdict.tightest()->margin;
@@ -72,7 +77,7 @@ class OfVerdict {
 };
 
 void offer_verdict(studies::QuantityOffer& offer) {
-  offer.common.push_back({"feasible", "", "Whether the verdict is `feasible`: 1 or 0."});
+  offer.common.push_back({"feasible", "", "1 if the verdict is `feasible`, else 0."});
   offer.common.push_back({"margin", "", "Least margin of the checks that can fail: 0 or more where all are kept."});
   for (const report::CheckKind& kind : report::check_kinds()) {
     offer.common.push_back({std::string(kMargin) + kind.id, "",
@@ -138,7 +143,7 @@ studies::QuantityOffer quantity_offer() {
 
 namespace {
 
-/// Of a robot, by column; none: of the verdict, or of a joint that it does not have.
+/// Quantities of a robot, by column; none: of the verdict, or of a joint that it does not have.
 using QuantityColumns = std::vector<std::optional<report::Quantity>>;
 
 QuantityColumns quantity_columns(const std::vector<studies::Quantity>& columns, const Robot& robot) {
@@ -165,22 +170,26 @@ studies::Measure quantity_measure(const std::vector<studies::Quantity>& columns,
   problems.raise();
   std::vector<std::optional<OfVerdict>> of_verdict;
   for (const studies::Quantity& column : columns) of_verdict.push_back(OfVerdict::find(column.name));
-  // Another robot, of another scenario of the study, may have the same joints under other numbers.
-  return
-      [columns, usual, of_verdict, joints = names_of_joints(*scenario.robot)](const Scenario& of, const Recording& recording) {
-        const QuantityColumns quantities = names_of_joints(*of.robot) == joints ? usual : quantity_columns(columns, *of.robot);
-        const report::Summary summary = report::summarise(of, recording, 0);
-        studies::Judged judged;
-        const report::Verdict verdict = report::verdict(of, recording, summary, report::overlaps(of, recording));
-        for (std::size_t k = 0; k < columns.size(); ++k) {
-          judged.quantities.push_back(quantities[k]   ? quantities[k]->value({of, recording, summary})
-                                      : of_verdict[k] ? of_verdict[k]->value(verdict)
-                                                      : std::nan(""));
-        }
-        judged.verdict = name_of(verdict.word);
-        judged.why = verdict.why();
-        return judged;
-      };
+  // Another robot, in another scenario of the study, may have the same joints under other numbers.
+  const auto judged = [columns, usual, of_verdict, joints = names_of_joints(*scenario.robot)](const Scenario& of,
+                                                                                              const Recording& recording) {
+    const QuantityColumns quantities = names_of_joints(*of.robot) == joints ? usual : quantity_columns(columns, *of.robot);
+    const report::Summary summary = report::summarise(of, recording, 0);
+    studies::Judged judged;
+    const report::Verdict verdict = report::verdict(of, recording, summary, report::overlaps(of, recording));
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      judged.quantities.push_back(quantities[k]   ? quantities[k]->value({of, recording, summary})
+                                  : of_verdict[k] ? of_verdict[k]->value(verdict)
+                                                  : std::nan(""));
+    }
+    judged.verdict = name_of(verdict.word);
+    judged.why = verdict.why();
+    return judged;
+  };
+  Records reads = report::kVerdictReads;
+  if (std::ranges::any_of(of_verdict, [](const std::optional<OfVerdict>& one) { return one && one->of_all_loads(); }))
+    reads.loads = Loads::recorded;
+  return {judged, reads};
 }
 
 }  // namespace gaitlab::app

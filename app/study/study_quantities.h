@@ -1,4 +1,4 @@
-// The quantities of a run that studies offer: the summary numbers, and the margins of the checks of its verdict.
+// Quantities of a run for studies: the summary numbers, and the margins of the verdict's checks.
 #pragma once
 #include "studies/study/judge.h"
 
@@ -6,13 +6,14 @@ namespace gaitlab::app {
 
 studies::QuantityOffer quantity_offer();
 
-/// Whether a column of older journals is not computed any more.
+/// Whether a column of older journals is no longer computed.
 bool is_gone(const std::string& quantity);
 
-/// Whether a quantity is another one where the torque error was not estimated.
+/// Whether a quantity has another value without an estimate of the torque error.
 bool depends_on_estimate(const std::string& quantity);
 
-/// Of these columns, and the verdict's word. InputError: a column is not known (of a journal of another program).
+/// Function that computes these columns and the verdict's word. Throws InputError for an unknown column (in a journal of
+/// another program).
 studies::Measure quantity_measure(const std::vector<studies::Quantity>& columns, const Scenario& scenario);
 
 }  // namespace gaitlab::app

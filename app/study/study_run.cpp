@@ -10,21 +10,21 @@
 #include "core/build_id.h"
 #include "core/errors.h"
 #include "core/settings/wording.h"
+#include "studies/plan/definition.h"
 
 namespace gaitlab::app {
 
 void add_study_run(CLI::App& command, StudyRunArguments& a, const char* folder) {
-  command.add_option("--out", a.out, std::string("folder of the study (default ") + folder + "); one that holds it goes on");
+  command.add_option("--out", a.out, std::string("folder of the study (default ") + folder + "); an existing one is continued");
   command
-      .add_option("--answers", a.answers,
-                  "study.db of another study: what it has of these runs is not run again; may be repeated")
+      .add_option("--answers", a.answers, "study.db of another study: runs that it contains are not run again; may be repeated")
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("-j,--jobs", a.jobs, "threads (default: one per processor)")->check(CLI::Range(1, 1024));
   command.add_option("--lanes", a.lanes, "runs side by side in a thread (default: what engine and processor allow)")
       ->check(CLI::Range(1, 64));
-  command.add_flag("--accept-build", a.accept_build, "go on with a study that another build of the program began");
+  command.add_flag("--accept-build", a.accept_build, "continue a study that another build of the program began");
 }
 
 Team& team() {
@@ -39,7 +39,7 @@ studies::Executor study_executor(const studies::Plan& plan, const StudyRunArgume
 }
 
 studies::JournalHead study_head(const studies::Plan& plan) {
-  studies::JournalHead head = plan.head();
+  studies::JournalHead head = studies::journal_head(plan);
   head.build = build_id();
   return head;
 }

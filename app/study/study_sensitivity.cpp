@@ -18,7 +18,7 @@ namespace {
 using studies::Estimate;
 using studies::Sensitivity;
 
-/// The parameter that matters most first; of those that matter alike, and are not known, in the order of the study.
+/// Parameters by influence, the largest first; equal or unknown ones in the order of the study.
 std::vector<std::size_t> by_weight(const Sensitivity& s) {
   std::vector<std::size_t> order(s.parameters.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -1,4 +1,4 @@
-// What a sensitivity study found, for the screen, as a table and as figures.
+// Results of a sensitivity study: for the screen, as a table and as figures.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace gaitlab::app {
 
-/// A table per output, what matters most first, with what was left out; "" of other studies.
+/// A table per output, ordered by influence, with the parts that were left out; "" for other studies.
 std::string sensitivity_text(studies::Journal& journal, const studies::Results& results);
 
-/// sensitivity.csv, and sensitivity-OUTPUT.svg for each; their names. `note`: what study it is, for the figures. None of other
-/// studies.
+/// Writes sensitivity.csv, and sensitivity-OUTPUT.svg for each; returns their names. `note`: description of the study, for the
+/// figures. Empty for other studies.
 std::vector<std::string> write_sensitivity(studies::Journal& journal, const studies::Results& results, const std::string& note,
                                            const std::filesystem::path& folder);
 

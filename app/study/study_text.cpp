@@ -20,7 +20,7 @@ namespace {
 using studies::Journal;
 using studies::JournalHead;
 
-/// A number of the journal as a table shows it.
+/// A number of the journal, for a table.
 std::string short_number(const std::string& text) {
   if (text.empty()) return "-";
   double number = 0;
@@ -53,12 +53,12 @@ std::size_t place_in(const std::vector<std::string>& names, const std::string& n
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
-/// A point in one of the study's scenarios: its first objective there, or what became of a run that failed.
+/// A point in one of the study's scenarios: its first objective there, or the failure of a run.
 std::string in_one_scenario(Journal& journal, const studies::PointResult& point, std::size_t scenario) {
   const JournalHead& head = journal.head();
   const std::vector<std::string> names = journal.columns().all();
   const std::uint64_t runs = point.runs / head.scenarios.size();
-  std::vector<double> bad;  // more is worse
+  std::vector<double> bad;  // larger is worse
   for (std::uint64_t r = 0; r < runs; ++r) {
     const std::vector<std::string> row = journal.row(point.first_run + scenario * runs + r);
     if (row.size() != names.size()) return "-";
@@ -73,7 +73,8 @@ std::string in_one_scenario(Journal& journal, const studies::PointResult& point,
   return fmt::format("{:.4g}", head.objectives.front().maximize ? -worse : worse);
 }
 
-/// The word of the verdict on a point: of the run in the table, the first; of several scenarios of the first run that fails.
+/// The word of the verdict on a point: of its first run, which is in the table; with several scenarios of the first run that
+/// fails.
 std::string verdict_on(Journal& journal, const studies::PointResult& point, std::size_t place) {
   const std::string first = journal.row(point.first_run)[place];
   for (std::uint64_t r = 0; !journal.head().scenarios.empty() && r < point.runs; ++r) {
@@ -83,7 +84,7 @@ std::string verdict_on(Journal& journal, const studies::PointResult& point, std:
   return first;
 }
 
-/// ` in rubble`, of a run of a study with several scenarios.
+/// ` in rubble` for a run of a study with several scenarios.
 std::string in_which_scenario(const JournalHead& head, std::uint64_t run) {
   if (head.scenarios.empty()) return "";
   const std::uint64_t runs = std::max<std::uint64_t>(1, head.replicates / head.scenarios.size());
@@ -91,7 +92,7 @@ std::string in_which_scenario(const JournalHead& head, std::uint64_t run) {
   return scenario < head.scenarios.size() ? " in " + clipped(head.scenarios[scenario]) : "";
 }
 
-/// `check stops` of `margin.stops >= 0`, `the verdict` of `feasible >= 1`; others as they are.
+/// `check stops` for `margin.stops >= 0`, `the verdict` for `feasible >= 1`; others unchanged.
 std::string limit_text(const std::string& relation) {
   constexpr std::string_view kMargin = "margin.";
   constexpr std::string_view kKept = " >= 0";
@@ -100,7 +101,7 @@ std::string limit_text(const std::string& relation) {
   return "check " + clipped(relation.substr(kMargin.size(), relation.size() - kMargin.size() - kKept.size()));
 }
 
-/// The sentences behind the verdicts of the best points that are not kept, where the best of all is one of them.
+/// Sentences after the verdicts of the best points that are not kept, if the best of all is one of them.
 std::string rejected_text(Journal& journal, const studies::Results& results) {
   constexpr std::size_t kMost = 3;
   const std::vector<std::size_t> order = studies::ranked(results.points, journal.head().objectives.front().maximize);
@@ -119,17 +120,27 @@ std::string rejected_text(Journal& journal, const studies::Results& results) {
   return text;
 }
 
-/// What the steps cost in torque, of the points for which it was estimated.
+/// Torque errors caused by the steps, for the points with an estimate.
 std::string estimated_text(Journal& journal, const studies::Results& results) {
   const studies::Estimated found = studies::estimated(journal);
-  if (found.runs == 0) return results.runs == 0 ? "" : "the error of the torques was estimated in none of the runs\n";
+  if (results.runs == 0) return "";
+  if (found.runs == 0) return "torque error estimated in none of the runs: nothing shows how accurate `feasible` is\n";
   std::string text =
       fmt::format("torque error estimated in {}: {} beyond 1 %, {} beyond 2 %, {} beyond 5 %; at most {:.2g} %\n",
                   counted(found.runs, "run"), found.beyond[0], found.beyond[1], found.beyond[2], 100 * found.worst);
-  if (!found.trusted())
-    text +=
-        "more than one in ten is beyond 5 %: `feasible` of a point that was not estimated is not to be trusted; take "
-        "estimate_every: 1, and physics.step: auto or a smaller accuracy\n";
+  if (found.trusted()) return text;
+  if (found.too_few()) {
+    return text + fmt::format("fewer than {}: no evidence for the other {}; take a smaller estimate_every\n",
+                              studies::Estimated::kFewest, counted(found.others, "run"));
+  }
+  text += "more than one in ten is beyond 5 %: ";
+  if (found.others > 0) {
+    text += fmt::format("`feasible` of the other {} is not to be trusted; take estimate_every: 1, and ",
+                        counted(found.others, "run"));
+  } else {
+    text += "take ";
+  }
+  text += "physics.step: auto or a smaller accuracy\n";
   return text;
 }
 
@@ -313,6 +324,14 @@ StudyProgress::~StudyProgress() {
   if (shown_ && terminal_) fmt::print(stderr, "\r{:110}\r", "");
 }
 
+AgainProgress::AgainProgress(bool quiet) : shown_(!quiet && isatty(fileno(stderr)) != 0) {}
+
+void AgainProgress::operator()(std::size_t done, std::size_t of) const {
+  if (!shown_) return;
+  fmt::print(stderr, "\r{}", done < of ? fmt::format("{} of {} runs again", done, of) : fmt::format("{:40}\r", ""));
+  (void)std::fflush(stderr);
+}
+
 void StudyProgress::operator()(const studies::SearchPlace& place) {
   place_ = place.searches > 1 ? fmt::format("  {} searches", place.searches) : "";
   place_ += fmt::format("  generation {}", place.generation);
@@ -333,8 +352,8 @@ void StudyProgress::operator()(const studies::Standing& s) {
   const Time now = std::chrono::steady_clock::now();
   const double runs_per_s = rate(now, s.ended);
   const std::chrono::duration<double> last = now - last_;
-  constexpr double kOften = 0.1;  // s, on a terminal
-  constexpr double kSeldom = 30;  // s, elsewhere
+  constexpr double kOften = 0.1;  // s between updates, on a terminal
+  constexpr double kSeldom = 30;  // s between updates, elsewhere
   const bool first = last_ == Time{};
   if (first && !terminal_) last_ = now;  // the first line after 30 s
   if ((first && !terminal_) || (!first && last.count() < (terminal_ ? kOften : kSeldom))) return;

@@ -1,4 +1,4 @@
-// What is printed and written of a study, while it runs and at its end.
+// Texts and files of a study, during its runs and at its end.
 #pragma once
 #include <chrono>
 #include <deque>
@@ -12,13 +12,13 @@
 
 namespace gaitlab::app {
 
-/// `speed` in m/s and so on: the objective, with the unit where it is one figure.
+/// `speed` in m/s and so on: the objective, with the unit if it is a single quantity.
 std::string objective_text(const studies::JournalHead& head);
 /// ` m/s`, or nothing.
 std::string objective_unit(const studies::JournalHead& head);
 
-/// State, best and worst points, what failed, how to repeat a run. `folder`: as the user would type it. `most` points at either
-/// end.
+/// State, best and worst points, failures, and the command that repeats a run. `folder`: as the user would type it. `most`
+/// points at either end.
 std::string study_summary(studies::Journal& journal, const studies::Results& results, const std::filesystem::path& folder,
                           std::size_t most);
 
@@ -26,21 +26,22 @@ std::string study_summary(studies::Journal& journal, const studies::Results& res
 std::string points_table(studies::Journal& journal, const studies::Results& results, const std::vector<std::size_t>& order,
                          std::size_t most);
 
-/// All runs, a line each, in their order: the columns of table `run`. Appears whole or not at all.
+/// Writes all runs, a line each, in order: the columns of table `run`. The file appears whole or not at all.
 void write_table(studies::Journal& journal, const std::filesystem::path& file, Existing existing = Existing::replaced);
 
-/// table.csv, and the figures with the data they draw. Returns the names of the files.
+/// Writes table.csv, and the figures with their data. Returns the names of the files.
 std::vector<std::string> write_study_files(studies::Journal& journal, const studies::Results& results,
                                            const std::filesystem::path& folder);
 
-/// convergence.svg of a search, front.svg of several objectives, each with the data it draws. Returns the names of the figures.
+/// Writes convergence.svg of a search and front.svg of several objectives, each with its data. Returns the names of the
+/// figures.
 std::vector<std::string> write_search_files(studies::Journal& journal, const studies::Results& results,
                                             const std::filesystem::path& folder);
 
-/// A line below a figure: how many runs, which guards, which build.
+/// A line below a figure: number of runs, guards, build.
 std::string study_note(const studies::JournalHead& head, std::uint64_t runs);
 
-/// Which of the best points stood, and why the others did not; empty: nothing was verified.
+/// The verified ones among the best points, and the reasons against the others; empty: nothing was verified.
 std::string verification_text(studies::Journal& journal);
 
 /// A bar on a terminal, a line every 30 s elsewhere.
@@ -51,7 +52,7 @@ class StudyProgress {
   StudyProgress(const StudyProgress&) = delete;
   StudyProgress& operator=(const StudyProgress&) = delete;
   void operator()(const studies::Standing& standing);
-  /// Before each generation of a search.
+  /// Called before each generation of a search.
   void operator()(const studies::SearchPlace& place);
 
  private:
@@ -61,17 +62,27 @@ class StudyProgress {
 
   bool shown_, terminal_;
   std::string unit_, place_;
-  std::deque<std::pair<Time, std::uint64_t>> minute_;  ///< when so many runs had ended
+  std::deque<std::pair<Time, std::uint64_t>> minute_;  ///< number of ended runs at these times
   Time last_{};
 };
 
-/// Of a table: in quotes where it holds commas, quotes or line ends.
+/// Progress of repeated runs, in a line of a terminal.
+class AgainProgress {
+ public:
+  explicit AgainProgress(bool quiet);
+  void operator()(std::size_t done, std::size_t of) const;
+
+ private:
+  bool shown_;
+};
+
+/// Cell of a table: in quotes if it contains commas, quotes or line ends.
 std::string csv_cell(const std::string& text);
 
-/// A figure's name as that of a file: letters, digits, `.`, `_` and `-`.
+/// File name from the name of a quantity: letters, digits, `.`, `_` and `-`.
 std::string file_name(const std::string& figure);
 
-/// One argument of a command line, in quotes where a shell would need them.
+/// One argument of a command line, in quotes if a shell needs them.
 std::string shell_word(const std::string& word);
 
 }  // namespace gaitlab::app

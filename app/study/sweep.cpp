@@ -1,4 +1,4 @@
-// Many runs of a scenario: a map of its parameters, in a journal that survives whatever ends the program.
+// Many runs of a scenario: a map of its parameters, in a journal that survives any end of the program.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "app/study/sweep_arguments.h"
 #include "core/errors.h"
 #include "core/settings/wording.h"
+#include "studies/run/again.h"
 #include "studies/run/answers.h"
 
 namespace gaitlab::app {
@@ -22,37 +23,25 @@ using studies::Journal;
 using studies::Plan;
 using studies::Study;
 
-int sweep_study(const SweepArguments& a) {
-  refuse_copies("gaitlab sweep");
-  Catalog catalog = standard_catalog();
-  Study study = wanted_study(a);
-  const studies::Shard shard = wanted_shard(a);
-  if (study.name.empty()) study.name = read_scenario(study.scenario, study.sets, catalog).name;
-  Plan plan(std::move(study), quantity_offer(), catalog);
-  if (a.dry_run) {
-    print_notes(plan, a.quiet);
-    print_plan(plan, a);
-    return 0;
+/// Estimates all other points also, if the drawn ones are not accurate. False: stopped.
+bool estimate_others(const Plan& plan, Journal& journal, const studies::Executor& executor, const SweepArguments& a) {
+  const std::vector<std::uint64_t> runs = runs_in_doubt(plan, journal);
+  if (runs.empty()) return true;
+  if (!a.quiet) {
+    const std::string why = studies::estimated(journal).too_few()
+                                ? fmt::format("was estimated for fewer than {} runs", studies::Estimated::kFewest)
+                                : "is beyond 5 % in more than one of ten estimated runs";
+    say(journal.file().string(), "note",
+        fmt::format("the torque error {}: the other {} again with an estimate", why,
+                    runs.size() == 1 ? "run is made" : fmt::format("{} runs are made", runs.size())));
   }
-  // Before the folder, which belongs to one process.
-  const studies::Executor executor = study_executor(plan, a);
-  print_notes(plan, a.quiet);  // one process of several comes here
-  studies::JournalHead head = study_head(plan);
-  std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
-  std::uint64_t answered = 0;
-  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before there is a folder
-  const fs::path folder = studies::study_folder(a.out, "sweep-" + plan.study().name, holds_study(head));
-  head.command = goes_on(a, folder);
-  const fs::path file = journal_file(folder, shard);
-  std::error_code none;
-  if (!shard.whole()) fs::create_directory(folder / "shards", none);
-  fs::path lock_file = file;
-  const studies::Lock lock(shard.whole() ? folder / "lock" : lock_file.replace_extension("lock"));
-  const bool begins = !fs::exists(file, none);  // a plugin that crashes in the own gait ends the first start alone
-  Journal journal(file, head, taken_build(a));
-  keep_runs(plan, journal, folder, a.quiet);
-  if (begins && shard.index == 0) print_own_gait(plan, a.quiet);
+  return estimate_again(plan, journal, runs, executor, AgainProgress(a.quiet), stopped());
+}
 
+/// Runs the points of the shard that the journal lacks, and prints how many other studies answered.
+studies::Standing run_points(const Plan& plan, Journal& journal, const studies::Executor& executor,
+                             std::vector<studies::Answers>& answers, const studies::Shard& shard, const SweepArguments& a) {
+  std::uint64_t answered = 0;
   studies::Standing standing;
   {
     StudyProgress progress(a.quiet, objective_unit(journal.head()));
@@ -66,7 +55,52 @@ int sweep_study(const SweepArguments& a) {
   }
   if (!a.quiet && !answers.empty())
     fmt::print("{} of {} were answered by other studies\n", answered, counted(standing.ended - standing.before, "run"));
-  if (!standing.whole()) {
+  return standing;
+}
+
+/// Writes and prints the results of a whole sweep.
+void write_results(Journal& journal, const fs::path& folder, bool quiet) {
+  const studies::Results results = studies::results(journal);
+  const std::vector<std::string> files = write_study_files(journal, results, folder);
+  if (quiet) return;
+  constexpr std::size_t kShown = 5;
+  fmt::print("{}", study_summary(journal, results, folder, kShown));
+  fmt::print("files in {}: {}, {}\n", folder.string(), studies::kJournalFile, fmt::join(files, ", "));
+}
+
+int sweep_study(const SweepArguments& a) {
+  refuse_copies("gaitlab sweep");
+  Catalog catalog = standard_catalog();
+  Study study = wanted_study(a);
+  const studies::Shard shard = wanted_shard(a);
+  if (study.name.empty()) study.name = read_scenario(study.scenario, study.sets, catalog).name;
+  Plan plan(std::move(study), quantity_offer(), catalog);
+  if (a.dry_run) {
+    print_notes(plan, a.quiet);
+    print_plan(plan, a);
+    return 0;
+  }
+  // Before the folder is locked, which belongs to one process.
+  const studies::Executor executor = study_executor(plan, a);
+  print_notes(plan, a.quiet);  // only one process of a team reaches this
+  studies::JournalHead head = study_head(plan);
+  std::vector<studies::Answers> answers = other_answers(plan, a, head.build);
+  const StopOnSignal stop(StopOnSignal::Second::ends_the_process);  // before the folder is created
+  const fs::path folder = studies::study_folder(a.out, "sweep-" + plan.study().name, holds_study(head));
+  head.command = goes_on(a, folder);
+  const fs::path file = journal_file(folder, shard);
+  std::error_code none;
+  if (!shard.whole()) fs::create_directory(folder / "shards", none);
+  fs::path lock_file = file;
+  const studies::Lock lock(shard.whole() ? folder / "lock" : lock_file.replace_extension("lock"));
+  const bool begins = !fs::exists(file, none);  // a plugin that crashes in the scenario's gait ends only the first start
+  Journal journal(file, head, taken_build(a));
+  keep_runs(plan, journal, folder, a.quiet);
+  if (begins && shard.index == 0) print_own_gait(plan, a.quiet);
+
+  const studies::Standing standing = run_points(plan, journal, executor, answers, shard, a);
+  const bool whole = standing.whole() && (!shard.whole() || estimate_others(plan, journal, executor, a));
+  if (!whole) {
     say(fmt::format("{}: interrupted: {} of {} runs are in the journal; go on with\n{}\n", folder.string(), standing.ended,
                     standing.wanted, goes_on(a, folder)));
     return 1;
@@ -78,13 +112,7 @@ int sweep_study(const SweepArguments& a) {
                  shell_word(folder.string()));
     return all_failed ? 1 : 0;
   }
-  const studies::Results results = studies::results(journal);
-  const std::vector<std::string> files = write_study_files(journal, results, folder);
-  if (!a.quiet) {
-    constexpr std::size_t kShown = 5;
-    fmt::print("{}", study_summary(journal, results, folder, kShown));
-    fmt::print("files in {}: {}, {}\n", folder.string(), studies::kJournalFile, fmt::join(files, ", "));
-  }
+  write_results(journal, folder, a.quiet);
   if (all_failed) say(fmt::format("{}: error: none of the {} runs came to its end\n", folder.string(), standing.wanted));
   return all_failed ? 1 : 0;
 }
@@ -101,7 +129,7 @@ void add_sweep(Commands& commands) {
       [](CLI::App& command, SweepArguments& a) {
         add_scenario(command, a);
         command.get_option("SCENARIO")->description("scenario file, or the file of a study (YAML)");
-        command.get_option("--seed")->description("seed of what is drawn (default 1)");
+        command.get_option("--seed")->description("seed of the random draws (default 1)");
         repeatable(
             command.add_option("--grid", a.grids, "values of a key, KEY=A:B:N, KEY=log:A:B:N or KEY=v,v,v; may be repeated"));
         repeatable(command.add_option("--random", a.randoms,
@@ -115,7 +143,7 @@ void add_sweep(Commands& commands) {
             "quantities to show and draw, by name with * and ?; the first orders the points of a scenario; may be repeated"));
         command.add_option("--shard", a.shard,
                            "do one part of the runs, I/N, or auto in a Slurm array; then `gaitlab study merge`");
-        command.add_flag("--dry-run", a.dry_run, "tell what would be run and how long it takes, and write nothing");
+        command.add_flag("--dry-run", a.dry_run, "print the runs and the time that they take, and write nothing");
         add_study_run(command, a, "runs/sweep-NAME");
       });
 }

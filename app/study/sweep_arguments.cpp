@@ -93,7 +93,7 @@ Study wanted_study(const SweepArguments& a) {
 
 namespace {
 
-/// A variable that Slurm sets in an array; `otherwise`: where it may be missing.
+/// A variable that Slurm sets in an array; `otherwise`: default, if it may be missing.
 std::uint64_t array_number(const char* name, Problems& problems, std::optional<std::uint64_t> otherwise = {}) {
   const char* text = std::getenv(name);
   if (text == nullptr && otherwise) return *otherwise;
@@ -105,7 +105,7 @@ std::uint64_t array_number(const char* name, Problems& problems, std::optional<s
   return whole ? std::strtoull(text, nullptr, 10) : 0;
 }
 
-/// The part of a Slurm array's task. Where the folder already has shards of another number, tasks are numbered as these: some
+/// Shard of a Slurm array's task. If the folder already has shards of another count, tasks are numbered as these, because some
 /// of them are run again.
 studies::Shard array_shard(const std::optional<std::string>& out, Problems& problems) {
   const std::uint64_t id = array_number("SLURM_ARRAY_TASK_ID", problems);

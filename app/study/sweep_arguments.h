@@ -1,4 +1,4 @@
-// The command line of `gaitlab sweep`, and what it asks for.
+// The command line of `gaitlab sweep`, and the study that it describes.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -18,11 +18,11 @@ struct SweepArguments : ScenarioArguments, StudyRunArguments {
   bool dry_run = false;
 };
 
-/// The study: of its file, or as the options describe it (then without a name). InputError with every problem found.
+/// The study: from its file, or from the options (then without a name). Throws InputError with every problem found.
 studies::Study wanted_study(const SweepArguments& arguments);
-/// What of it this process runs. InputError.
+/// Shard of the study for this process. Throws InputError.
 studies::Shard wanted_shard(const SweepArguments& arguments);
-/// The command that goes on with it in a folder.
+/// Command that continues the study in a folder.
 std::string goes_on(const SweepArguments& arguments, const std::filesystem::path& folder);
 
 }  // namespace gaitlab::app

@@ -6,7 +6,7 @@ namespace gaitlab {
 
 namespace {
 
-/// The body of `module` that is part of `link`: hinges are between links, so there is one at most.
+/// The body of `module` that is part of `link`; there is at most one, because hinges are between links.
 std::size_t body_on(const Robot& robot, std::size_t module, std::size_t link) {
   std::size_t body = robot.modules[module].first_body;
   while (robot.bodies[body].link != link) ++body;

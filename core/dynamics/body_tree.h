@@ -1,4 +1,4 @@
-// What every body hangs on: a hinge of its module, or the dock of its module. The bodies of a link stay apart here.
+// Tree of bodies, each attached to its parent by a hinge or by the dock of its module. Docked bodies are not fused here.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -10,18 +10,18 @@ namespace gaitlab {
 
 struct Attachment {
   enum class Kind { base, hinge, dock } kind = Kind::base;
-  std::size_t parent = 0;      ///< body; itself for the body that carries the base frame
+  std::size_t parent = 0;      ///< body; the base body is its own parent
   std::size_t index = 0;       ///< joint, or the docked (child's) module
-  Vec3 origin = Vec3::Zero();  ///< of the hinge or of the docked faces, m, frame of the body's link
+  Vec3 origin = Vec3::Zero();  ///< origin of the hinge or of the docked faces, m, frame of the body's link
 };
 
 struct BodyTree {
   explicit BodyTree(const Robot& robot);
-  std::vector<Attachment> attachments;  ///< one a body
+  std::vector<Attachment> attachments;  ///< one per body
   std::vector<std::size_t> order;       ///< all bodies, a parent before its children
 };
 
-/// `m3/dock`: a module's dock on its parent. No hinge is called dock (core/scenario/module_file).
+/// `m3/dock`: a module's dock on its parent. No hinge is called dock (core/robot_files/module_file).
 std::string dock_name(std::size_t module);
 
 }  // namespace gaitlab

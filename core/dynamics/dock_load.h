@@ -1,4 +1,4 @@
-// What a dock bears, along its faces and across them.
+// Load of a dock, normal to its faces and along them.
 #pragma once
 #include <cmath>
 
@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// About the common origin of the docked faces; shear and bending are magnitudes, so that they do not depend on the quarter
-/// turn by which the faces are docked. (docs/equations.md, 9)
+/// Load about the common origin of the docked faces. Shear and bending are magnitudes, so that they do not depend on the
+/// quarter turn by which the faces are docked. (docs/equations.md, 9)
 struct DockLoad {
   double tension = 0;  ///< N, positive: pulls the modules apart
   double shear = 0;    ///< N, in the plane of the faces
@@ -15,7 +15,7 @@ struct DockLoad {
   double torsion = 0;  ///< N m, of the parent on the child, right-hand about the parent face's outward normal
 };
 
-/// on_child: what the parent exerts on the child (InverseDynamics::dock); normal: of the parent's face, outward, unit vector;
+/// on_child: wrench of the parent on the child (InverseDynamics::dock); normal: of the parent's face, outward, unit vector;
 /// both in the same axes.
 inline DockLoad dock_load(const Wrench& on_child, const Vec3& normal) {
   const auto across = [&](const Vec3& v) { return std::sqrt((v - v.dot(normal) * normal).squaredNorm()); };

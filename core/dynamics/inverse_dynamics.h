@@ -1,4 +1,5 @@
-// Which torques and reactions a motion takes: recursive Newton-Euler over the bodies, independent of any engine.
+// Inverse dynamics: torques and reactions that a motion requires, by recursive Newton-Euler over the bodies, independent of any
+// engine.
 #pragma once
 #include <span>
 #include <vector>
@@ -10,22 +11,22 @@
 
 namespace gaitlab {
 
-/// Every body needs f = m (a - g) and n = I alpha + omega x I omega about its COM, less what acts on it from outside; a hinge
-/// or dock carries the sum over all bodies that hang on it, and a joint's torque is the moment's component along its axis (Luh,
-/// Walker, Paul 1980, here in world axes: moments are summed about the origin of the base frame, then moved). No inertia but
-/// the bodies' own: a rotor's is the caller's to add. No allocation in update.
+/// Recursive Newton-Euler: every body needs f = m (a - g) and n = I alpha + omega x I omega about its COM, minus the external
+/// wrenches on it; a hinge or dock carries the sum over all bodies beyond it, and a joint's torque is the moment's component
+/// along its axis (Luh, Walker, Paul 1980, here in world axes: moments are summed about the origin of the base frame, then
+/// moved). Includes the bodies' inertia only; the caller adds the rotors'. update does not allocate.
 class InverseDynamics {
  public:
   explicit InverseDynamics(const Robot& robot);
 
-  /// `kinematics`: updated at the state whose accelerations are given.
+  /// `kinematics` is up to date with the state whose accelerations are given.
   void update(const Kinematics& kinematics, const Acceleration& acceleration, const Vec3& gravity,
               std::span<const BodyWrench> wrenches = {});
 
-  [[nodiscard]] In torques() const { return torques_; }  ///< a joint, N m, positive along the axis
-  /// What must act on the base from outside, about the origin of the base frame; 0 for a free one.
+  [[nodiscard]] In torques() const { return torques_; }  ///< per joint, N m, positive along the axis
+  /// External wrench that the base needs, about the origin of the base frame; 0 for a free one.
   [[nodiscard]] const Wrench& base() const { return carried_[tree_.order[0]]; }
-  /// What the parent exerts on the child, about the hinge's origin; motor torque, stop and bearing together.
+  /// Wrench of the parent on the child, about the hinge's origin; sum of motor torque, stop and bearing.
   [[nodiscard]] const Wrench& hinge(std::size_t joint) const { return carried_[body_of_joint_[joint]]; }
   /// The same for the dock of a module (not the root) on its parent, about the origin of the docked faces.
   [[nodiscard]] const Wrench& dock(std::size_t module) const { return carried_[robot_.modules[module].reference]; }
@@ -36,9 +37,9 @@ class InverseDynamics {
 
   const Robot& robot_;
   BodyTree tree_;
-  std::vector<std::size_t> body_of_joint_;  ///< the child
+  std::vector<std::size_t> body_of_joint_;  ///< child body of each joint
   std::vector<Vec3> alpha_, a_;             ///< per link: angular acceleration; acceleration of the link frame's origin
-  std::vector<Wrench> carried_;             ///< per body: by what it hangs on
+  std::vector<Wrench> carried_;             ///< per body: wrench of its parent on it
   std::vector<double> torques_;
 };
 

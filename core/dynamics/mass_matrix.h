@@ -9,13 +9,13 @@
 
 namespace gaitlab {
 
-/// Which of (velocity of the base frame's origin x y z, angular velocity x y z; world axes) the base has: all, none, or x, z
-/// and the turn about y. They come first in every generalised vector, the joints behind them.
+/// Entries of (velocity of the base frame's origin x y z, angular velocity x y z; world axes) in which the base can move: all,
+/// none, or x, z and the turn about y. They precede the joints in every generalised vector.
 std::span<const std::size_t> base_entries(Base base);
 
-/// M(q) with M v' + c = f, v = (base entries, joint speeds), kg, kg m, kg m^2; symmetric, positive definite where every joint
+/// M(q) with M v' + c = f, v = (base entries, joint speeds), kg, kg m, kg m^2; symmetric, positive definite if every joint
 /// carries some inertia. Featherstone, Rigid Body Dynamics Algorithms (2008), 6.2, in world axes about the origin of the base
-/// frame, where composite inertias add up as they are. Cost O(links * depth); no allocation in update.
+/// frame, where composite inertias are added unchanged. Cost O(links * depth); update does not allocate.
 class MassMatrix {
  public:
   MassMatrix(const Robot& robot, Base base);
@@ -23,7 +23,7 @@ class MassMatrix {
   [[nodiscard]] const Eigen::MatrixXd& matrix() const { return matrix_; }
 
  private:
-  /// Of a link with all that hangs on it, about the origin of the base frame, world axes.
+  /// Inertia of a link with all links beyond it, about the origin of the base frame, world axes.
   struct Composite {
     double mass = 0;
     Vec3 first = Vec3::Zero();   ///< mass times COM, kg m
@@ -39,8 +39,8 @@ class MassMatrix {
   Eigen::MatrixXd matrix_;
 };
 
-/// (base entries of the base wrench, joint torques) of an inverse dynamics: the f of a motion, or, at zero accelerations, the
-/// bias c: centrifugal and Coriolis terms, weight and wrenches from outside.
+/// Generalised force of an inverse dynamics, (base entries of the base wrench, joint torques): the f of a motion or, at zero
+/// accelerations, the bias c: centrifugal and Coriolis terms, weight and external wrenches.
 Eigen::VectorXd generalised_force(const InverseDynamics& dynamics, Base base);
 
 }  // namespace gaitlab

@@ -1,4 +1,4 @@
-// Reflected rotor inertias for an algorithm that knows none.
+// Reflected rotor inertias, for a dynamics algorithm without them.
 #pragma once
 #include <Eigen/Cholesky>
 
@@ -8,13 +8,13 @@
 namespace gaitlab {
 
 /// Rotors behind gears add n^2 J to the diagonal of the mass matrix (their gyroscopic moments and the motion of their axes are
-/// neglected, as usual for n >> 1): (M + J) a = f. From a_0 = M^-1 f, however it was found,
+/// neglected, as usual for n >> 1): (M + J) a = f. From a_0 = M^-1 f, by any algorithm,
 ///     a = a_0 - (M + J)^-1 J a_0
-/// by a Cholesky factor of M + J, which is positive definite even where joints carry nothing. O((6 + joints)^3) a call of
-/// update; no allocation in any call but the constructor.
+/// by a Cholesky factor of M + J, which is positive definite even if joints carry no inertia. Each update costs O((6 +
+/// joints)^3); only the constructor allocates.
 class RotorInertia {
  public:
-  /// `inertia`: n^2 J a joint, kg m^2.
+  /// `inertia`: n^2 J per joint, kg m^2.
   RotorInertia(const Robot& robot, Base base, In inertia);
   void update(const Kinematics& kinematics);
   /// a_0 in, a out.

@@ -6,12 +6,12 @@
 
 namespace gaitlab {
 
-/// About a point that whoever holds one names.
+/// Force and moment about a point that its holder defines.
 struct Wrench {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
 };
 
-/// From outside on one body: a force at a world point, m, and a torque.
+/// External load on one body: a force at a world point, m, and a torque.
 struct BodyWrench {
   std::size_t body = 0;
   Vec3 point = Vec3::Zero(), force = Vec3::Zero(), torque = Vec3::Zero();

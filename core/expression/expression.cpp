@@ -29,7 +29,7 @@ class Lexer {
  public:
   Lexer(std::string_view text, Names names) : text_(text), names_(names) {}
 
-  /// The text up to a `]`, which it goes behind; blanks at both ends are left out.
+  /// The text up to a `]`, without blanks at both ends; the position moves past the `]`.
   Token bracketed() {
     const std::size_t end = text_.find(']', at_);
     if (end == std::string_view::npos) throw Fault{text_.size(), "found the end of the text; expected ']'"};
@@ -68,13 +68,14 @@ class Lexer {
     if (end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
       const bool sign = end + 1 < text_.size() && (text_[end + 1] == '+' || text_[end + 1] == '-');
       const std::size_t exponent = end + (sign ? 2 : 1);
-      if (digits(exponent) > exponent) end = digits(exponent);  // else a name that sticks to the number: refused next
+      if (digits(exponent) > exponent)
+        end = digits(exponent);  // else a name follows the number directly, which is refused next
     }
     at_ = end;
     Token token{Token::Kind::number, begin, text_.substr(begin, end - begin)};
     const auto [last, failure] = std::from_chars(token.text.data(), token.text.data() + token.text.size(), token.number);
     const bool zero = token.text.find_first_of("123456789") >= std::min(token.text.find_first_of("eE"), token.text.size());
-    // Both are checked: whether from_chars reports an underflow differs between library versions.
+    // Overflow and underflow are checked here: whether from_chars reports an underflow differs between library versions.
     if (failure != std::errc() || !std::isfinite(token.number) || (token.number == 0 && !zero)) {
       throw Fault{begin, "found " + quoted(token.text) + "; expected a number that fits a double"};
     }
@@ -127,7 +128,7 @@ class Parser {
   }
 
  private:
-  /// A level further in, for as long as it lives.
+  /// One level of nesting, during its lifetime.
   class Level {
    public:
     explicit Level(Parser& parser) : parser_(parser) {
@@ -172,7 +173,7 @@ class Parser {
     return term;
   }
 
-  /// A chain of operators of one rank, from the left.
+  /// A chain of operators of one precedence, from the left.
   template <class Operand>
   Term chain(std::initializer_list<std::string_view> signs, Operand operand) {
     Term left = operand();

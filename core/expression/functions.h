@@ -1,4 +1,4 @@
-// What expressions may calculate: operators and functions, over many values at once.
+// Operators and functions of expressions, over many values at once.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -42,13 +42,13 @@ struct Function {
   std::size_t arguments;
   Op op;
 };
-/// nullptr: there is none.
+/// nullptr: unknown name.
 const Function* find_function(const std::string& name);
-/// Those that are written as calls: without the operators.
+/// Functions that are written as calls: without the operators.
 std::span<const Function> functions();
 
-/// out[k] = op(a[k], b[k], c[k]) for k < n; operands that the function does not have are not looked at. What compares gives 1
-/// or 0, and what is not 0 counts as true.
+/// out[k] = op(a[k], b[k], c[k]) for k < n; operands that the function does not have are not read. Comparisons give 1 or 0, and
+/// any number other than 0 is true.
 void calculate(Function::Op op, std::size_t n, double* out, const double* a, const double* b, const double* c);
 
 }  // namespace gaitlab::expression

@@ -14,7 +14,7 @@ pid_t begin_child(const std::function<int()>& work) {
   if (child != 0) return child;
   (void)::close_range(STDERR_FILENO + 1, UINT_MAX, 0);
   (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it ended before it was asked to take this process along
+  if (::getppid() != parent) ::_exit(1);  // the parent ended before prctl took effect
   ::_exit(work());
 }
 

@@ -1,4 +1,4 @@
-// Work that may take its process along is done in a process of its own.
+// Child processes, for work that may crash.
 #pragma once
 #include <sys/types.h>
 
@@ -6,9 +6,9 @@
 
 namespace gaitlab {
 
-/// Forks a process that ends with the code `work` returns, and does not outlive the thread that began it. It holds no file of
-/// this process but the three standard streams: otherwise a lock of a killed process would live on in its child. Exceptions
-/// must not leave `work`. -1, with the reason in errno: no process is to be had.
+/// Forks a process that ends with the return value of `work` as its code, and does not outlive the thread that began it. It
+/// inherits the three standard streams only; with other files a lock of a killed process would persist in its child. Exceptions
+/// must not leave `work`. Returns -1, with the reason in errno, if no process can be created.
 pid_t begin_child(const std::function<int()>& work);
 
 }  // namespace gaitlab

@@ -31,7 +31,7 @@ FolderLock::~FolderLock() {
 
 bool FolderLock::take(const std::filesystem::path& folder) {
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0 || take_lock(descriptor_, folder)) return true;  // who cannot open it cannot write it
+  if (descriptor_ < 0 || take_lock(descriptor_, folder)) return true;  // a process that cannot open the folder cannot write it
   ::close(std::exchange(descriptor_, -1));
   return false;
 }

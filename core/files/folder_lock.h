@@ -1,23 +1,24 @@
-// One process at a time writes to a folder.
+// Lock of a folder, so that one process at a time writes to it.
 #pragma once
 #include <filesystem>
 
 namespace gaitlab {
 
-/// flock(2) of an open file or folder, without waiting, until it is closed. False: another process holds it. On a file system
-/// without locks a note on stderr names `folder`, once, and the result is true.
+/// Locks an open file or folder by flock(2), without waiting, until it is closed. False: another process holds the lock. On a
+/// file system without locks it prints a note on stderr that names `folder`, once, and returns true.
 [[nodiscard]] bool take_lock(int descriptor, const std::filesystem::path& folder);
 
-/// Holds a folder for as long as it lives: flock(2) of the folder itself, which leaves no file and ends with the process.
+/// Holds the lock of a folder during its lifetime: flock(2) of the folder itself, which leaves no file and ends with the
+/// process.
 class FolderLock {
  public:
-  /// Nothing is held until take().
+  /// Not locked until take().
   FolderLock() = default;
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// False: another process holds it. File systems without locks: see take_lock().
+  /// False: another process holds the lock. File systems without locks: see take_lock().
   [[nodiscard]] bool take(const std::filesystem::path& folder);
 
  private:

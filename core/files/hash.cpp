@@ -12,7 +12,7 @@ constexpr std::uint64_t kPrime = 1099511628211ULL;
 
 std::uint64_t absorbed(std::uint64_t state, std::uint64_t word) {
   state = (state ^ word) * kPrime;
-  return state ^ state >> 32U;  // else a flip of the highest bit stays there, and two of them cancel
+  return state ^ state >> 32U;  // without this a flip of the highest bit is not spread, and two of them cancel
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ std::uint64_t fnv1a(std::string_view bytes, std::uint64_t state) {
 
 void WordHash::add(std::string_view bytes) {
   constexpr std::size_t kWord = sizeof(std::uint64_t);
-  std::uint64_t state = state_;  // in a register: a byte may be any object's, this one's too
+  std::uint64_t state = state_;  // kept in a register: the bytes may alias any object, also this one
   const auto absorb = [&](const char* from, std::size_t size) {
     std::uint64_t word = 0;
     std::memcpy(&word, from, size);
@@ -43,6 +43,14 @@ std::string hash_words(std::string_view bytes) {
   WordHash words;
   words.add(bytes);
   return words.text();
+}
+
+std::string hash128(std::string_view bytes) {
+  __extension__ using Wide = unsigned __int128;
+  constexpr Wide kWidePrime = (Wide{1} << 88U) + 0x13b;
+  Wide state = (Wide{0x6c62272e07bb0142U} << 64U) + 0x62b821756295c58dU;
+  for (const char byte : bytes) state = (state ^ static_cast<unsigned char>(byte)) * kWidePrime;
+  return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(state >> 64U), static_cast<std::uint64_t>(state));
 }
 
 std::string hash(std::string_view bytes) { return fmt::format("{:016x}", fnv1a(bytes)); }

@@ -1,4 +1,4 @@
-// Hashes of bytes: they tell accidents, no attacks.
+// Hashes of bytes, against accidental changes, not against attacks.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -7,17 +7,20 @@
 namespace gaitlab {
 
 inline constexpr std::uint64_t kFnvOffset = 14695981039346656037ULL;
-/// FNV-1a, 64 bit (Fowler, Noll, Vo), from `state` on.
+/// FNV-1a, 64 bit (Fowler, Noll, Vo), continued from `state`.
 std::uint64_t fnv1a(std::string_view bytes, std::uint64_t state = kFnvOffset);
 
-/// FNV-1a (64 bit) of the bytes alone. 16 hex digits.
+/// FNV-1a (64 bit) of the bytes. 16 hex digits.
 std::string hash(std::string_view bytes);
+
+/// FNV-1a, 128 bit. 32 hex digits: names of contents that must not meet by chance.
+std::string hash128(std::string_view bytes);
 
 /// Eight bytes at a time and so several times as fast: h = (h ^ word) * prime, h ^= h >> 32, words little-endian; prime and
 /// start are those of FNV-1a (64 bit).
 class WordHash {
  public:
-  /// Its length first, then its words, the last one filled up with zeros.
+  /// Adds the length of `bytes`, then their words, the last one filled up with zeros.
   void add(std::string_view bytes);
   /// 16 hex digits.
   [[nodiscard]] std::string text() const;
@@ -26,7 +29,7 @@ class WordHash {
   std::uint64_t state_ = kFnvOffset;
 };
 
-/// WordHash of these bytes alone.
+/// WordHash of one text.
 std::string hash_words(std::string_view bytes);
 
 }  // namespace gaitlab

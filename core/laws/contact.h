@@ -17,7 +17,7 @@ struct BasicPenaltyContact {
   struct Normal {
     T fn;                ///< normal force, N, >= 0
     T normal_slope;      ///< -d(fn)/d(vn) >= 0, N s/m; 0 where fn is cut off at 0
-    T stiffness;         ///< d(fn)/d(p) of the spring, Kn k p^(k-1) >= 0, N/m
+    T stiffness;         ///< d(fn)/d(p) of the spring alone, Kn k p^(k-1) >= 0, N/m
     math::Mask<T> acts;  ///< fn > 0
   };
   struct Force : Normal {
@@ -25,7 +25,7 @@ struct BasicPenaltyContact {
     math::Mask<T> sliding;  ///< |v| > v_lim: the slope of the friction is gt across the slip and 0 along it
   };
 
-  /// vn: separating velocity (> 0 leaves the ground).
+  /// Normal force. vn: separating velocity (> 0 leaves the ground).
   [[nodiscard]] Normal normal(const T& p, const T& vn) const {
     using math::select;
     const T zero = 0.0;
@@ -34,7 +34,7 @@ struct BasicPenaltyContact {
     const math::Mask<T> acts = math::mask_and(p > 0.0, fn > 0.0);
     return {select(acts, fn, zero), select(acts, damper, zero), select(acts, stiffness(p), zero), acts};
   }
-  // For p > 0 alone, perhaps no number in the air: Kn p^k, N; its slope, N/m; Cd p^d, N s/m; its slope, N s/m^2.
+  // Kn p^k, N; its slope, N/m; Cd p^d, N s/m; its slope, N s/m^2. For p > 0 only: may be NaN in the air.
   [[nodiscard]] T spring(const T& p) const { return kn * power(p, k); }
   [[nodiscard]] T stiffness(const T& p) const { return kn * k * power(p, k - 1.0); }
   [[nodiscard]] T damping(const T& p) const { return cd * power(p, d); }

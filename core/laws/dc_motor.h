@@ -10,8 +10,9 @@ namespace gaitlab {
 /// i = (u - Ks n w) / R, |u| <= u_max, |i| <= i_max; T = eta Kt i n.  (eq. 1, 2; limits: the paper's text)
 /// u V, w joint speed rad/s, i A, T N m on the joint. Inductance neglected, as in the paper. V: double or lanes.
 ///
-/// As printed, eq. 2 takes eta from the torque both ways: a joint that drives its motor then gets away with eta T instead of T
-/// / eta, and the gear creates energy. `reversal_speed` > 0 makes it directional: T = eta^s Kt i n, s = w sign(i) /
+/// As printed, eq. 2 multiplies the torque by eta in both directions: a joint that drives its motor then needs only eta T
+/// instead of T / eta, and the gear creates energy. `reversal_speed` > 0 makes it directional: T = eta^s Kt i n, s = w sign(i)
+/// /
 /// reversal_speed within [-1, 1], so that eta acts while driving, 1 / eta while back-driven, and the gear's loss (1 - eta^s) Kt
 /// i n w is never negative. The steps of torque at w = 0 would make any explicit method chatter; `reversal_speed` spreads it,
 /// as v_lim does for friction.
@@ -26,16 +27,16 @@ struct BasicDcMotor {
     V slope;    ///< -dT/dw >= 0, N m s/rad: eta Kt Ks n^2 / R, 0 while limited; more within `reversal_speed`
     V current;  ///< A
     V voltage;  ///< at the terminals: R i + Ks n w, V
-    math::Mask<V> limited, clamped;  ///< the current; the command
+    math::Mask<V> limited, clamped;  ///< the current is limited; the command is clamped
     V drawn;                         ///< electrical power, W
-    V copper, gear;                  ///< what becomes heat of it in the winding and in the gear, W
+    V copper, gear;                  ///< power lost in the winding and in the gear, W
 
     /// 0 none, 1 voltage, 2 current
     [[nodiscard]] V saturation() const { return math::select(limited, V(2.0), math::select(clamped, V(1.0), V(0.0))); }
   };
 
   [[nodiscard]] Effort operator()(const V& command, const V& speed) const { return at(command, speed, i_max); }
-  /// Whatever current that takes.
+  /// Torque at any current that it takes: without the current limit.
   [[nodiscard]] Effort unlimited(const V& command, const V& speed) const {
     return at(command, speed, std::numeric_limits<double>::infinity());
   }

@@ -1,250 +1,53 @@
 #include "core/laws/ground.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
-#include "core/laws/plane.h"
+#include <string>
+#include <vector>
 
 namespace gaitlab {
 
-namespace {
-
-constexpr double kSame = 1e-9;    // m: closer than this is the same place
-constexpr double kBack = -0.5;    // cosine: a face that looks back at the one an element left by is not a way out of there
-constexpr std::size_t kMost = 4;  // touches of one element at once: a corner has three
-constexpr int kSweeps = 8;        // of the shares: exact at right angles after one, and bounded always
-constexpr int kPerpendiculars =
-    3;  // steps to the foot of the perpendicular on a field: each gains as much as the field is flat
-
-/// One solid that an element touches, or is near.
-struct Push {
-  double penetration;
-  Vec3 normal;
-  double friction;
-};
-
-/// Axis k of a box, upwards or downwards, and how deep below that face a place (in the box's axes) lies.
-struct Face {
-  Eigen::Index axis;
-  double sign;
-  [[nodiscard]] double depth(const Box& box, const Vec3& local) const { return 0.5 * box.size[axis] - sign * local[axis]; }
-  [[nodiscard]] Vec3 normal(const Box& box) const { return sign * box.R.col(axis); }
-};
-
-constexpr std::array<Face, 6> kFaces{{{2, 1}, {2, -1}, {1, 1}, {1, -1}, {0, 1}, {0, -1}}};
-
-/// The ways by which an element left one box after another: a seam, a corner of four tiles.
-struct ExitPath {
-  std::array<Vec3, 3> normals;
-  std::size_t count = 0;
-  [[nodiscard]] bool back(const Vec3& normal) const {
-    return std::any_of(normals.begin(), normals.begin() + count, [&](const Vec3& way) { return normal.dot(way) <= kBack; });
-  }
-};
-
-/// Limit of the searches of one query: a whole search of n boxes in one place needs n^4 looks at a box. The corner of a floor
-/// of tiles needs 276 searches, steps of 200 boxes on top of one another 50.
-struct Searches {
-  static constexpr std::size_t kFewest = 300, kLooks = 4'000'000;
-  std::size_t left;
-};
-
-/// The distance that is left into the open from a place where an element left box `left`; at least `bound` is enough. 0 after
-/// the last search.
-double remaining_exit_depth(const std::vector<Box>& boxes, const Box& left, const Vec3& place, const ExitPath& ways,
-                            double bound, Searches& searches) {
-  if (searches.left == 0) return 0;
-  --searches.left;
-  double most = 0;
-  for (const Box& box : boxes) {
-    if (most >= bound) break;
-    if (&box == &left) continue;
-    const Vec3 local = box.R.transpose() * (place - box.center);
-    if (((local.cwiseAbs() - 0.5 * box.size).array() > kSame).any()) continue;
-    double least = bound;
-    for (const Face& face : kFaces) {
-      const Vec3 normal = face.normal(box);
-      double cost = face.depth(box, local);
-      if (cost >= least || ways.back(normal)) continue;
-      if (ways.count < ways.normals.size()) {
-        ExitPath longer = ways;
-        longer.normals[longer.count++] = normal;
-        cost += remaining_exit_depth(boxes, box, place + cost * normal, longer, least - cost, searches);
-      }
-      least = std::min(least, cost);
-      if (least <= most) break;
-    }
-    most = std::max(most, least);
-  }
-  return most;
-}
-
-/// A sphere whose centre is in the box leaves by the face of least depth that leads out.
-Push inside(const std::vector<Box>& boxes, const Box& box, const Vec3& centre, const Vec3& local, double radius,
-            Searches& searches) {
-  double least = 2 * box.size.sum();
-  Push push{0, Vec3::UnitZ(), box.friction};
-  for (const Face& face : kFaces) {
-    const double depth = face.depth(box, local);
-    if (depth >= least) continue;
-    const Vec3 normal = face.normal(box);
-    const Vec3 place = centre + depth * normal;
-    if (normal.z() < kBack && place.z() < 2 * kSame) continue;
-    // Twice: at a seam, where the way to the next box is short, up is still the shorter one.
-    const double cost = depth + 2 * remaining_exit_depth(boxes, box, place, {{normal}, 1}, least - depth, searches);
-    if (cost >= least) continue;
-    least = cost;
-    push.penetration = radius + depth;
-    push.normal = normal;
-  }
-  return push;
-}
-
-Push against(const std::vector<Box>& boxes, const Box& box, const Vec3& centre, double radius, Searches& searches) {
-  const Vec3 local = box.R.transpose() * (centre - box.center);
-  const Vec3 nearest = local.cwiseMax(-0.5 * box.size).cwiseMin(0.5 * box.size);
-  const double distance = (local - nearest).norm();
-  if (!(distance > 0)) return inside(boxes, box, centre, local, radius, searches);
-  return {radius - distance, box.R * ((local - nearest) / distance), box.friction};
-}
-
-/// All that an element touches as one.
-class Sum {
- public:
-  /// Keeps them from the deepest on.
-  void add(const Push& push) {
-    if (count_ > 0 && !(push.penetration > std::min(0.0, pushes_[0].penetration))) return;
-    if (count_ == kMost && pushes_[kMost - 1].penetration >= push.penetration) return;
-    count_ = std::min(count_ + 1, kMost);
-    std::size_t at = count_ - 1;
-    for (; at > 0 && pushes_[at - 1].penetration < push.penetration; --at) pushes_[at] = pushes_[at - 1];
-    pushes_[at] = push;
-  }
-  [[nodiscard]] double deepest() const { return pushes_[0].penetration; }
-
-  [[nodiscard]] Push take() const {
-    if (count_ < 2 || !(pushes_[1].penetration > 0)) return pushes_[0];
-    const std::array<double, kMost> share = shares();
-    Vec3 sum = Vec3::Zero();
-    double friction = 0;
-    double all = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      sum += share[i] * pushes_[i].normal;
-      friction += share[i] * pushes_[i].friction;
-      all += share[i];
-    }
-    const double size = sum.norm();
-    if (!(size > 0)) return {0, pushes_[0].normal, pushes_[0].friction};  // squeezed from both sides
-    return {size, sum / size, friction / all};
-  }
-
- private:
-  [[nodiscard]] std::array<double, kMost> shares() const {
-    std::array<double, kMost> share{pushes_[0].penetration};
-    // The two deepest exactly: sweeps take their time where two normals are all but one.
-    const double c = pushes_[0].normal.dot(pushes_[1].normal);
-    const double rest = pushes_[1].penetration - c * pushes_[0].penetration;
-    if (c > 0 && rest > 0) {
-      share[0] = (pushes_[0].penetration - c * pushes_[1].penetration) / (1 - c * c);
-      share[1] = rest / (1 - c * c);
-    }
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      for (std::size_t i = 0; i < count_; ++i) {
-        double others = 0;
-        for (std::size_t j = 0; j < count_; ++j) {
-          if (j != i) others += share[j] * pushes_[i].normal.dot(pushes_[j].normal);
-        }
-        share[i] = std::max(0.0, pushes_[i].penetration - std::max(0.0, others));
-      }
-    }
-    return share;
-  }
-
-  std::array<Push, kMost> pushes_{};  ///< falling penetration
-  std::size_t count_ = 0;
-};
-
-/// m: height at which the vertical through a place leaves the box upwards; minus infinity where it misses the box.
-double top_at(const Box& box, const Vec3& place) {
-  const Vec3 at = box.R.transpose() * (Vec3(place.x(), place.y(), 0) - box.center);
-  const Vec3 up = box.R.row(2);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double bottom = -kInfinity;
-  double top = kInfinity;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const double half = 0.5 * box.size[k];
-    if (up[k] == 0) {
-      if (std::abs(at[k]) > half) return -kInfinity;
-      continue;
-    }
-    const double one = (half - at[k]) / up[k];
-    const double other = (-half - at[k]) / up[k];
-    bottom = std::max(bottom, std::min(one, other));
-    top = std::min(top, std::max(one, other));
-  }
-  return bottom <= top ? top : -kInfinity;
-}
-
-Ground::Touch touch(const Push& push, const Vec3& centre, double radius) {
-  return {push.penetration, push.normal, centre - radius * push.normal, push.friction};
-}
-
-}  // namespace
-
 Ground::Touch Ground::query(const Vec3& centre, double radius) const {
-  if (kind == Kind::boxes) return on_boxes(centre, radius);
-  if (kind == Kind::heightfield) return on_field(centre, radius);
-  const auto [penetration, height] = on_plane(centre.z(), radius);
-  return {penetration, Vec3::UnitZ(), {centre.x(), centre.y(), height}, friction};
-}
-
-Ground::Touch Ground::on_boxes(const Vec3& centre, double radius) const {
-  Sum sum;
-  sum.add({radius - centre.z(), Vec3::UnitZ(), friction});
-  // What has sunk into the plane is beside a box that stands there, not beneath it.
-  const Vec3 lifted(centre.x(), centre.y(), std::max(centre.z(), radius + kSame));
-  Searches searches{std::max(Searches::kFewest, Searches::kLooks / std::max<std::size_t>(1, boxes.size()))};
-  for (const Box& box : boxes) {
-    // Beyond this distance it neither touches nor is the nearest.
-    const double reach = 0.5 * box.size.norm() + radius - std::min(0.0, sum.deepest());
-    if ((lifted - box.center).squaredNorm() < reach * reach) sum.add(against(boxes, box, lifted, radius, searches));
-  }
-  return touch(sum.take(), centre, radius);
-}
-
-Ground::Touch Ground::on_field(const Vec3& centre, double radius) const {
-  Heightfield::SurfacePoint spot = field.at(centre.x(), centre.y());
-  double distance = (centre.z() - spot.z) * spot.normal.z();
-  const bool near = std::abs(distance) < radius + field.spacing;  // else any measure of the gap will do
-  for (int step = 0; near && step < kPerpendiculars; ++step) {
-    const Vec3 foot = centre - distance * spot.normal;
-    spot = field.at(foot.x(), foot.y());
-    distance = (centre - Vec3(foot.x(), foot.y(), spot.z)).dot(spot.normal);
-  }
-  return touch({radius - distance, spot.normal, friction}, centre, radius);
+  return std::visit([&](const auto& ground) { return ground.touch(centre, radius, friction); }, shape);
 }
 
 double Ground::surface_below(const Vec3& point, double give) const {
-  if (kind == Kind::heightfield) return field.at(point.x(), point.y()).z;
-  double height = 0;
-  if (kind != Kind::boxes) return height;
-  for (const Box& box : boxes) {
-    if (const double top = top_at(box, point); top <= point.z() + give) height = std::max(height, top);
-  }
-  return height;
+  return std::visit([&](const auto& ground) { return ground.surface_below(point, give); }, shape);
 }
 
 double Ground::highest() const {
-  double top = 0;
-  if (kind == Kind::boxes) {
-    for (const Box& box : boxes) top = std::max(top, box.center.z() + 0.5 * box.size.norm());
-  } else if (kind == Kind::heightfield) {
-    const auto [low, high] = std::minmax_element(field.values.begin(), field.values.end());
-    top = field.origin.z() + *high + (*high - *low);
+  return std::visit([](const auto& ground) { return ground.highest(); }, shape);
+}
+
+const GroundType& Ground::type() const { return kGroundTypes[shape.index()]; }
+
+const Boxes& Ground::boxes() const {
+  static const Boxes kNone;
+  const Boxes* boxes = std::get_if<Boxes>(&shape);
+  return boxes == nullptr ? kNone : *boxes;
+}
+
+Ground Ground::without_moving_boxes() const {
+  Ground made = *this;
+  if (Boxes* all = std::get_if<Boxes>(&made.shape); all != nullptr) {
+    all->change([](std::vector<Box>& list) { std::erase_if(list, [](const Box& box) { return box.mass > 0; }); });
   }
-  return top;
+  return made;
+}
+
+const Heightfield* Ground::relief() const { return std::get_if<Heightfield>(&shape); }
+
+bool Ground::beyond_border(double x, double y) const {
+  const Heightfield* field = std::get_if<Heightfield>(&shape);
+  return field != nullptr && !field->covers(x, y);
+}
+
+std::string plane_and_box_types() {
+  std::vector<std::string> names;
+  for (const GroundType& type : kGroundTypes) {
+    if (type.plane_and_boxes) names.emplace_back(type.name);
+  }
+  std::string text = names.front();
+  for (std::size_t k = 1; k < names.size(); ++k) text += (k + 1 == names.size() ? " or " : ", ") + names[k];
+  return text;
 }
 
 }  // namespace gaitlab

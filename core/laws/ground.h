@@ -1,68 +1,64 @@
-// The ground and what a point or sphere finds there: values and pure functions. (docs/equations.md, 6)
+// The ground and its contact with a point or sphere: values and pure functions. (docs/equations.md, 6)
 #pragma once
-#include <vector>
+#include <array>
+#include <string>
+#include <type_traits>
+#include <variant>
 
+#include "core/laws/boxes.h"
+#include "core/laws/ground_touch.h"
 #include "core/laws/heightfield.h"
-#include "core/model/frames.h"
-#include "core/names.h"
+#include "core/laws/plane_ground.h"
 
 namespace gaitlab {
 
-/// A solid block that stands in the world.
-struct Box {
-  Vec3 center = Vec3::Zero();  ///< m
-  Vec3 size = Vec3::Zero();    ///< edges along its own axes, m
-  Vec3 rpy = Vec3::Zero();     ///< its axes in the world: roll pitch yaw, rad
-  double friction = 0.8;       ///< Coulomb coefficient f
-  double mass = 0;             ///< kg; 0: it never moves
-  Mat3 R = Mat3::Identity();   ///< of rpy; a query asks this one
-};
-
-/// World z = 0, solid below; with boxes on it; or a heightfield instead of it.
-///
-/// A query finds one touch per element. In a box the nearest point of the surface counts: outside the foot of the
-/// perpendicular, inside the face of least depth. Three rules make of many solids one ground:
-/// - A point inside a box is pushed out through the nearest exposed face: not covered by another box, not facing the ground
-/// plane.
-///   So an element that slides over the seam of two boxes of one height feels nothing there. (At a step in height let the boxes
-///   overlap a little.)
-/// - An element that touches several solids (floor and wall) gets one touch of penetration |sum s n|, normal along the sum: the
-///   spring force of a linear law is the sum of theirs. s: the penetrations, less what the others push along the same normal
-///   already, so that two floors carry like one. It changes continuously as one solid after the other comes in reach.
-/// - Its friction is the mean of theirs by s.
+/// One of the types of ground, with the friction that they share. A type is a value with a `kType` and the first three queries;
+/// `Shape` lists all of them.
 struct Ground {
-  enum class Kind { none, plane, boxes, heightfield } kind = Kind::plane;
-  double friction = 0.8;  ///< Coulomb coefficient f; of the plane and of the field
-  std::vector<Box> boxes = {};
-  Heightfield field = {};
+  using Shape = std::variant<NoGround, Plane, Boxes, Heightfield>;
+  using Touch = GroundTouch;
 
-  struct Touch {
-    double penetration;  ///< m; negative: the gap
-    Vec3 normal;
-    Vec3 point;  ///< where the force acts: the deepest point of the element
-    double friction;
-  };
+  Shape shape = Plane{};
+  double friction = 0.8;  ///< Coulomb coefficient f; boxes have their own beside it
 
-  /// A sphere of `radius` (0: a point) centred at `centre`, world. Allocates nothing. Of Kind::none: as on the plane.
+  /// A sphere of `radius` (0: a point) centred at `centre`, world. Allocates nothing. Without a ground: as on the plane.
   [[nodiscard]] Touch query(const Vec3& centre, double radius) const;
-
   /// Height of what carries a point: the highest surface on the vertical through it that is at most `give` above it, m. A wall
-  /// that it touches and a roof above it carry nothing. Of Kind::none: as on the plane.
+  /// that it touches and a roof above it carry nothing. Without a ground: as on the plane.
   [[nodiscard]] double surface_below(const Vec3& point, double give) const;
-
   /// No solid is higher, m.
   [[nodiscard]] double highest() const;
 
- private:
-  [[nodiscard]] Touch on_boxes(const Vec3& centre, double radius) const;
-  [[nodiscard]] Touch on_field(const Vec3& centre, double radius) const;
+  [[nodiscard]] const GroundType& type() const;
+  [[nodiscard]] bool exists() const { return !std::holds_alternative<NoGround>(shape); }
+  /// The plane z = 0 and nothing else.
+  [[nodiscard]] bool is_plane() const { return std::holds_alternative<Plane>(shape); }
+  /// The plane z = 0, with or without boxes.
+  [[nodiscard]] bool has_plane() const { return exists() && type().plane_and_boxes; }
+  /// The boxes that stand on the plane; empty: there are none.
+  [[nodiscard]] const Boxes& boxes() const;
+  /// The same without the boxes that have a mass.
+  [[nodiscard]] Ground without_moving_boxes() const;
+  /// Heights that show the surface in pictures; nullptr: plane and boxes show all of it.
+  [[nodiscard]] const Heightfield* relief() const;
+  /// Whether the surface is given up to a border, beyond which it only continues; and whether (x, y), m, is beyond it.
+  [[nodiscard]] bool has_border() const { return std::holds_alternative<Heightfield>(shape); }
+  [[nodiscard]] bool beyond_border(double x, double y) const;
 };
 
-template <>
-struct EnumNames<Ground::Kind> {
-  using enum Ground::Kind;
-  static constexpr EnumName<Ground::Kind> kTable[] = {
-      {none, "none"}, {plane, "plane"}, {boxes, "boxes"}, {heightfield, "heightfield"}};
-};
+namespace detail {
+
+template <class... T>
+constexpr std::array<GroundType, sizeof...(T)> types_of(std::type_identity<std::variant<T...>>) {
+  return {T::kType...};
+}
+
+}  // namespace detail
+
+/// All types, in the order of Ground::Shape.
+inline constexpr auto kGroundTypes = detail::types_of(std::type_identity<Ground::Shape>{});
+
+/// For messages: "none, plane or boxes", the types of which nothing is left out by plane and boxes.
+std::string plane_and_box_types();
 
 }  // namespace gaitlab

@@ -1,20 +1,57 @@
 // A surface z(x, y) through heights on a square grid.
 #pragma once
 #include <cstddef>
+#include <initializer_list>
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "core/laws/ground_touch.h"
 #include "core/model/frames.h"
 
 namespace gaitlab {
 
-/// Cubic in each cell (Catmull and Rom 1974, in x and in y): through the given heights, with a continuous normal. Triangles or
-/// bilinear cells would turn the normal at every edge, and a foot that slides over one would be kicked. Planes are planes up to
-/// the border; beside a step the surface overshoots by up to 7 % of it. Beyond the border the heights there go on outwards.
+/// A list of heights. Reads like a vector. Copies share their immutable content: a large field has 134 MB.
+class Heights {
+ public:
+  Heights() = default;
+  Heights(std::vector<double> heights);            // NOLINT(google-explicit-constructor): a field is made of a list
+  Heights(std::initializer_list<double> heights);  // NOLINT(google-explicit-constructor)
+
+  [[nodiscard]] const std::vector<double>& list() const;
+  [[nodiscard]] std::size_t size() const { return list().size(); }
+  [[nodiscard]] bool empty() const { return list().empty(); }
+  double operator[](std::size_t index) const { return held_->list[index]; }
+  [[nodiscard]] auto begin() const { return list().begin(); }
+  [[nodiscard]] auto end() const { return list().end(); }
+  /// Lowest height; the list must not be empty.
+  [[nodiscard]] double lowest() const { return held_->lowest; }
+  [[nodiscard]] double highest() const { return held_->highest; }
+
+ private:
+  struct Held {
+    std::vector<double> list;
+    double lowest, highest;
+  };
+  std::shared_ptr<const Held> held_;  ///< nullptr: empty
+};
+
+/// Surface that is cubic in each cell (Catmull and Rom 1974, in x and in y): through the given heights, with a continuous
+/// normal. Triangles or bilinear cells would turn the normal at every edge, and a foot that slides over one would get an
+/// impact. A plane is reproduced exactly up to the border; beside a step the surface overshoots by up to 7 % of it. Beyond the
+/// border the heights of the border continue outwards.
 struct Heightfield {
-  Vec3 origin = Vec3::Zero();       ///< of values[0], m, world
-  double spacing = 0.1;             ///< m, in x and in y
-  std::size_t columns = 0;          ///< along x; at least 2, as there are at least 2 rows, along y
-  std::vector<double> values = {};  ///< above the origin, m, row by row
+  static constexpr GroundType kType{.name = "heightfield", .about = "a surface through heights", .has_settings = true};
+
+  Vec3 origin = Vec3::Zero();  ///< of values[0], m, world
+  double spacing = 0.1;        ///< m, in x and in y
+  std::size_t columns = 0;     ///< along x; at least 2, as there are at least 2 rows, along y
+  Heights values = {};         ///< above the origin, m, row by row
+  /// File with the heights, if they are too many to be written out with a scenario; an empty file: they are written out.
+  struct Source {
+    std::string file, hash;  ///< canonical path; hash of its bytes
+    double scale = 1;        ///< m per unit of the file's numbers
+  } source = {};
 
   struct SurfacePoint {
     double z;     ///< m, world
@@ -22,6 +59,12 @@ struct Heightfield {
   };
   [[nodiscard]] SurfacePoint at(double x, double y) const;
   [[nodiscard]] std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
+  /// Whether a height stands on every side of (x, y), m, world.
+  [[nodiscard]] bool covers(double x, double y) const;
+
+  [[nodiscard]] GroundTouch touch(const Vec3& centre, double radius, double friction) const;  ///< Ground::query
+  [[nodiscard]] double surface_below(const Vec3& point, double) const { return at(point.x(), point.y()).z; }
+  [[nodiscard]] double highest() const;
 };
 
 }  // namespace gaitlab

@@ -12,7 +12,7 @@ template <class T>
 struct BasicPassiveHinge {
   T stiffness = 0.0, rest = 0.0, damping = 0.0, friction = 0.0, friction_speed = 1.0;
 
-  /// What damper and friction give, N m, and -d/dw of it, N m s/rad.
+  /// Torque of damper and friction, N m, and its -d/dw, N m s/rad.
   struct Loss {
     T torque, slope;
   };

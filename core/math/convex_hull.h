@@ -7,8 +7,8 @@
 
 namespace gaitlab::math {
 
-/// Counter-clockwise, without points on its edges; of points on one line its two ends. P has members x and y. (Andrew's
-/// monotone chain, Inf. Proc. Letters 9, 1979: the lower hull from left to right, then the upper one back.)
+/// Convex hull, counter-clockwise, without points on its edges; for points on one line the two ends. P has members x and y.
+/// (Andrew's monotone chain, Inf. Proc. Letters 9, 1979: the lower hull from left to right, then the upper one back.)
 template <class P>
 std::vector<P> convex_hull(std::vector<P> points) {
   const auto cross = [](P o, P a, P b) { return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x); };

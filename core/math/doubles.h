@@ -6,7 +6,7 @@
 
 namespace gaitlab::math {
 
-/// The compiler's vector types of N doubles and of the masks that comparing them gives.
+/// The compiler's vector types of N doubles and of the masks that result from comparing them.
 template <std::size_t N>
 struct Register;
 
@@ -23,7 +23,7 @@ struct Doubles {
   Doubles() = default;
   Doubles(double all) : v(all - Vector{}) {}  // NOLINT(google-explicit-constructor): a constant is the same in all lanes
   explicit Doubles(Vector values) : v(values) {}
-  // Not trivial, so that a struct of them is copied register by register and not by a call or `rep movs`.
+  // Not trivial, so that a struct of them is copied register by register, not by a call or `rep movs`.
   Doubles(const Doubles& other) : v(other.v) {}  // NOLINT(modernize-use-equals-default)
   Doubles& operator=(const Doubles& other) {     // NOLINT(modernize-use-equals-default)
     v = other.v;
@@ -60,7 +60,7 @@ Bools<N> fresh(const Bools<N>& yes, const Bools<N>& already) {
 }
 template <std::size_t N>
 Doubles<N> abs(const Doubles<N>& x) {
-  return Doubles<N>(x.v <= 0 ? 0 - x.v : x.v);  // of -0, too, it is +0
+  return Doubles<N>(x.v <= 0 ? 0 - x.v : x.v);  // +0 also for -0
 }
 
 }  // namespace gaitlab::math

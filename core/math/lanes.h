@@ -1,5 +1,5 @@
-// What code that is written once, for a double and for a vector of doubles (a lane per rollout), asks of its scalar: choice by
-// mask where a double would branch. A lane type brings its own overloads (core/math/doubles.h).
+// Operations of a scalar in code that is written once for a double and for a vector of doubles (a lane per rollout): selection
+// by mask in place of branches. A lane type defines overloads of these (core/math/doubles.h).
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace gaitlab::math {
 
-/// What comparing two scalars gives: bool, or a bool per lane.
+/// Result of comparing two scalars: bool, or a bool per lane.
 template <class T>
 using Mask = decltype(T{} < T{});
-/// Lanes of a scalar.
+/// Number of lanes of a scalar.
 template <class T>
 inline constexpr std::size_t kLanes = sizeof(T) / sizeof(double);
 
@@ -19,17 +19,19 @@ inline bool mask_and(bool a, bool b) { return a && b; }
 inline bool mask_or(bool a, bool b) { return a || b; }
 /// yes and not already
 inline bool fresh(bool yes, bool already) { return yes && !already; }
-/// Whether work may be skipped: it is masked off in every lane.
+/// Whether work is needed in any lane.
 inline bool any_lane(bool mask) { return mask; }
 inline bool all_lanes(bool mask) { return mask; }
-inline double sqrt(double x) { return std::sqrt(x); }  // exact to rounding everywhere, unlike its kin (core/math/functions.h)
+inline double sqrt(double x) {
+  return std::sqrt(x);
+}  // exactly rounded everywhere, unlike other functions (core/math/functions.h)
 inline double abs(double x) { return std::abs(x); }
 template <class T>
 T clamp(const T& x, const T& lo, const T& hi) {
   return select(x < lo, lo, select(hi < x, hi, x));
 }
 
-/// As plain numbers, entry * lanes + lane.
+/// The lanes' values as plain numbers, entry * lanes + lane.
 template <class T>
 std::span<double> numbers(std::span<T> x) {
   return {reinterpret_cast<double*>(x.data()), x.size() * kLanes<T>};

@@ -39,7 +39,7 @@ Pose docked(const FaceType& child, const FaceType& parent, int orientation) {
 }
 
 /// Places modules parents first, siblings in the order of their numbers; bodies and joints are numbered module by module,
-/// whatever hangs on what.
+/// independent of the docking.
 class Builder {
  public:
   Builder(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of) {
@@ -231,7 +231,8 @@ RobotInfo info(const Robot& robot) {
     }
     result.modules.push_back(std::move(one));
   }
-  for (std::size_t m = 0; m < robot.modules.size(); ++m) {  // now that all are there: a parent may be numbered above its child
+  for (std::size_t m = 0; m < robot.modules.size();
+       ++m) {  // now all modules exist: a parent may have a higher number than its child
     const int parent = robot.modules[m].parent;
     if (parent >= 0) result.modules[static_cast<std::size_t>(parent)].children.push_back(static_cast<std::int64_t>(m));
   }

@@ -1,4 +1,4 @@
-// How the base frame may move.
+// Degrees of freedom of the base frame.
 #pragma once
 #include "core/names.h"
 

@@ -12,7 +12,7 @@ using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;  ///< turns body coordinates into world coordinates
 
-/// The three numbers of v, for what takes lists.
+/// The three numbers of v, for functions that take lists.
 inline std::span<double> span_of(Vec3& v) { return {v.data(), 3}; }
 
 /// Pose of a frame B in a frame A: p_A = R p_B + p.
@@ -44,8 +44,8 @@ inline Mat3 rpy(const Vec3& roll_pitch_yaw) {
       .toRotationMatrix();
 }
 
-/// The inverse of rpy; pitch in [-pi/2, pi/2]. Exact to rounding at a pitch of +-pi/2, too, where roll and yaw are one turn:
-/// there yaw is whatever rounding says, and roll is what is left of R without it.
+/// The inverse of rpy; pitch in [-pi/2, pi/2]. Exact to rounding also at a pitch of +-pi/2, where roll and yaw are one turn:
+/// there yaw is arbitrary, and roll is the remaining rotation.
 inline Vec3 to_rpy(const Mat3& R) {
   const double yaw = math::atan2(R(1, 0), R(0, 0));
   const auto [s, c] = math::sincos(yaw);

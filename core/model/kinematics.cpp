@@ -12,19 +12,28 @@ Kinematics::Kinematics(const Robot& robot)
       v(robot.links.size(), Vec3::Zero()),
       turns(robot.links.size(), Quat::Identity()) {}
 
-void Kinematics::update(const Robot& robot, const RobotState& state) {
+void Kinematics::place(const Robot& robot, const RobotState& state) {
   R[0] = state.orientation.toRotationMatrix();
   p[0] = state.position;
-  omega[0] = state.angular_velocity;
-  v[0] = state.velocity;
   for (std::size_t i = 1; i < robot.links.size(); ++i) {
     const Link& link = robot.links[i];
     const auto parent = static_cast<std::size_t>(link.parent);
     const auto joint = static_cast<std::size_t>(link.joint);
     turns[i] = turn(link.axis, state.q[joint]);
     R[i] = R[parent] * link.in_parent.R * turns[i].toRotationMatrix();
+    p[i] = p[parent] + R[parent] * link.in_parent.p;
+  }
+}
+
+void Kinematics::update(const Robot& robot, const RobotState& state) {
+  place(robot, state);
+  omega[0] = state.angular_velocity;
+  v[0] = state.velocity;
+  for (std::size_t i = 1; i < robot.links.size(); ++i) {
+    const Link& link = robot.links[i];
+    const auto parent = static_cast<std::size_t>(link.parent);
+    const auto joint = static_cast<std::size_t>(link.joint);
     const Vec3 arm = R[parent] * link.in_parent.p;
-    p[i] = p[parent] + arm;
     omega[i] = omega[parent] + R[i] * link.axis * state.qd[joint];
     v[i] = v[parent] + omega[parent].cross(arm);
   }
@@ -37,6 +46,12 @@ Kinematics at_zero(const Robot& robot) {
   Kinematics kinematics(robot);
   kinematics.update(robot, zero);
   return kinematics;
+}
+
+Vec3 centre_of_mass(const Robot& robot, const Kinematics& k) {
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t i = 0; i < robot.links.size(); ++i) moment += robot.links[i].mass * k.point(i, robot.links[i].com);
+  return moment / robot.mass;
 }
 
 Sums sums(const Robot& robot, const Kinematics& k, const Vec3& gravity) {
@@ -69,7 +84,7 @@ double lowest_point(const Robot& robot, const Kinematics& k, std::span<const Con
       double reach = shape.size.x();  // sphere: radius
       if (shape.kind == Shape::Kind::box) reach = 0.5 * down.cwiseAbs().dot(shape.size);
       if (shape.kind == Shape::Kind::cylinder || shape.kind == Shape::Kind::half_cylinder) {
-        // A half cylinder counts as a whole one where it bulges down, else by its flat side's edge.
+        // A half cylinder that bulges down counts as a whole one, else only the edge of its flat side counts.
         const bool round = shape.kind == Shape::Kind::cylinder || down.x() > 0;
         const double across = round ? std::sqrt(down.x() * down.x() + down.z() * down.z()) : std::abs(down.z());
         reach = shape.size.x() * across + 0.5 * shape.size.y() * std::abs(down.y());

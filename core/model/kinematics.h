@@ -1,4 +1,4 @@
-// Where every link is and how it moves: the outward recursion over a Robot.
+// Poses and velocities of all links: the outward recursion over a Robot.
 #pragma once
 #include <span>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace gaitlab {
 
-/// State of one robot: numbers of one lane, SI, world axes.
+/// State of one robot, one lane: SI, world axes.
 struct RobotState {
   Vec3 position = Vec3::Zero();          ///< origin of the base frame, m
   Quat orientation = Quat::Identity();   ///< base frame -> world
@@ -16,9 +16,9 @@ struct RobotState {
   std::vector<double> q, qd;             ///< joints, rad, rad/s
 };
 
-/// d/dt of a RobotState's velocities, world axes, SI.
+/// Time derivative of a RobotState's velocities, world axes, SI.
 struct Acceleration {
-  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  ///< of the base frame's origin; of the base frame
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  ///< linear: base frame's origin; angular: base frame
   std::vector<double> joints;
 };
 
@@ -26,6 +26,8 @@ struct Acceleration {
 struct Kinematics {
   explicit Kinematics(const Robot& robot);
   void update(const Robot& robot, const RobotState& state);
+  /// Computes the poses alone: omega and v are unchanged.
+  void place(const Robot& robot, const RobotState& state);
 
   [[nodiscard]] Vec3 point(std::size_t link, const Vec3& in_link) const { return R[link] * in_link + p[link]; }
   /// Velocity of the material point of `link` that is at world point `x`.
@@ -34,7 +36,7 @@ struct Kinematics {
   std::vector<Mat3> R;      ///< link axes in the world
   std::vector<Vec3> p;      ///< origin of the link frame, m
   std::vector<Vec3> omega;  ///< rad/s
-  std::vector<Vec3> v;      ///< of the origin of the link frame, m/s
+  std::vector<Vec3> v;      ///< of the link frame's origin, m/s
   std::vector<Quat> turns;  ///< rotation of each joint at its angle (links 1..), link frame at angle 0 <- link frame
 };
 
@@ -47,10 +49,11 @@ struct Sums {
   Vec3 angular_momentum = Vec3::Zero();  ///< about the world origin
   double kinetic = 0, potential = 0;     ///< J
 };
+/// Centre of mass as in Sums, m.
+Vec3 centre_of_mass(const Robot& robot, const Kinematics& kinematics);
 Sums sums(const Robot& robot, const Kinematics& kinematics, const Vec3& gravity);
 
-/// Height (along -gravity's z: world z) of the lowest point of the robot's contact elements, or of its outline where it has
-/// none.
+/// Height (along -gravity's z: world z) of the lowest point of the robot's contact elements or, without any, of its outline.
 double lowest_point(const Robot& robot, const Kinematics& kinematics, std::span<const ContactElement> elements);
 
 }  // namespace gaitlab

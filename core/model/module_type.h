@@ -1,4 +1,4 @@
-// What a kind of module is made of: any tree of bodies and revolute hinges, its faces, contact elements and default motor.
+// Description of a type of module: any tree of bodies and revolute hinges, its faces, contact elements and default motor.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -32,17 +32,18 @@ struct BodyType {
 
 inline constexpr double kNoStop = std::numeric_limits<double>::infinity();  ///< hi, and -lo, of a hinge that turns freely
 
-/// The child's frame is the hinge frame at angle 0; positive = right-hand turn of the child relative to the parent.
+/// A hinge. The child's frame is the hinge frame at angle 0; a positive angle is a right-hand turn of the child relative to the
+/// parent.
 struct HingeType {
   std::string name;
   std::size_t parent = 0, child = 0;  ///< indices of bodies
   Pose in_parent = {};
   Vec3 axis = Vec3::UnitY();            ///< unit vector, hinge frame
   double lo = 0, hi = 0;                ///< rad; -kNoStop and kNoStop: turns freely
-  std::optional<Passive> passive = {};  ///< `drive: none`; none: a motor drives it
+  std::optional<Passive> passive = {};  ///< `drive: none`; empty: a motor drives it
 };
 
-/// Active docks on passive, and a face without gender on its like.
+/// Gender of a face: active docks on passive, none on none.
 enum class Gender { active, passive, none };
 
 template <>
@@ -51,7 +52,7 @@ struct EnumNames<Gender> {
   static constexpr EnumName<Gender> kTable[] = {{active, "active"}, {passive, "passive"}, {none, "none"}};
 };
 
-/// What the connector of a face bears, N and N m; 0: nobody states it. `source`: who states it.
+/// Loads that the connector of a face bears, N and N m; 0: not stated. `source`: origin of the values.
 struct Connector {
   double tension = 0, shear = 0, bending = 0, torsion = 0;
   std::string source = {};
@@ -62,8 +63,8 @@ struct FaceType {
   std::size_t body = 0;
   Gender gender = Gender::active;
   Vec3 origin = Vec3::Zero(), normal = Vec3::UnitX(), reference = Vec3::UnitY();  ///< body frame; unit, at right angles
-  std::string connector = {};                         ///< faces dock where their connectors have one name; ""
-  std::array<bool, 4> turns{true, true, true, true};  ///< orientations in which it docks
+  std::string connector = {};                         ///< faces dock if their connectors have the same name; ""
+  std::array<bool, 4> turns{true, true, true, true};  ///< allowed orientations
 };
 
 /// A point (radius 0) or sphere fixed to a body.
@@ -73,14 +74,15 @@ struct ContactType {
   double radius = 0;           ///< m
 };
 
-/// Assumes what core/scenario/module_file checks: bodies and hinges form one tree, faces have distinct ids.
+/// A type of module. core/robot_files/module_check guarantees that bodies and hinges form one tree and that faces have distinct
+/// ids.
 struct ModuleType {
   std::string name;
   bool lattice = false;  ///< bodies with faces fill cells of a cubic lattice: two in one cell at zero angles is an error
   std::vector<BodyType> bodies;
   std::vector<HingeType> hinges;
   std::vector<FaceType> faces;
-  std::map<std::string, Connector> connectors = {};  ///< those of the faces whose loads are known, by name
+  std::map<std::string, Connector> connectors = {};  ///< connectors of the faces with known loads, by name
   std::vector<ContactType> feet, all;                ///< feet: those used for `on: feet`, on whichever body is free
   std::size_t root = 0;                              ///< the body that is not a hinge's child; its frame is the module frame
 };

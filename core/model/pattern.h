@@ -4,7 +4,7 @@
 
 namespace gaitlab {
 
-/// Whether a text of a user is a pattern and not a name: it holds `*` or `?`, which no name does.
+/// Whether a user's text is a pattern and not a name: it contains `*` or `?`, which names never do.
 bool is_pattern(const std::string& text);
 
 /// `*` stands for any run of characters, `?` for one.

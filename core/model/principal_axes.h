@@ -1,4 +1,4 @@
-// A tensor of inertia as three moments about axes of its own.
+// Principal axes and moments of a tensor of inertia.
 #pragma once
 #include <Eigen/Eigenvalues>
 
@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// Right-handed principal axes R and moments with inertia = R diag(moments) R^T. Already diagonal: unturned, so that no
-/// rounding enters where none is needed.
+/// Right-handed principal axes R and moments with inertia = R diag(moments) R^T. A diagonal tensor gives R = 1 without
+/// rounding.
 inline Mat3 principal_axes(const Mat3& inertia, Vec3& moments) {
   const Mat3 off = inertia - Mat3(inertia.diagonal().asDiagonal());
   if (off.cwiseAbs().maxCoeff() <= 1e-15 * inertia.diagonal().cwiseAbs().maxCoeff()) {

@@ -1,4 +1,4 @@
-// The assembled robot: docked bodies fused into links, every body with its name and place. Engine-free.
+// The assembled robot: docked bodies fused into links, every body with its name and pose. Engine-free.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -17,11 +17,11 @@ namespace gaitlab {
 struct Link {
   int parent = -1;              ///< link towards the base, -1 for link 0
   int joint = -1;               ///< joint that moves it, -1 for link 0
-  Pose in_parent = {};          ///< its frame in the parent link's at joint angle 0
-  Vec3 axis = Vec3::UnitY();    ///< joint axis, own frame, unit vector
+  Pose in_parent = {};          ///< frame in the parent link's at joint angle 0
+  Vec3 axis = Vec3::UnitY();    ///< joint axis, link frame, unit vector
   double mass = 0;              ///< kg
-  Vec3 com = Vec3::Zero();      ///< m, own frame
-  Mat3 inertia = Mat3::Zero();  ///< kg m^2, about the COM, own axes
+  Vec3 com = Vec3::Zero();      ///< m, link frame
+  Mat3 inertia = Mat3::Zero();  ///< kg m^2, about the COM, link axes
 };
 
 struct Joint {
@@ -29,7 +29,7 @@ struct Joint {
   std::size_t module = 0;
   std::size_t link = 0;   ///< the link it moves
   double lo = 0, hi = 0;  ///< rad; positive = right-hand turn of the farther body relative to the nearer one; +-kNoStop
-  std::optional<Passive> passive = {};  ///< what it has instead of a motor
+  std::optional<Passive> passive = {};  ///< present if it has no motor
   [[nodiscard]] bool driven() const { return !passive; }
   [[nodiscard]] bool turns_freely() const { return hi == kNoStop; }
 };
@@ -40,7 +40,7 @@ struct Body {
   std::size_t type = 0;  ///< index in the module type's bodies
   std::size_t link = 0;
   Pose in_link = {};
-  bool free = false;  ///< carries no dock and moves at the end of its module's chain: where feet are
+  bool free = false;  ///< carries no dock and is last in its module's chain: feet are there
 };
 
 /// A point (radius 0) or sphere that may touch the ground.
@@ -59,8 +59,8 @@ struct Dock {
 
 struct Module {
   std::size_t type = 0;  ///< index in Robot::types
-  int parent = -1;       ///< module it is docked to, -1 for module 0
-  Dock dock = {};        ///< how (parent >= 0)
+  int parent = -1;       ///< module that it is docked to, -1 for module 0
+  Dock dock = {};        ///< row of the build file (parent >= 0)
   std::size_t first_body = 0;
   std::vector<std::size_t> joints = {};  ///< breadth-first from the reference body
   std::size_t reference = 0;             ///< body (index in Robot::bodies) by which it is docked; for module 0 its type's root
@@ -87,16 +87,17 @@ struct EnumNames<ContactSet> {
   static constexpr EnumName<ContactSet> kTable[] = {{none, "none"}, {feet, "feet"}, {all, "all"}};
 };
 
-/// Builds the robot from `type_of_module` (index into types, one per module) and the docks.
-/// Errors (InputError, all at once, each at its row): wrong gender, connectors that differ, face used twice, unknown module or
-/// face, two parents, loop, gap in the numbering, bad orientation, one that is not among the turns of a face, and for lattice
-/// types two blocks in one cell at zero angles.
+/// Builds the robot from `type_of_module` (index into types, one per module) and the docks. Errors (InputError, all at once,
+/// each at its row): wrong gender, connectors that differ, face used twice, unknown module or face, two parents, loop, gap in
+/// the numbering, an orientation that does not exist or that a face does not allow, and for lattice types two blocks in one
+/// cell at zero angles.
 Robot assemble(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of_module, const std::vector<Dock>& docks);
 
-/// The elements of `on`, by body, then in file order. feet: the feet of the free body of every module without children.
+/// Contact elements of the set `on`, by body, then in file order. feet: the feet of the free body of every module without
+/// children.
 std::vector<ContactElement> contact_elements(const Robot& robot, ContactSet on);
 
-/// What plugins may know of it.
+/// Description of the robot for plugins.
 RobotInfo info(const Robot& robot);
 
 }  // namespace gaitlab

@@ -1,4 +1,4 @@
-// What a body is to the eye.
+// Role of a body in drawings, which sets its colour.
 #pragma once
 #include "core/model/module_type.h"
 #include "core/names.h"
@@ -14,7 +14,7 @@ struct EnumNames<Role> {
   static constexpr EnumName<Role> kTable[] = {{active, "active"}, {link, "link"}, {passive, "passive"}, {other, "other"}};
 };
 
-/// Of a body of a module type: the gender of the body's first face; link without faces.
+/// Role of a body of a module type, by the gender of the body's first face; link without faces.
 inline Role role_of(const ModuleType& type, std::size_t body) {
   for (const FaceType& face : type.faces) {
     if (face.body != body) continue;

@@ -20,7 +20,8 @@ std::string last_dl_error() {
   return text == nullptr ? "unknown reason" : text;
 }
 
-/// A library's code may change how the processor rounds or flushes (one linked with -ffast-math does): put back at the end.
+/// Saves the processor's rounding and flushing modes and restores them at the end: a library's code may change them (if linked
+/// with -ffast-math).
 class FloatingPointEnvironment {
  public:
   FloatingPointEnvironment() { std::fegetenv(&environment_); }
@@ -32,7 +33,7 @@ class FloatingPointEnvironment {
   std::fenv_t environment_ = {};
 };
 
-/// While it lives, an exception of a library's static object ends the program with a sentence: none passes through dlopen.
+/// During its lifetime an exception of a library's static object ends the program with a message: none passes through dlopen.
 class NamedTermination {
  public:
   explicit NamedTermination(const std::string& path) { path_ = path.c_str(); }
@@ -44,14 +45,14 @@ class NamedTermination {
   [[noreturn]] static void end() {
     for (const char* text : {path_, ": error: a static object of this plugin threw an exception when it was loaded\n"})
       say(text);
-    std::_Exit(2);  // bad input; nothing was written yet
+    std::_Exit(2);  // bad input; no output was written yet
   }
 
   static inline const char* path_ = "";
   std::terminate_handler before_ = std::set_terminate(end);
 };
 
-/// What scenarios, --set and lists with commas can hold.
+/// Characters that scenarios, --set and lists with commas can contain.
 bool is_plugin_name(const std::string& text) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto inside = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
@@ -156,7 +157,7 @@ void load_plugin(const std::string& path, Catalog& catalog) {
   if (std::string_view(abi()) != GAITLAB_ABI) {
     throw std::runtime_error(path + " was built for '" + abi() + "', this program is '" GAITLAB_ABI "': build it again");
   }
-  // Never closed: settings and plugins made from it live as long as the program.
+  // Never closed: settings and plugins of the library live as long as the program.
   catalog.set_origin(path);
   try {
     enter(catalog);

@@ -1,4 +1,4 @@
-// The coupling graph of a network of oscillators: an explicit list, or a rule that reads it off the robot. Standard library
+// The coupling graph of a network of oscillators: an explicit list, or a rule that derives it from the robot. Standard library
 // only.
 #pragma once
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace gaitlab {
 
-/// Limit cycle phi_to = phi_from + phase_lag.
+/// A coupling, with the limit cycle phi_to = phi_from + phase_lag.
 struct Coupling {
   std::int64_t from = 0, to = 0;
   double weight = 1, phase_lag = 0;
@@ -25,9 +25,10 @@ struct Coupling {
   }
 };
 
-/// Whom each joint follows; joints without a motor neither follow nor are followed. chain: the joint numbered before it;
-/// parent: the next one towards the base; siblings: as parent, and joints with the same parent one another; mirror: joints on
-/// the right their mirror image on the left, the others as parent; all: every joint every other, with the lags of chain.
+/// Joint that each joint follows; joints without a motor neither follow nor are followed. chain: the joint numbered before it;
+/// parent: the next one towards the base; siblings: as parent, and joints with the same parent follow one another; mirror:
+/// joints on the right follow their mirror image on the left, the others as parent; all: every joint follows every other, with
+/// the lags of chain.
 enum class CouplingRule { chain, parent, siblings, mirror, all };
 
 inline constexpr const char* kCouplingRules[] = {"chain", "parent", "siblings", "mirror", "all"};
@@ -52,8 +53,8 @@ inline std::int64_t mirror_image(const RobotInfo& robot, std::size_t joint) {
   return -1;
 }
 
-/// Phases on the limit cycle: sums of lags along the couplings from the lowest joint of each connected part (phase 0).
-/// Empty where couplings contradict one another around a cycle: no phases keep all lags.
+/// Phases on the limit cycle: sums of lags along the couplings from the lowest joint of each connected part (phase 0). Empty if
+/// couplings contradict one another around a cycle: no phases then satisfy all lags.
 inline std::vector<double> phases_of(const std::vector<Coupling>& graph, std::size_t joints) {
   std::vector<double> phase(joints, 0.0);
   std::vector<bool> known(joints, false);
@@ -91,7 +92,7 @@ inline std::int64_t driven_parent(const RobotInfo& robot, std::size_t joint) {
   return at;
 }
 
-/// Joints with the same parent lead one another by the difference of their lags, so that nothing contradicts rule parent.
+/// Joints with the same parent lead one another by the difference of their lags, which is consistent with rule parent.
 inline void couple_siblings(const RobotInfo& robot, double weight, const PerJoint& lag, std::vector<Coupling>& graph) {
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
@@ -102,7 +103,7 @@ inline void couple_siblings(const RobotInfo& robot, double weight, const PerJoin
   }
 }
 
-/// w / (n - 1) each, so that a joint is pulled as hard by all as by one.
+/// Weight w / (n - 1) each, so that the total weight on a joint does not depend on n.
 inline std::vector<Coupling> couple_all(const std::vector<std::int64_t>& joints, double weight, const PerJoint& lag) {
   std::vector<double> phase(joints.size(), 0.0);
   for (std::size_t i = 1; i < joints.size(); ++i) phase[i] = phase[i - 1] + lag[static_cast<std::size_t>(joints[i])];
@@ -118,7 +119,7 @@ inline std::vector<Coupling> couple_all(const std::vector<std::int64_t>& joints,
 
 }  // namespace detail
 
-/// The couplings that a rule makes; `lag[i]` is the lead of joint i over the joint it follows.
+/// Couplings of a rule; `lag[i]` is the lead of joint i over the joint it follows.
 inline std::vector<Coupling> couple(const RobotInfo& robot, CouplingRule rule, double weight, const PerJoint& lag) {
   std::vector<std::int64_t> driven;
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
@@ -132,7 +133,7 @@ inline std::vector<Coupling> couple(const RobotInfo& robot, CouplingRule rule, d
     std::int64_t from = rule == CouplingRule::chain ? before : detail::driven_parent(robot, i);
     before = to;
     if (const std::int64_t image = rule == CouplingRule::mirror ? mirror_image(robot, i) : -1; image >= 0) {
-      graph.push_back({to, image, weight, -lag[i]});  // a pair holds each other
+      graph.push_back({to, image, weight, -lag[i]});  // the two follow one another
       from = image;
     }
     if (from >= 0) graph.push_back({from, to, weight, lag[i]});

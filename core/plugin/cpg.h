@@ -6,15 +6,15 @@
 
 namespace gaitlab {
 
-/// What the sensors say at a control tick; one entry per joint (touching: one per module, 1 or 0). SI units.
+/// Sensor values at a control tick; one entry per joint (touching: one per module, 1 or 0). SI units.
 struct Measured {
   double t, period;
   In angle, speed, torque, touching;
 };
 
-/// A model whose state is ODEs and whose outputs are joint set points (rad). Stateless: the host owns the state x, calls at
-/// each control tick event, output, and then integrates x' to the next tick (RK4, sub-step `cpg.step`, inputs held). Nothing
-/// here may allocate after construction. A gait is a Cpg without states.
+/// A model with a state given by ODEs and joint set points (rad) as output. Without memory: the host owns the state x; at each
+/// control tick it calls event and output, and then integrates x' to the next tick (RK4, sub-step `cpg.step`, inputs held). No
+/// member may allocate after construction. A gait is a Cpg without states.
 class Cpg {
  public:
   virtual ~Cpg() = default;
@@ -26,7 +26,7 @@ class Cpg {
   virtual void derivative(const Measured&, In, Out) const {}
   virtual void event(const Measured&, Out) const {}              ///< phase resets; once per tick, before output
   virtual void output(double t, In x, Out setpoint) const = 0;   ///< x is the state AT t
-  [[nodiscard]] virtual std::string note() const { return {}; }  ///< one line for the user about how it was set up
+  [[nodiscard]] virtual std::string note() const { return {}; }  ///< one line for the user about its set-up
 };
 
 }  // namespace gaitlab

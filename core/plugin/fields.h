@@ -17,7 +17,7 @@ namespace gaitlab {
 using In = std::span<const double>;
 using Out = std::span<double>;
 
-/// Unit ("" = none), closed range and one sentence of a number.
+/// Specification of a number: unit ("" = none), closed range and one sentence.
 struct Spec {
   const char* unit;
   double min, max;
@@ -34,7 +34,7 @@ struct PerJoint {
   bool operator==(const PerJoint&) const = default;
 };
 
-/// A value under a name that the user chose.
+/// A value with a name chosen by the user.
 struct Named {
   std::string name;
   std::string text = {};  ///< empty: `number` holds
@@ -42,13 +42,13 @@ struct Named {
   bool operator==(const Named&) const = default;
 };
 
-/// A map whose keys the user chooses: texts alone, or numbers, too.
+/// Values of a map whose keys the user chooses: texts alone, or also numbers.
 enum class NamedValues { texts, texts_or_numbers };
 
 class Fields;
 
-/// What a field may be: a reference to the value, and what limits it. Keys, names and sentences are string literals or outlive
-/// the visit, because they are kept by address.
+/// Types of fields: a reference to the value, and its limits. Keys, names and sentences are string literals or outlive the
+/// visit, because their addresses are kept.
 namespace field {
 struct Number {
   double& value;
@@ -70,8 +70,8 @@ struct Flag {
 struct Text {
   std::string& value;
 };
-/// A text that may stand in a file of its own: in YAML the file's path (relative to the scenario), or the text itself, which
-/// then has several lines. `value` is always the text; the resolved scenario holds it in full.
+/// A text that may be in a separate file: in YAML the file's path (relative to the scenario), or the text itself, which then
+/// has several lines. `value` is always the text; the resolved scenario contains it in full.
 struct File {
   std::string& value;
 };
@@ -79,10 +79,10 @@ struct OneOf {
   std::string& value;
   std::span<const char* const> names;
 };
-/// What a value per joint is to a verdict. limit: of what the actuator gives; a run without it shows what a gait demands.
-/// rating: what its maker states; 0 everywhere means that nobody does, and the resolved scenario leaves it out.
-/// required: nothing a plugin could assume; its initial value 0 means "not given", which its range excludes.
-/// `usual`: per joint, what holds where a limit is 0, which then means "not stated"; nullptr: 0 is a limit.
+/// Meaning of a value per joint for a verdict. limit: a limit of the actuator; a run without it shows the demand of a gait.
+/// rating: stated by the maker; 0 everywhere means "not stated", and the resolved scenario omits it. required: a value without
+/// a default; its initial value 0 means "not given" and is outside its range. `usual`: value per joint that holds where a limit
+/// is 0, which then means "not stated"; nullptr: 0 is a limit.
 enum class Role { setting, limit, rating, required };
 struct EachJoint {
   PerJoint& value;
@@ -104,7 +104,7 @@ struct Numbers {
   std::vector<double>& value;
   Spec spec;
 };
-/// A list of rows, each a list of as many numbers as the first.
+/// A list of rows, each a list of the same length as the first.
 struct Rows {
   std::vector<std::vector<double>>& value;
   Spec spec;
@@ -112,8 +112,8 @@ struct Rows {
 struct Texts {
   std::vector<std::string>& value;
 };
-/// A map whose keys the user chooses (a letter, then letters, digits and _), in the order of the file. One that is given
-/// takes the place of the whole default. Empty texts are refused.
+/// A map whose keys the user chooses (a letter, then letters, digits and _), in the order of the file. A given map replaces the
+/// whole default. Empty texts are refused.
 struct Map {
   std::vector<Named>& value;
   NamedValues kind;
@@ -147,12 +147,12 @@ struct Field {
 };
 
 /// Visits the fields of a Settings struct in order. A Settings struct is default-constructible, its initial values are the
-/// defaults, and it has `void fields(Fields&)`. Whoever reads, writes or lists settings overrides visit and, where it reports
+/// defaults, and it has `void fields(Fields&)`. Classes that read, write or list settings override visit and, if they report
 /// problems, problem_at.
 class Fields {
  public:
   virtual void visit(const Field& field) = 0;
-  /// A check across fields failed: reported at the place of `key`, at the byte `offset` of its text; `name`: at that of a named
+  /// Reports a failed check across fields at the place of `key`, at the byte `offset` of its text; with `name` at a named
   /// value; offset npos: at the key or name itself.
   virtual void problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) = 0;
   void problem(const char* key, std::string_view what) { problem_at(key, {}, std::string_view::npos, what); }
@@ -168,20 +168,20 @@ class Fields {
   void one_of(const char* key, std::string& value, std::span<const char* const> names, const char* about) {
     visit({key, about, field::OneOf{value, names}});
   }
-  /// `names`: of the values of the enum, which start at 0, in their order.
+  /// `names`: names of the enum's values, which start at 0, in their order.
   template <class Enum>
   void choice(const char* key, Enum& value, std::span<const char* const> names, const char* about) {
     std::string name = names[static_cast<std::size_t>(value)];
     one_of(key, name, names, about);
     const Enum read = value_of<Enum>(name, names);
-    if (read != value) value = read;  // threads that only look share the settings
+    if (read != value) value = read;  // no write if equal: threads that only read share the settings
   }
   void per_joint(const char* key, PerJoint& value, Spec spec) { visit({key, spec.about, field::EachJoint{value, spec}}); }
-  /// The most that an actuator gives, in the unit of its command or of a current.
+  /// Largest command of an actuator, or its largest current, in that unit.
   void limit(const char* key, PerJoint& value, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::limit}});
   }
-  /// The same where 0 means "not stated": then `usual` holds. Derive `usual` before the first limit is visited, which may raise
+  /// The same, with 0 for "not stated": then `usual` holds. Derive `usual` before the first limit is visited, which may raise
   /// it.
   void limit(const char* key, PerJoint& value, const PerJoint& usual, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::limit, &usual}});
@@ -190,7 +190,7 @@ class Fields {
   void required(const char* key, PerJoint& value, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::required}});
   }
-  /// What a maker states or does not (0). Most ratings limit verdicts, not the simulation.
+  /// A rating stated by the maker, or 0. Most ratings limit verdicts, not the simulation.
   void rating(const char* key, PerJoint& value, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::rating}});
   }
@@ -210,7 +210,7 @@ class Fields {
   void list(const char* key, std::vector<T>& value, const char* about) {
     visit({key, about, list_of(value)});
   }
-  /// `rule` without a value: the list.
+  /// `rule` without a value: the list holds.
   template <class Enum, class T>
   void rule_or_list(const char* key, std::optional<Enum>& rule, std::span<const char* const> names, std::vector<T>& value,
                     const char* about) {

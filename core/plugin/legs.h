@@ -1,4 +1,4 @@
-// The legs of a robot, found from how it is assembled. Standard library only.
+// The legs of a robot, found from its assembly. Standard library only.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 namespace gaitlab {
 
-/// A chain of modules without branches that ends in feet and is docked sideways (normal within 45 degrees of +-y) to a module
-/// of the spine. Its joints that turn about y, by number; a positive `sign` means that a positive angle is a right-hand turn
-/// about +y.
+/// A leg: a chain of modules without branches that ends in feet and is docked sideways (normal within 45 degrees of +-y) to a
+/// module of the spine. Its joints that turn about y, by number; a positive `sign` means that a positive angle is a right-hand
+/// turn about +y.
 struct Leg {
   std::vector<std::int64_t> modules;  ///< from the spine outwards
   std::int64_t hip = -1, ankle = -1;  ///< first and last joint about y
@@ -70,7 +70,7 @@ inline std::vector<std::size_t> parents_first(const RobotInfo& robot) {
   return order;
 }
 
-/// A side dock further out on a chain that is a leg already: its knee, not another leg.
+/// Whether a side dock is further out on a chain that is a leg already: then it is the leg's knee, not another leg.
 inline bool hangs_on_a_leg(const RobotInfo& robot, const std::vector<Leg>& legs, std::size_t module) {
   for (auto at = static_cast<std::int64_t>(module); at >= 0; at = robot.modules[static_cast<std::size_t>(at)].parent) {
     for (const Leg& leg : legs) {
@@ -82,8 +82,8 @@ inline bool hangs_on_a_leg(const RobotInfo& robot, const std::vector<Leg>& legs,
 
 }  // namespace detail
 
-/// All legs, from the front to the rear, left before right. A leg needs a hip and an ankle that turn about y and feet that hang
-/// below the ankle; other side chains are no legs.
+/// All legs, from the front to the rear, left before right. A leg needs a hip and an ankle that turn about y and feet that are
+/// below the ankle; other side chains are not legs.
 inline std::vector<Leg> find_legs(const RobotInfo& robot) {
   std::vector<Leg> legs;
   for (const std::size_t m : detail::parents_first(robot)) {
@@ -100,7 +100,7 @@ inline std::vector<Leg> find_legs(const RobotInfo& robot) {
     detail::measure(robot, leg);
     if (leg.hip >= 0 && leg.ankle != leg.hip && leg.length > 0 && leg.sole_depth > 0) legs.push_back(leg);
   }
-  // Neighbours left and right stand within a millimetre of the same x.
+  // Neighbours left and right have the same x within a millimetre.
   std::stable_sort(legs.begin(), legs.end(),
                    [](const Leg& a, const Leg& b) { return std::abs(a.x - b.x) > 1e-3 ? a.x > b.x : a.left && !b.left; });
   return legs;

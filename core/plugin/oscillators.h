@@ -12,20 +12,20 @@ namespace gaitlab {
 /// The common keys: frequency, amplitude, offset, phase_lag, couplings.
 struct OscillatorKeys {
   PerJoint frequency{0.25}, amplitude{0.6}, offset{0}, phase_lag{1.2};
-  std::optional<CouplingRule> rule = CouplingRule::chain;  ///< without a value: the list
+  std::optional<CouplingRule> rule = CouplingRule::chain;  ///< empty: the list holds
   std::vector<Coupling> couplings;
 
   void fields(Fields& f) {
     f.per_joint("frequency", frequency, {"Hz", 0, 20, "Own frequency of the oscillator."});
     f.per_joint("amplitude", amplitude,
-                {"rad", 0, 1000, "Peak of the set point about its offset; up to 3.2 where the hinge has a range."});
-    f.per_joint("offset", offset, {"rad", -1000, 1000, "Mean of the set point; +-3.2 where the hinge has a range."});
+                {"rad", 0, 1000, "Peak of the set point about its offset; up to 3.2 for a hinge with a range."});
+    f.per_joint("offset", offset, {"rad", -1000, 1000, "Mean of the set point; within +-3.2 for a hinge with a range."});
     f.per_joint("phase_lag", phase_lag, {"rad", -100, 100, "Lead of each joint over the one it follows by the rule."});
     f.rule_or_list("couplings", rule, kCouplingRules, couplings, kCouplingRulesAbout);
   }
 
-  /// Throws std::invalid_argument for a joint that would hold a set point outside its range, or whose keys no hinge with a
-  /// range can mean. A set point that only passes there is reported by the run, not refused.
+  /// Throws std::invalid_argument for a joint whose set point would stay outside its range, or whose keys are implausible for a
+  /// hinge with a range. A set point that only passes beyond the range is reported by the run, not refused.
   void check(const RobotInfo& robot) const {
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
       const JointInfo& joint = robot.joints[j];
@@ -37,13 +37,13 @@ struct OscillatorKeys {
     }
   }
 
-  /// The coupling graph; the rule's couplings get `weight`.
+  /// The coupling graph; couplings of a rule have the weight `weight`.
   [[nodiscard]] std::vector<Coupling> graph(const RobotInfo& robot, double weight) const {
     return rule ? couple(robot, *rule, weight, phase_lag) : couplings;
   }
 };
 
-/// Settings of an oscillator CPG: the common keys, and under `model` its own, a struct with `void fields(Fields&)`.
+/// Settings of an oscillator CPG: the common keys, and under `model` the model's keys, a struct with `void fields(Fields&)`.
 template <class Model>
 struct OscillatorSettings : OscillatorKeys {
   Model model;
@@ -57,7 +57,7 @@ struct OscillatorSettings : OscillatorKeys {
 /// The couplings with the phases of their limit cycle, for oscillators that start on it.
 struct OscillatorNetwork {
   std::vector<Coupling> couplings;
-  std::vector<double> phases;  ///< rad; all 0 where the lags contradict one another around a cycle
+  std::vector<double> phases;  ///< rad; all 0 if the lags contradict one another around a cycle
   bool consistent = true;
 
   /// Throws as OscillatorKeys::check.
@@ -73,8 +73,8 @@ struct OscillatorNetwork {
   }
 };
 
-/// A CPG with one oscillator per joint, whose states stand in blocks, one number per joint: derive, and give start, derivative
-/// and output. The model's `coupling` is the weight of the couplings that a rule makes.
+/// A CPG with one oscillator per joint and states in blocks of one number per joint: derive from it, and define start,
+/// derivative and output. The model's `coupling` is the weight of a rule's couplings.
 template <class Model>
 requires requires(Model model) { model.coupling + 1.0; }
 class OscillatorCpg : public Cpg {
@@ -88,7 +88,7 @@ class OscillatorCpg : public Cpg {
   [[nodiscard]] std::string note() const override { return network_.note(); }
 
  protected:
-  /// `blocks`: names of the states, kept by address. Throws as OscillatorKeys::check.
+  /// `blocks`: names of the states, whose addresses are kept. Throws as OscillatorKeys::check.
   OscillatorCpg(const RobotInfo& robot, const Settings& settings, std::span<const char* const> blocks)
       : joints_(robot.joints.size()), s_(settings), network_(robot, settings, settings.model.coupling), blocks_(blocks) {}
 

@@ -1,4 +1,5 @@
-// The one header an out-of-tree plugin includes: the interfaces and GAITLAB_PLUGIN(registry) { add_cpg<Mine>(registry, ...); }
+// The one header that an out-of-tree plugin includes: the interfaces and GAITLAB_PLUGIN(registry) { add_cpg<Mine>(registry,
+// ...); }
 #pragma once
 #include "core/plugin/registry.h"
 
@@ -14,10 +15,10 @@
 #else
 #define GAITLAB_ABI_LIBRARY "libstdc++ " GAITLAB_ABI_TEXT(_GLIBCXX_RELEASE) " cxx11 " GAITLAB_ABI_TEXT(_GLIBCXX_USE_CXX11_ABI)
 #endif
-/// Number of the interface, compiler, standard library: a plugin is loaded only where all three are the program's.
+/// Number of the interface, compiler, standard library: a plugin is loaded only if all three are equal to the program's.
 #define GAITLAB_ABI "gaitlab-8, " GAITLAB_ABI_COMPILER ", " GAITLAB_ABI_LIBRARY
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a parameter's name cannot stand in parentheses
+// NOLINTBEGIN(bugprone-macro-parentheses): a parameter's name cannot be in parentheses
 #define GAITLAB_PLUGIN(registry)                               \
   extern "C" const char* gaitlab_abi() { return GAITLAB_ABI; } \
   extern "C" void gaitlab_register(gaitlab::Registry& registry)

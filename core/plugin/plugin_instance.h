@@ -1,4 +1,4 @@
-// Plugins as the program holds them: whatever one throws comes out as a PluginError, which names it and where it comes from.
+// Plugins as used by the program: an exception of a plugin becomes a PluginError with the plugin's name and origin.
 #pragma once
 #include <memory>
 #include <span>
@@ -15,25 +15,24 @@ struct PluginSelection {
   std::shared_ptr<void> settings = {};
 };
 
-/// An exception left a plugin: what() is `cpg 'wave' (/home/me/wave.so): output threw: ...`, without the path where it is built
-/// in.
+/// An exception of a plugin: what() is `cpg 'wave' (/home/me/wave.so): output threw: ...`, without the path for a built-in one.
 class PluginError : public RunError {
  public:
   PluginError(const Entry& entry, const std::string& what);
   Kind kind;
 };
 
-/// New settings with the plugin's defaults. Throws PluginError, as all below.
+/// New settings with the plugin's defaults. Throws PluginError, as do all functions below.
 std::shared_ptr<void> default_settings(const Entry& entry);
-/// Visits the fields of its settings.
+/// Visits the fields of a plugin's settings.
 void visit_settings(const Entry& entry, void* settings, Fields& fields);
 
-/// A new instance of the chosen plugin; nullptr where none is chosen. Its calls cost one indirect call more than the plugin's
-/// own and allocate nothing. The entry must outlive it.
+/// A new instance of the chosen plugin; nullptr if none is chosen. A call costs one indirect call more than the plugin's and
+/// does not allocate. The entry must outlive it.
 std::unique_ptr<Cpg> make_cpg(const PluginSelection& selection, const RobotInfo& robot);
 std::unique_ptr<Controller> make_controller(const PluginSelection& selection, const RobotInfo& robot);
-/// One selection per lane, all of the same entry. Refuses a command_limit or reflected_inertia of another size than joints *
-/// lanes when they are asked for.
+/// An actuator from one selection per lane, all of the same entry. Throws if command_limit or reflected_inertia has another
+/// size than joints * lanes, when they are called.
 std::unique_ptr<Actuator> make_actuator(std::span<const PluginSelection* const> lanes, const RobotInfo& robot);
 std::unique_ptr<Actuator> make_actuator(const PluginSelection& selection, const RobotInfo& robot);
 

@@ -17,14 +17,14 @@ struct Entry {
   std::string_view manual;  ///< equation, reference, minimal YAML
   std::shared_ptr<void> (*settings)();
   void (*fields)(void* settings, Fields&);
-  /// A new Cpg, Controller or Actuator. An actuator gets one settings pointer a lane, the others exactly one.
+  /// A new Cpg, Controller or Actuator. An actuator gets one settings pointer per lane, the others exactly one.
   void* (*make)(const RobotInfo&, std::span<const void* const> settings);
-  std::string_view origin = {};  ///< where it comes from: filled in by the program
+  std::string_view origin = {};  ///< built in, or path of the library; set by the program
 };
 
 class Registry {
  public:
-  virtual void add(const Entry&) = 0;  ///< throws where kind and name are taken, naming both origins
+  virtual void add(const Entry&) = 0;  ///< throws if kind and name are in use, naming both origins
 
  protected:
   ~Registry() = default;

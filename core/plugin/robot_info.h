@@ -1,4 +1,4 @@
-// What a plugin may know of the robot it moves. Standard library only.
+// Description of the robot for plugins. Standard library only.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,14 +17,14 @@ struct JointInfo {
   double lo = 0, hi = 0;              ///< range, rad; -infinity and infinity: it turns freely
   std::array<double, 3> origin = {};  ///< a point of the axis, m, base frame, all angles zero
   std::array<double, 3> axis = {};    ///< unit vector, base frame, all angles zero; positive turn of the farther body
-  bool driven = true;                 ///< false: no motor; what a plugin gives for it is not used
+  bool driven = true;                 ///< false: no motor; set points and torques for it are not used
   [[nodiscard]] bool turns_freely() const { return hi == std::numeric_limits<double>::infinity(); }
 };
 
-/// Throws std::invalid_argument for a set point that only a hinge that turns freely can have: of one with a range it is meant
-/// in degrees, or by mistake.
+/// Throws std::invalid_argument for a set point that only a freely turning hinge can have: for a hinge with a range it is
+/// probably in degrees, or a mistake.
 inline void check_angle(const JointInfo& joint, const char* what, double angle) {
-  constexpr double kLargest = 3.2;  // rad: half a turn, and a little
+  constexpr double kLargest = 3.2;  // rad: slightly above half a turn
   if (joint.turns_freely() || (angle >= -kLargest && angle <= kLargest)) return;
   char text[200];
   (void)std::snprintf(text, sizeof text,
@@ -35,15 +35,15 @@ inline void check_angle(const JointInfo& joint, const char* what, double angle) 
 
 struct ModuleInfo {
   std::string type;                       ///< name of the module type
-  std::int64_t parent = -1;               ///< the module it is docked to, -1 for module 0
-  int parent_face = -1;                   ///< the parent's face it sits on
+  std::int64_t parent = -1;               ///< module that it is docked to, -1 for module 0
+  int parent_face = -1;                   ///< face of the parent that it is docked to
   std::array<double, 3> normal = {};      ///< outward normal of that face, base frame, all angles zero
   std::array<double, 3> position = {};    ///< module frame, m, base frame, all angles zero
   std::array<double, 9> rotation = {};    ///< module axes in the base frame, row major
   std::vector<std::int64_t> joints = {};  ///< from the reference body outwards
   std::vector<std::int64_t> children = {};
   std::vector<std::array<double, 3>> feet =
-      {};  ///< its foot contact points, m, base frame, all angles zero; without children only
+      {};  ///< foot contact points, m, base frame, all angles zero; modules without children only
 };
 
 /// A robot as a tree of modules and joints, with its geometry at zero angles.

@@ -8,7 +8,7 @@ namespace gaitlab {
 
 namespace {
 
-/// The words of `stop_torque`, `torque.rms`.
+/// Words of `stop_torque`, `torque.rms`.
 std::string words(std::string_view key) {
   std::string text;
   for (const char c : key) text += c == '.' || c == '_' ? ' ' : c;
@@ -22,7 +22,7 @@ struct NumberedColumn {
   std::string_view quantity;  // torque
 };
 
-/// Without a kind: no column of a part.
+/// Without a kind: not a column of a part.
 NumberedColumn numbered(std::string_view column) {
   NumberedColumn found;
   const std::size_t dot = column.find('.');

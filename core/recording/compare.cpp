@@ -17,7 +17,7 @@ namespace gaitlab {
 namespace {
 
 constexpr double kSameTime = 1e-6;  // of the spacing; rounding of k h is some 1e-16 of t
-constexpr double kFlat = 1e-9;      // nm, nrad, nN m ...: a range below is rounding, in any unit a trace has
+constexpr double kFlat = 1e-9;      // a smaller range is rounding, in any unit of a trace
 constexpr std::size_t kNamesShown = 8;
 
 struct SharedRow {
@@ -119,11 +119,11 @@ class Comparison {
     found_.rows = rows_.size();
     if (rows_a != rows_b) find(fmt::format("A has {}, B has {}", plural(rows_a, "row"), rows_b));
     if (rows_.size() < std::min(rows_a, rows_b))
-      find(fmt::format("another time base: {} of the same time in A and B", plural(rows_.size(), "row")));
+      find(fmt::format("time columns differ: only {} have equal times in A and B", plural(rows_.size(), "row")));
     uniform_ = uniform_rows();
   }
 
-  // How many of the first shared rows are evenly spaced: what a shift can be searched in (the last row may lie off the grid).
+  // Number of first shared rows that are evenly spaced, in which a shift can be searched (the last row may lie off the grid).
   [[nodiscard]] std::size_t uniform_rows() const {
     if (rows_.size() < 2) return rows_.size();
     const double spacing = this->spacing();
@@ -206,7 +206,7 @@ class Comparison {
     }
   }
 
-  // Only where they differ: the search is what costs.
+  // Only for columns that differ: the search is expensive.
   void shift(const Pair& pair, ColumnDifference& d) const {
     d.rms_after_shift = d.rms;
     const auto finite = [](double value) { return std::isfinite(value); };
@@ -223,7 +223,7 @@ class Comparison {
   const Trace& b_;
   const CompareOptions& options_;
   TraceDifference found_;
-  std::vector<std::pair<std::size_t, std::size_t>> shared_;  // columns of A and B
+  std::vector<std::pair<std::size_t, std::size_t>> shared_;  // indices of shared columns in A and B
   std::vector<SharedRow> rows_;
   std::size_t uniform_ = 0;
 };

@@ -29,12 +29,12 @@ std::string header_cell(const std::string& name, const std::filesystem::path& pa
   return quoted + '"';
 }
 
-// Cuts a text into lines and lines into cells, and knows where it is.
+// Splits a text into lines and lines into cells, and tracks its position.
 class CsvReader {
  public:
   CsvReader(std::string file, std::string_view text) : file_(std::move(file)), rest_(text) {}
 
-  // False at the end of the text. A file cut off in a number would otherwise read as another number.
+  // False at the end of the text. A file truncated within a number would otherwise be read as another number.
   bool next_line() {
     if (rest_.empty()) return false;
     ++line_number_;
@@ -59,7 +59,8 @@ class CsvReader {
   int line_number_ = 0;
 };
 
-// The number that starts the cell at `first`; ec is not std::errc() if there is none, ptr is the cell's end if it is whole.
+// Parses the number at the start of the cell at `first`; ec is not std::errc() if there is none, ptr is the cell's end if it is
+// whole.
 std::from_chars_result parse(const char* first, const char* last, double& value) {
   return std::from_chars(first, last, value, std::chars_format::general);
 }
@@ -68,7 +69,7 @@ std::string_view cell_at(std::string_view line, std::size_t offset) {
   return line.substr(offset, line.find(',', offset) - offset);
 }
 
-// One header name from `offset` on, which it moves to the following comma or the end.
+// Reads a header name from `offset` on, which moves to the following comma or the end.
 std::string read_name(const CsvReader& reader, std::size_t& offset) {
   const std::string_view line = reader.line();
   if (offset == line.size() || line[offset] != '"') {
@@ -102,7 +103,7 @@ std::vector<Column> read_header(const CsvReader& reader) {
   std::vector<Column> columns;
   std::unordered_set<std::string> seen;
   bool numbers = true;
-  std::optional<InputError> repeated;  // told only if this is a header at all
+  std::optional<InputError> repeated;  // thrown only if this is a header
   for (std::size_t offset = 0;; ++offset) {
     const std::size_t start = offset;
     std::string name = read_name(reader, offset);
@@ -145,7 +146,7 @@ void read_row(const CsvReader& reader, std::size_t columns, std::vector<double>&
 
 namespace {
 
-/// Gives pieces of the text to `put`, each larger than `piece` bytes but for the last.
+/// Passes pieces of the text to `put`, each larger than `piece` bytes except the last.
 template <class Put>
 void put_csv(const Trace& trace, const std::filesystem::path& path, std::size_t piece, const Put& put) {
   fmt::memory_buffer buffer;

@@ -15,27 +15,27 @@ namespace gaitlab {
 
 namespace {
 
-// In memory only; a path that no file can have, because HDF5 looks for one first.
+// In memory only; HDF5 searches for a file first, so this path can never exist.
 constexpr const char* kNowhere = "/dev/null/gaitlab";
 constexpr std::size_t kGrowth = std::size_t{1} << 20;  // bytes
 constexpr hsize_t kChunkRows = 4096;                   // of one column: 32 kB, and neighbours in time compress best
-constexpr unsigned kGzip = 1;                          // what the file says of its chunks; libdeflate packs them
+constexpr unsigned kGzip = 1;                          // level stated in the file; libdeflate packs the chunks
 
-// A negative return is a failure, of every function of HDF5.
+// Checks the result of an HDF5 function: negative means failure.
 template <class Result>
 Result checked(Result result, const char* what) {
   if (result < 0) throw ImageError(fmt::format("HDF5: {} failed", what));
   return result;
 }
 
-// One thread at a time (Debian's HDF5 is built without locks), and no report of HDF5's own on stderr.
+// Lock for HDF5, one thread at a time (Debian's HDF5 is built without locks); turns off HDF5's messages on stderr.
 class Library {
  public:
   Library() : lock_(mutex()) {
-    // Before its first use: what a damaged file leaves open would else make HDF5 complain when the program ends.
+    // Before the first use: objects left open after a damaged file would make HDF5 complain at exit.
     static const herr_t kNeverAtExit = H5dont_atexit();
     static_cast<void>(kNeverAtExit);
-    // A file names filters by number, for which HDF5 would load whatever library lies in a folder of the environment.
+    // A file names filters by number, for which HDF5 would load any library in a folder of the environment.
     static const herr_t kNoPlugins = H5PLset_loading_state(0);
     static_cast<void>(kNoPlugins);
     H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
@@ -55,7 +55,7 @@ class Library {
   void* data_ = nullptr;
 };
 
-// Owns one identifier of HDF5. close() says whether it went well; the destructor cannot.
+// Owns one identifier of HDF5. close() reports failures; the destructor cannot.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -78,12 +78,12 @@ class Handle {
 Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
   checked(H5Pset_fapl_core(access, kGrowth, 0), "file in memory");
-  // Fixed, so that a newer library writes the same format; the oldest, which every reader knows.
+  // Fixed, so that a newer library writes the same format; the oldest, which all readers support.
   checked(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), "format bounds");
   return access;
 }
 
-// Texts of so many bytes, or (format 1) of any length.
+// Type of texts of `size` bytes, or (format 1) of any length.
 Handle string_type(std::size_t size) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "string type");
   checked(H5Tset_size(type, size), "string type");
@@ -106,7 +106,7 @@ void write_number(hid_t owner, const char* name, std::int64_t number) {
   write_attribute(owner, name, H5T_STD_I64LE, H5T_NATIVE_INT64, scalar_space(), &number);
 }
 
-// One after the other, each filled up with NULs to the length of the longest.
+// The texts one after the other, each padded with NULs to the length of the longest.
 std::string padded(const std::vector<std::string_view>& texts, std::size_t& size) {
   size = 1;
   for (const std::string_view text : texts) {
@@ -139,7 +139,7 @@ void write_texts(hid_t owner, const char* name, const Trace& trace, std::string 
   write_attribute(owner, name, type, type, space, bytes.data());
 }
 
-// No times, and a kind of header that may hold attributes above 64 kB.
+// No dates, and a kind of header that can hold attributes above 64 kB.
 void plain(hid_t properties) {
   checked(H5Pset_obj_track_times(properties, 0), "properties");
   checked(H5Pset_attr_creation_order(properties, H5P_CRT_ORDER_TRACKED), "properties");
@@ -164,7 +164,7 @@ void write_dataset(hid_t owner, const char* name, const Trace& trace) {
   const Handle properties = dataset_properties(shape);
   Handle data(H5Dcreate2(owner, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, "dataset");
   if (!trace.values.empty()) {
-    // Past HDF5's own filters, whose zlib took 27 % of an ordinary run.
+    // Bypasses HDF5's filters, whose zlib took 27 % of an ordinary run.
     pack_chunks(trace, chunk_rows(shape[0]), [&](std::size_t row, std::size_t column, std::span<const std::byte> bytes) {
       const std::array<hsize_t, 2> at{row, column};
       checked(H5Dwrite_chunk(data, H5P_DEFAULT, 0, at.data(), bytes.size(), bytes.data()), "writing the values");
@@ -220,8 +220,9 @@ std::vector<std::string> read_texts(hid_t owner, const char* name, int rank, con
     return found;
   }
   const std::size_t size = H5Tget_size(stored);
-  if (size == 0 || count > bytes.size() / size) throw ImageError(fmt::format("{} is larger than it can be", name));
-  std::string all(count * size + 1, '\0');  // so that there is an address without columns, too
+  if (size == 0 || count > bytes.size() / size)
+    throw ImageError(fmt::format("dataset {}: the declared size exceeds the file", name));
+  std::string all(count * size + 1, '\0');  // at least 1, for a valid address without columns
   checked(H5Aread(attribute, string_type(size), all.data()), name);
   for (std::size_t i = 0; i < count; ++i) {
     const std::string_view text = std::string_view(all).substr(i * size, size);
@@ -247,14 +248,14 @@ std::vector<Column> read_columns(hid_t data, std::size_t count, const std::strin
   return columns;
 }
 
-/// A soft or an external link leads to another place, or to another file.
+/// Refuses soft and external links, which lead to another place or file.
 void check_link(hid_t owner, const char* name) {
   H5L_info_t link{};
   checked(H5Lget_info(owner, name, &link, H5P_DEFAULT), name);
   if (link.type != H5L_TYPE_HARD) throw ImageError(fmt::format("/{} is a link to another place", name));
 }
 
-/// Values in the file itself, packed by what writes them here. A virtual dataset or external storage is read from other files.
+/// Requires values in the file itself, packed as written here. A virtual dataset or external storage would read other files.
 void check_storage(hid_t data, const char* name) {
   const Handle properties(H5Dget_create_plist(data), H5Pclose, name);
   const H5D_layout_t layout = H5Pget_layout(properties);
@@ -284,9 +285,9 @@ Trace read_dataset(hid_t owner, const char* name, const std::string& bytes) {
   }
   const Handle space(H5Dget_space(data), H5Sclose, name);
   const auto [rows, columns] = shape_of(space, 2, name);
-  // gzip makes nothing smaller than a 1032nd: more is a lie that would only exhaust the memory.
+  // gzip compresses at most by a factor of 1032: a larger claim is forged and would only exhaust the memory.
   if (columns != 0 && rows > 1040 * bytes.size() / sizeof(double) / columns) {
-    throw ImageError(fmt::format("/{} is larger than it can be", name));
+    throw ImageError(fmt::format("dataset /{}: the declared size exceeds the file", name));
   }
   Trace trace;
   trace.columns = read_columns(data, columns, bytes);
@@ -328,7 +329,7 @@ std::string to_image(const Trace& trace, const Provenance& origin, std::span<con
 StoredTrace from_image(const std::string& file_bytes) {
   const Library library;
   const Handle access = file_access();
-  // HDF5 copies the image; it takes a pointer that is not const only for callbacks that are not set.
+  // HDF5 copies the image; the pointer is not const only for callbacks that are not set.
   checked(H5Pset_file_image(access, const_cast<char*>(file_bytes.data()), file_bytes.size()), "image");
   const Handle file(H5Fopen(kNowhere, H5F_ACC_RDONLY, access), H5Fclose, "opening the file");
   const auto text = [&](const char* name) { return read_texts(file, name, 0, file_bytes).front(); };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLongestStart = 2;    // s, without a limit cycle
 constexpr double kShareOfStart = 0.2;  // of the run, without a limit cycle
-constexpr double kWholePeriod = 1e-3;  // of a period: what it may miss and be whole
+constexpr double kWholePeriod = 1e-3;  // of a period: tolerance of a whole one
 constexpr double kSameInstant = 1e-9;  // s
 
 void window(Judged& judged, double end, const MotionCycle& cycle, bool repeats) {
@@ -25,7 +25,7 @@ void window(Judged& judged, double end, const MotionCycle& cycle, bool repeats) 
   judged.from = std::max(0.0, start());
 }
 
-/// The last row at `time` or before, or at most `within` after it.
+/// The last row at or before `time`, or at most `within` after it.
 std::size_t row_at(const Series& t, double time, double within) {
   std::size_t row = 0;
   while (row + 1 < t.size() && t[row + 1] <= time + within) ++row;
@@ -34,7 +34,7 @@ std::size_t row_at(const Series& t, double time, double within) {
 
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-/// Of the rows behind `first`: the largest, and when; NaN where nothing is known.
+/// Largest value of the rows behind `first`, with its time; NaN if no value is known.
 std::pair<double, double> peak_of(const Series& t, const Series& values, std::size_t first) {
   if (values.empty() || std::isnan(values.back())) return {kNotKnown, kNotKnown};
   std::pair<double, double> largest{0, 0};
@@ -83,7 +83,7 @@ JudgedJoint from_ticks(const Recording& record, std::size_t joint, std::size_t f
   return j;
 }
 
-/// The first of the largest.
+/// The first joint with the largest value.
 std::size_t most(const std::vector<JudgedJoint>& joints, double JudgedJoint::*member) {
   std::size_t found = 0;
   for (std::size_t j = 1; j < joints.size(); ++j) {
@@ -118,7 +118,7 @@ Judged judge(const Recording& r, const MotionCycle& cycle, bool repeats) {
   judged.joints.resize(r.ticked());
   judged.whole.resize(r.ticked());
   const bool known = r.ticked() > 0 && !r.tick(0, kCurrentLimited).empty();
-  // The period is an estimate, which must not decide whether a row at the start of the window belongs to it.
+  // The estimated period must not decide whether a row at the start of the window belongs to it.
   const double period = judged.periods > 0 ? cycle.period : 0;
   if (r.ticks.rows() > 0)
     judged.first_row = row_at(Series(r.ticks, 0), judged.from, std::max(kSameInstant, kWholePeriod * period));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace gaitlab {
@@ -11,12 +13,12 @@ namespace {
 
 constexpr double kRepeats = 0.02;     // e(t) of a repeating motion
 constexpr double kStill = 1e-3;       // rad, half a peak-to-peak
-constexpr double kSmall = 0.1;        // of the largest column: a joint that only trembles is judged by those that move
+constexpr double kSmall = 0.1;        // of the largest column: least scale, so that joints that only tremble do not decide
 constexpr double kPromising = 0.3;    // e of a lag next to a period: half a grid step off, harmonics included
 constexpr std::size_t kGrid = 256;    // lags and points per period in the search
 constexpr std::size_t kFine = 4096;   // points per period when refining a lag
-constexpr std::size_t kShortest = 5;  // samples
-constexpr double kNoMatch = 1e300;    // "no error to speak of": above every threshold
+constexpr std::size_t kShortest = 5;  // samples in the shortest period
+constexpr double kNoMatch = 1e300;    // an error above every threshold
 using Moved = std::vector<double>;
 
 struct Columns : std::vector<Moved> {
@@ -33,8 +35,8 @@ struct Range {
   [[nodiscard]] double half() const { return 0.5 * (hi - lo); }
 };
 
-// Replaces the steps of a column that is held between ticks by straight lines between the changes. Only runs up to twice the
-// median one are joined: a pause stays a pause.
+// Replaces the steps of a column that is held between ticks by straight lines between the changes. Only intervals up to twice
+// the median are joined: a pause remains.
 void join_steps(Moved& x) {
   std::vector<std::size_t> changes;
   for (std::size_t i = 1; i < x.size(); ++i) {
@@ -54,7 +56,7 @@ void join_steps(Moved& x) {
   }
 }
 
-// One contiguous array a column; empty if a number is not finite.
+// One contiguous array per column; empty if a number is not finite.
 Columns columns_of(std::span<const double> values, std::size_t columns) {
   const std::size_t rows = values.size() / columns;
   Columns split(columns, Moved(rows));
@@ -66,7 +68,7 @@ Columns columns_of(std::span<const double> values, std::size_t columns) {
     }
   }
   for (Moved& column : split) join_steps(column);
-  // The last quarter: a start that was livelier says nothing.
+  // Only the last quarter: a livelier start does not count.
   for (const Moved& column : split) {
     Range range;
     for (std::size_t row = rows - rows / 4; row < rows; ++row) range.add(column[row]);
@@ -75,13 +77,34 @@ Columns columns_of(std::span<const double> values, std::size_t columns) {
   return split;
 }
 
-// e at the last window for a whole number of samples, on every `stride`-th of them; kNoMatch as soon as it is not promising or
-// if nothing moves.
-double rough_error(const Columns& columns, std::size_t lag, std::size_t stride) {
-  const std::size_t rows = columns[0].size();
-  double worst = 0;
-  bool moves = false;
-  for (const Moved& x : columns) {
+// Rough error e in the last window for a whole number of samples, on every `stride`-th of them; kNoMatch as soon as it is not
+// promising, or if nothing moves.
+class RoughError {
+ public:
+  explicit RoughError(const Columns& columns) : columns_(columns) {
+    for (std::size_t c = 0; c < columns.size(); ++c) order_.push_back(c);
+  }
+
+  double error(std::size_t lag, std::size_t stride) {
+    double worst = 0;
+    bool moves = false;
+    for (std::size_t k = 0; k < order_.size(); ++k) {
+      const auto [one, half] = of(columns_[order_[k]], lag, stride);
+      moves = moves || half > kStill;
+      worst = std::max(worst, one);
+      if (worst < kPromising) continue;
+      // A column that does not repeat after one lag mostly does not after the next: it is tested first.
+      std::rotate(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(k),
+                  order_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+      return kNoMatch;
+    }
+    return moves ? worst : kNoMatch;
+  }
+
+ private:
+  // Error of one column, and half its peak-to-peak.
+  [[nodiscard]] std::pair<double, double> of(const Moved& x, std::size_t lag, std::size_t stride) const {
+    const std::size_t rows = x.size();
     Range range;
     double squares = 0;
     std::size_t count = 0;
@@ -92,16 +115,16 @@ double rough_error(const Columns& columns, std::size_t lag, std::size_t stride) 
       range.add(earlier);
       squares += (later - earlier) * (later - earlier);
     }
-    const double scale = std::max(range.half(), columns.floor);
-    moves = moves || range.half() > kStill;
-    worst = std::max(worst, std::sqrt(squares / static_cast<double>(count)) / scale);
-    if (worst >= kPromising) return kNoMatch;
+    const double scale = std::max(range.half(), columns_.floor);
+    return {std::sqrt(squares / static_cast<double>(count)) / scale, range.half()};
   }
-  return moves ? worst : kNoMatch;
-}
 
-// Sum over the columns of the mean square of x(t) - x(t - lag) / s_c over a fixed window at the end: smooth in the lag, and a
-// parabola near its minimum, which the worst column's error is not.
+  const Columns& columns_;
+  std::vector<std::size_t> order_ = {};
+};
+
+// Misfit of a lag: sum over the columns of the mean square of x(t) - x(t - lag) / s_c over a fixed window at the end: smooth in
+// the lag, and a parabola near its minimum, which the worst column's error is not.
 class Misfit {
  public:
   Misfit(const Columns& columns, std::size_t window) : columns_(columns), window_(window) {
@@ -115,7 +138,7 @@ class Misfit {
     }
   }
 
-  // kNoMatch where the data do not reach back.
+  // kNoMatch if the data do not reach back far enough.
   [[nodiscard]] double at(std::size_t lag) const {
     const std::size_t rows = columns_[0].size();
     if (lag < 2 || window_ + lag > rows) return kNoMatch;
@@ -164,7 +187,7 @@ double refine(const Columns& columns, std::size_t lag, std::size_t step) {
   return static_cast<double>(lag) + std::clamp(shift, -0.5, 0.5);
 }
 
-// x between samples: the cubic through four neighbours, the last one repeated at the end of the data.
+// Value of x between samples: the cubic through four neighbours, the last one repeated at the end of the data.
 class Between {
  public:
   explicit Between(double lag) : whole_(static_cast<std::size_t>(lag)) {
@@ -203,7 +226,7 @@ class Repetition {
     }
   }
 
-  // At the last window; kNoMatch if there is none or nothing moves.
+  // Error in the last window; kNoMatch if there is none or nothing moves.
   [[nodiscard]] double error() const {
     if (starts_ == 0 || !moves_) return kNoMatch;
     double worst = 0;
@@ -215,10 +238,10 @@ class Repetition {
     return worst;
   }
 
-  // The earliest start of a window from which on no window fails, in samples. Assumes that the last one does not.
+  // The earliest start of a window from which on all windows repeat, in samples. Assumes that the last one does.
   [[nodiscard]] std::size_t from() const {
     std::size_t from = 0;
-    std::vector<double> sums(starts_ + window_);  // of the squares before a sample: a window is a difference of two
+    std::vector<double> sums(starts_ + window_);  // of the squares before a sample: the sum of a window is a difference of two
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       for (std::size_t i = 0; i + 1 < sums.size(); ++i) sums[i + 1] = sums[i] + squared(c, i);
       const double limit = kRepeats * scales_[c];
@@ -249,22 +272,29 @@ struct Candidate {
   double error = kNoMatch;
 };
 
-// The best lag of every stretch of promising ones, shortest first.
-std::vector<Candidate> candidates(const Columns& columns) {
-  std::vector<Candidate> found;
-  Candidate best;
-  const std::size_t longest = columns[0].size() / 2;
-  std::size_t step = 1;
-  for (std::size_t lag = kShortest; lag <= longest; lag += step) {
-    step = std::max<std::size_t>(1, lag / kGrid);
-    const double error = rough_error(columns, lag, step);
-    if (error < best.error) best = {lag, step, error};
-    if (error < kPromising && lag + step <= longest) continue;
-    if (best.error < kPromising) found.push_back(best);
-    best = {};
+// The best lag of each interval of promising ones, shortest first, computed one by one.
+class Candidates {
+ public:
+  explicit Candidates(const Columns& columns) : rough_(columns), longest_(columns[0].size() / 2) {}
+
+  std::optional<Candidate> next() {
+    Candidate best;
+    while (lag_ <= longest_) {
+      step_ = std::max<std::size_t>(1, lag_ / kGrid);
+      const double error = rough_.error(lag_, step_);
+      if (error < best.error) best = {lag_, step_, error};
+      lag_ += step_;
+      if (error < kPromising && lag_ <= longest_) continue;
+      if (best.error < kPromising) return best;
+      best = {};
+    }
+    return {};
   }
-  return found;
-}
+
+ private:
+  RoughError rough_;
+  std::size_t longest_, lag_ = kShortest, step_ = 1;
+};
 
 }  // namespace
 
@@ -273,8 +303,9 @@ MotionCycle find_limit_cycle(std::span<const double> values, std::size_t columns
   if (columns == 0 || values.size() / columns < 2 * kShortest + 2) return best;
   const Columns split = columns_of(values, columns);
   if (split.empty()) return best;
-  for (const Candidate& candidate : candidates(split)) {
-    const double period = refine(split, candidate.lag, candidate.step);
+  Candidates candidates(split);
+  while (const std::optional<Candidate> candidate = candidates.next()) {
+    const double period = refine(split, candidate->lag, candidate->step);
     if (period <= 0) continue;
     const Repetition repetition(split, period);
     const double error = repetition.error();

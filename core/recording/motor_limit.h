@@ -1,4 +1,4 @@
-// The limit at which a motor is, as a name and as the number in traces.
+// The limit at which a motor is, with its name and its number in traces.
 #pragma once
 #include "core/names.h"
 
@@ -12,7 +12,7 @@ struct EnumNames<MotorLimit> {
   static constexpr EnumName<MotorLimit> kTable[] = {{none, "none"}, {voltage, "voltage"}, {current, "current"}};
 };
 
-/// As `saturation` has it: of traces, of Recording::ticks and of Actuator::Electrical.
+/// Number of a limit in `saturation`: of traces, of Recording::ticks and of Actuator::Electrical.
 constexpr double saturation_of(MotorLimit limit) { return static_cast<double>(limit); }
 constexpr MotorLimit motor_limit(double saturation) {
   return saturation == saturation_of(MotorLimit::current)   ? MotorLimit::current

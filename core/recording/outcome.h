@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// plugin: one threw; stopped: by a rule of a study; not_run: a robot that was only checked; early: its folder, which is of an
-/// older format, does not say how.
+/// plugin: an exception of one; stopped: by a rule of a study; not_run: the robot was only checked; early: a folder of an older
+/// format, without the reason.
 enum class Ended { done, diverged, plugin, stopped, interrupted, not_run, early };
 
 template <>
@@ -20,12 +20,12 @@ struct EnumNames<Ended> {
 
 struct Outcome {
   Ended ended = Ended::done;
-  std::string message = {};  ///< why it ended early, with step and time
+  std::string message = {};  ///< reason of an early end, with step and time
 
   [[nodiscard]] bool done() const { return ended == Ended::done; }
-  /// `done`, `not run` or the message: what trace, summary and page hold.
+  /// `done`, `not run` or the message, as in trace, summary and page.
   [[nodiscard]] std::string text() const { return message.empty() ? name_of(ended) : message; }
-  /// The outcome with that text: Ended::early of a message.
+  /// The outcome with that text; for a message Ended::early.
   [[nodiscard]] static Outcome of(const std::string& text) {
     const bool done = text == name_of(Ended::done);
     return done ? Outcome() : Outcome{Ended::early, text};

@@ -40,13 +40,13 @@ Series Recording::pose(const std::string& column) const {
 Series Recording::tick(std::size_t number, TickColumn column) const {
   const std::size_t columns = ticks.columns.size();
   if (ticked() == 0 || ticks.rows() < 2 || (columns - 1) % ticked() != 0) return {};
-  const std::size_t each = (columns - 1) / ticked();  // fewer in older folders: new ones are behind
+  const std::size_t each = (columns - 1) / ticked();  // fewer in older folders: new ones come last
   return column < each ? Series(ticks, 1 + number * each + column) : Series();
 }
 
 namespace {
 
-/// NaN where the column is missing.
+/// Value of a row; NaN if the column is missing.
 double at(const Series& series, std::size_t row) {
   return series.empty() ? std::numeric_limits<double>::quiet_NaN() : series[row];
 }

@@ -1,5 +1,5 @@
-// A run as a value: its rows, and what is known of all its steps. Summary, figures, goldens and every page read this, whether
-// the run has just ended or lies in a folder.
+// A run as a value: its rows, and the statistics of all its steps. Summary, figures, goldens and pages use it, for a run that
+// has just ended and for one in a folder.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -31,11 +31,11 @@ class Series {
   std::size_t stride_ = 0, size_ = 0;
 };
 
-/// Patterns of the columns that summary, figures and warnings read; recorded whatever `trace.columns` says.
+/// Patterns of the columns that summary, figures and warnings use; recorded for any `trace.columns`.
 const std::vector<std::string>& report_columns();
 
 inline constexpr std::size_t kMostTickRows = 20000;  ///< of Recording::ticks, even: 5 min of control ticks 15 ms apart
-/// Columns of a joint in Recording::ticks, behind t.
+/// Columns of a joint in Recording::ticks, after t.
 enum TickColumn : std::size_t {
   kTorquePeak,
   kErrorPeak,
@@ -51,27 +51,27 @@ enum TickColumn : std::size_t {
   kTickColumns
 };
 
-/// How one rollout ran.
+/// Recording of one rollout.
 struct Recording {
-  /// At every trace tick, and at the end: the columns that `trace.columns` names; then those of report_columns() that it leaves
-  /// out.
+  /// Rows at every trace tick, and at the end. trace: the columns that `trace.columns` names; rest: the other ones of
+  /// report_columns().
   Trace trace, rest;
   /// At control ticks at least 2 ms apart (above 20 000 rows: every second of them, and so on), and at the end: for each joint
   /// the largest |torque| (and whether the motor was at a limit then), |set point - angle|, |speed|, |voltage|, |current| and
-  /// share of the torque that there is since the row before, and from t = 0 the integrals of torque^2 and current^2 and the
-  /// time at each limit. Over all steps, so that a peak or an RMS of any part of the run does not depend on trace.period.
+  /// share of the available torque since the row before, and from t = 0 the integrals of torque^2 and current^2 and the time at
+  /// each limit. Over all steps, so that a peak or an RMS of any part of the run does not depend on trace.period.
   Trace ticks;
-  bool ticks_of_rows = false;  ///< `ticks` were made of the trace's rows: the folder knows nothing of all steps
-  /// At the rows of `ticks`, but under the new commands: loads of docks and feet, ways that feet slid, how the robot stands.
-  /// Without columns where nobody asked the simulation for it.
+  bool ticks_of_rows = false;  ///< `ticks` were computed from the trace's rows: the folder has no statistics of all steps
+  /// Rows as in `ticks`, but under the new commands: loads of docks and feet, slip distances of feet, stability margin. Without
+  /// columns if the simulation was not told to record them.
   Trace loads;
-  /// At the rows of `ticks`: pose of the base, angles and set points of the joints, centre of mass, and normal force of the
-  /// ground on the robot. Folders of older formats have no rows, or only pose and angles.
+  /// Rows as in `ticks`: pose of the base, angles and set points of the joints, centre of mass, and normal force of the ground
+  /// on the robot. Folders of older formats have no rows, or only pose and angles.
   Trace poses;
-  /// Of a motion that nobody can predict: numbers (report/verdict/spread.h) of this run, then of the same under a gravity that
-  /// differs by next to nothing, a row each. Without columns where it was not tried.
+  /// For a motion that is not predictable: numbers (report/verdict/spread.h) of this run, then of runs under a minimally
+  /// different gravity, a row each. Without columns if predictability was not tested.
   Trace spread;
-  std::vector<JointStatistics> joints;  ///< none: the robot has no joint, or the run is of a format that did not keep them
+  std::vector<JointStatistics> joints;  ///< empty: the robot has no joints, or the run has a format without them
   Ledger ledger;                        ///< at the end
   StepTally tally;                      ///< of the engine's steps
   double simulated = 0;                 ///< s
@@ -82,35 +82,36 @@ struct Recording {
   Outcome outcome;
 
   [[nodiscard]] std::size_t rows() const { return trace.rows(); }
-  /// A column of `trace` or `rest` by name; empty where neither has it.
+  /// A column of `trace` or `rest` by name; empty if neither has it.
   [[nodiscard]] Series series(const std::string& column) const;
   /// `joint.N.QUANTITY`: angle, setpoint, torque.
   [[nodiscard]] Series joint(std::size_t number, const char* quantity) const;
-  /// A column of `poses` by name; empty where a folder of an older format does not have it.
+  /// A column of `poses` by name; empty if a folder of an older format does not have it.
   [[nodiscard]] Series pose(const std::string& column) const;
   /// Centre of mass at the time of a row.
   [[nodiscard]] Vec3 com(std::size_t row) const;
-  /// Of the centre of mass, from the first row to the last.
+  /// Displacement of the centre of mass from the first row to the last.
   [[nodiscard]] Vec3 travel() const { return rows() == 0 ? Vec3(Vec3::Zero()) : Vec3(com(rows() - 1) - com(0)); }
-  /// Number of the joints that `ticks` are of.
+  /// Number of joints in `ticks`.
   [[nodiscard]] std::size_t ticked() const {
     return joints.empty() ? (ticks.columns.size() + kTickColumns - 2) / kTickColumns : joints.size();
   }
-  /// A joint's column of `ticks`; empty where it is not known, as in a folder of an older format.
+  /// A joint's column of `ticks`; empty if it is missing, as in a folder of an older format.
   [[nodiscard]] Series tick(std::size_t joint, TickColumn column) const;
-  /// Whether `state` finds what it needs: always but in a folder of an older format.
+  /// Whether the columns for `state` exist, as they do except in a folder of an older format.
   [[nodiscard]] bool has_states(const Robot& robot) const;
   /// Angles and pose at the time of a row; speeds 0.
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t row) const;
 };
 
-/// The columns of Recording::ticks for so many joints; those of Recording::poses, of which older folders have the first alone.
+/// Columns of Recording::ticks for `joints` joints, and of Recording::poses; older folders have only the first of the latter.
 std::vector<Column> tick_columns(std::size_t joints);
 std::vector<Column> pose_columns(std::size_t joints);
 constexpr std::size_t old_pose_columns(std::size_t joints) { return 8 + joints; }
-/// Makes one row of each two behind the first: the later one, with the larger of their peaks.
+/// Merges each two rows after the first: the later one, with the larger of their peaks.
 void halve_ticks(Trace& ticks);
-/// Makes one row of each two behind the first: the later one, with the larger of their loads of docks and the lesser stability.
+/// Merges each two rows after the first: the later one, with the larger of their loads of docks and the smaller stability
+/// margin.
 void halve_rows(Trace& table);
 
 }  // namespace gaitlab

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr const char* kHinges = "energy.hinges";
 constexpr const char* kEnded = "ended";
 
-/// A rollout beside the run, and the words of its definitions.
+/// A rollout beside the run, with the words for its definitions.
 struct PartingName {
   const char* key;
   Parting StepTally::*member;
@@ -35,7 +35,7 @@ constexpr std::array kPartings{PartingName{"twin", &StepTally::event, "a rollout
                                PartingName{"ill", &StepTally::ill, "1000 times the difference to that"}};
 constexpr std::string_view kParting = "parting.";
 
-/// Every number of a recording that is not one of a row or of a joint: visit(name, unit, definition, number).
+/// Visits every number of a recording that does not belong to a row or a joint: visit(name, unit, definition, number).
 template <class OfRecording, class Visit>
 void each_number(OfRecording& r, Visit visit) {
   visit("simulated", "s", "simulated time", r.simulated);
@@ -70,7 +70,7 @@ void each_number(OfRecording& r, Visit visit) {
         r.outcome.ended);
 }
 
-/// The same of joint `j`.
+/// The same for joint `j`.
 template <class OfRecording, class Visit>
 void each_number_of(OfRecording& r, std::size_t j, Visit visit) {
   for (const JointStatistic& one : kJointStatistics) visit(one.name, one.unit, one.definition, r.joints[j].*one.member);
@@ -101,26 +101,13 @@ InputError unfit(const fs::path& file, const std::string& what) {
   return {SourceLocation{file.string()}, "is corrupt: " + what};
 }
 
-/// What tables() made, back into the recording.
-void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r) {
-  const auto find = [&](const char* name) { return std::ranges::find(beside, name, &Beside::name); };
-  const auto take = [&](const char* name) -> Trace {
-    const auto found = find(name);
-    if (found == beside.end()) throw unfit(file, fmt::format("there is no table /recording/{}", name));
-    return std::move(found->table);
-  };
+/// Numbers of the joints and of the run.
+void take_numbers(const fs::path& file, const Trace& joints, const Trace& run, Recording& r) {
   const auto value = [&](const Trace& table, std::size_t row, const std::string& name) {
     const std::size_t column = table.find(name);
     if (column == table.columns.size() || row >= table.rows()) throw unfit(file, fmt::format("there is no number {}", name));
     return table.at(row, column);
   };
-  r.rest = take("rest");
-  r.ticks = take("ticks");
-  if (find("loads") != beside.end()) r.loads = take("loads");  // older folders do not have it
-  if (find("poses") != beside.end()) r.poses = take("poses");  // nor that
-  if (find("spread") != beside.end()) r.spread = take("spread");
-  const Trace joints = take("joints");
-  const Trace run = take("run");
   r.joints.resize(joints.rows());
   r.tally.torque_error.resize(joints.rows());
   r.tally.torque_peak.resize(joints.rows());
@@ -132,7 +119,7 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
     const bool added = name == kHinges || name == kEnded || name.starts_with(kParting);
     if (added && run.find(name) == run.columns.size()) return;  // older folders do not have it
     const double read = value(run, 0, name);
-    // Yes or no, a source, and counts, which a double holds to 2^53.
+    // Largest value: of a flag, a source, or a count, which a double holds exactly up to 2^53.
     constexpr double kMost = std::is_same_v<Number, bool>    ? 1
                              : std::is_same_v<Number, Ended> ? static_cast<double>(enum_names<Ended>().size() - 1)
                              : std::is_enum_v<Number>        ? 3
@@ -141,6 +128,24 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
       throw unfit(file, fmt::format("{} is {}", name, read));
     number = static_cast<Number>(read);
   });
+}
+
+/// Moves tables made by tables() back into the recording.
+void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r) {
+  const auto find = [&](const char* name) { return std::ranges::find(beside, name, &Beside::name); };
+  const auto take = [&](const char* name) -> Trace {
+    const auto found = find(name);
+    if (found == beside.end()) throw unfit(file, fmt::format("there is no table /recording/{}", name));
+    return std::move(found->table);
+  };
+  r.rest = take("rest");
+  r.ticks = take("ticks");
+  if (find("loads") != beside.end()) r.loads = take("loads");  // older folders do not have it
+  if (find("poses") != beside.end()) r.poses = take("poses");  // likewise
+  if (find("spread") != beside.end()) r.spread = take("spread");
+  const Trace joints = take("joints");
+  const Trace run = take("run");
+  take_numbers(file, joints, run, r);
   for (const PartingName& one : kPartings) {
     const std::size_t joint = (r.tally.*one.member).joint;
     if (joint > 0 && joint >= r.joints.size()) throw unfit(file, fmt::format("{}{}.joint is {}", kParting, one.key, joint));
@@ -157,13 +162,13 @@ namespace {
 
 constexpr std::size_t kKept = std::size_t{1} << 24;  // bytes
 
-/// What trace.csv does not hold.
+/// Writes recording.h5, with the data that trace.csv lacks.
 void write_beside(const Recording& r, Provenance origin, const fs::path& folder) {
   origin.csv_hash = hash(r.trace);
   write_h5({}, origin, folder / kBesideCsv, tables(r));
 }
 
-/// Writes what may need more memory than there is; what to say where it does.
+/// Runs a write that may run out of memory, with the message for that case.
 template <class Write>
 std::optional<std::string> short_of_memory(const fs::path& file, const Write& write) {
   try {
@@ -187,7 +192,7 @@ void write_recording(const Recording& r, const Provenance& origin, const std::st
   const fs::path file = folder / "trace.h5";
   const auto why = short_of_memory(file, [&] {
     std::string
-        kept;  // HDF5 does not give back what a file took that it could not finish: this is for the text and what follows
+        kept;  // HDF5 does not free the memory of an unfinished file: this reserve is for the text and the following code
     kept.reserve(kKept);
     write_h5(r.trace, origin, file, tables(r));
   });
@@ -196,6 +201,30 @@ void write_recording(const Recording& r, const Provenance& origin, const std::st
   const bool beside = !short_of_memory(folder / kBesideCsv, [&] { write_beside(r, origin, folder); });
   throw RunError(*why + (beside ? "" : fmt::format("; nor can {}", kBesideCsv)) + "; the rows are in trace.csv beside it");
 }
+
+namespace {
+
+/// A recording of the rows alone, and the names of what it lacks.
+void take_rows_alone(const fs::path& file, StoredRecording& read) {
+  const Trace& trace = read.recording.trace;
+  if (trace.rows() > 0) read.recording.simulated = trace.at(trace.rows() - 1, 0);
+  if (!std::isfinite(read.recording.simulated) || read.recording.simulated < 0) {
+    throw unfit(file, fmt::format("its last row is at t = {}", read.recording.simulated));
+  }
+  read.missing.push_back(
+      fmt::format("{} holds rows only: peaks, shares of time, energies and the torque error, which are of all "
+                  "steps, are not known",
+                  file.string()));
+  std::vector<std::string> absent;
+  for (const std::string& pattern : report_columns()) {
+    if (pattern.starts_with("box.")) continue;  // only moving boxes have columns
+    const auto covers = [&](const Column& column) { return glob(pattern, column.name); };
+    if (std::ranges::none_of(trace.columns, covers)) absent.push_back(pattern);
+  }
+  if (!absent.empty()) read.missing.push_back(fmt::format("the trace has no column {}", fmt::join(absent, ", ")));
+}
+
+}  // namespace
 
 StoredRecording read_recording(const fs::path& folder) {
   const fs::path file = trace_file(folder);
@@ -226,22 +255,7 @@ StoredRecording read_recording(const fs::path& folder) {
                                                    name_of(read.recording.outcome.ended)));
     return read;
   }
-  const Trace& trace = read.recording.trace;
-  if (trace.rows() > 0) read.recording.simulated = trace.at(trace.rows() - 1, 0);
-  if (!std::isfinite(read.recording.simulated) || read.recording.simulated < 0) {
-    throw unfit(file, fmt::format("its last row is at t = {}", read.recording.simulated));
-  }
-  read.missing.push_back(
-      fmt::format("{} holds rows only: peaks, shares of time, energies and the torque error, which are of all "
-                  "steps, are not known",
-                  file.string()));
-  std::vector<std::string> absent;
-  for (const std::string& pattern : report_columns()) {
-    if (pattern.starts_with("box.")) continue;  // only boxes that move have columns
-    const auto covers = [&](const Column& column) { return glob(pattern, column.name); };
-    if (std::ranges::none_of(trace.columns, covers)) absent.push_back(pattern);
-  }
-  if (!absent.empty()) read.missing.push_back(fmt::format("the trace has no column {}", fmt::join(absent, ", ")));
+  take_rows_alone(file, read);
   return read;
 }
 

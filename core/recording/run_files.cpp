@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of a byte counted from 1, as nlohmann's parser does.
+// Place of a byte counted from 1, as nlohmann's parser does.
 SourceLocation place_of(const fs::path& file, std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, std::min(byte == 0 ? 0 : byte - 1, text.size()));
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0

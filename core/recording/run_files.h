@@ -7,14 +7,14 @@
 
 namespace gaitlab {
 
-/// The trace of a run: `run` itself where it is a file (.h5 or .csv), else trace.h5 or trace.csv in that folder, in this order.
-/// InputError: there is none; a file of another kind.
+/// Path of a run's trace: `run` itself if it is a file (.h5 or .csv), else trace.h5 or trace.csv in that folder, in this order.
+/// Throws InputError if there is none, or it is a file of another kind.
 std::filesystem::path trace_file(const std::filesystem::path& run);
 
-/// That file, read. InputError: see trace_file, read_h5, read_csv.
+/// Trace of that file. InputError: see trace_file, read_h5, read_csv.
 Trace read_trace(const std::filesystem::path& run);
 
-/// summary.json of a run folder, an object. InputError: missing; not JSON (at FILE:LINE:COL); no object.
+/// Object in summary.json of a run folder. Throws InputError if it is missing, not JSON (at FILE:LINE:COL), or not an object.
 nlohmann::json read_summary(const std::filesystem::path& folder);
 
 }  // namespace gaitlab

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-// 0 or errno, with the rights of the effective user.
+// Returns 0 or errno, with the rights of the effective user.
 int cannot_write(const fs::path& folder) {
   return ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0 ? 0 : errno;
 }
@@ -33,7 +33,7 @@ RunFolder::RunFolder(const std::optional<fs::path>& out, const std::string& name
       number(name);
     }
   } catch (...) {
-    remove_made();  // a constructor that throws has no destructor
+    remove_made();  // the destructor does not run after an exception of the constructor
     throw;
   }
 }
@@ -41,12 +41,12 @@ RunFolder::RunFolder(const std::optional<fs::path>& out, const std::string& name
 RunFolder::~RunFolder() { remove_made(); }
 
 void RunFolder::remove_made() {
-  // rmdir refuses a folder that is not empty, which is the promise: files written so far stay.
+  // rmdir refuses a folder that is not empty, so that files written so far are kept.
   while (!made_.empty() && ::rmdir(made_.back().c_str()) == 0) made_.pop_back();
   made_.clear();
 }
 
-// 0 or errno.
+// Returns 0 or errno.
 int RunFolder::make(const fs::path& folder) {
   if (::mkdir(folder.c_str(), 0777) != 0) return errno;
   made_.push_back(folder);
@@ -58,12 +58,12 @@ int RunFolder::make_parents(const fs::path& folder) {
   for (const fs::path& part : folder.parent_path()) {
     grown /= part;
     const int error = make(grown);
-    // Some file systems answer EROFS or EACCES for a folder that exists: only what is missing matters.
+    // Some file systems answer EROFS or EACCES for a folder that exists: only missing folders matter.
     std::error_code ignored;
     const fs::file_status status = fs::status(grown, ignored);
     if (error == 0 || fs::is_directory(status)) continue;
     if (error != EEXIST) return error;
-    return fs::exists(status) ? ENOTDIR : ENOENT;  // ENOENT: removed since, or a link to nowhere
+    return fs::exists(status) ? ENOTDIR : ENOENT;  // ENOENT: removed since, or a link to a missing folder
   }
   return 0;
 }
@@ -71,7 +71,7 @@ int RunFolder::make_parents(const fs::path& folder) {
 void RunFolder::use(const fs::path& out) {
   const auto refuse = [&](const std::string& text) { return InputError(SourceLocation{"--out " + out.string()}, text); };
   if (out.empty()) throw refuse("is not a folder");
-  path_ = out.has_filename() ? out : out.parent_path();  // `DIR/` is DIR
+  path_ = out.has_filename() ? out : out.parent_path();  // `DIR/` means DIR
   int error = make_parents(path_);
   if (error == 0) error = make(path_);
   std::error_code code;
@@ -79,7 +79,7 @@ void RunFolder::use(const fs::path& out) {
   if (!fs::exists(status) && error != EEXIST) throw refuse("cannot be made: " + reason(error));
   if (!fs::is_directory(status)) throw refuse("exists and is not a folder");
   if (!lock_.take(path_)) {
-    if (error == 0) made_.pop_back();  // it is the other one's now
+    if (error == 0) made_.pop_back();  // it belongs to the other process now
     throw refuse("is being written by another process");
   }
   const bool empty = fs::is_empty(path_, code);
@@ -99,7 +99,7 @@ void RunFolder::number(const std::string& name) {
     if (error == 0) error = make(path_);
     if (error == 0 && lock_.take(path_)) return;
     if (error == 0) {
-      made_.pop_back();  // another process has taken it as its --out
+      made_.pop_back();  // another process uses it as its --out
       error = EEXIST;
     }
     if (error == EEXIST) {

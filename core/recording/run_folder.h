@@ -1,4 +1,4 @@
-// The folder of one run: made for it, and gone again if nothing came of it.
+// The folder of one run: created for it, and removed again if it stays empty.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -9,22 +9,22 @@
 
 namespace gaitlab {
 
-/// Owns the folder from its making to keep(), and holds its lock for as long as it lives: of two processes that take the same
-/// folder the second one is refused. Destroyed before keep(), it removes the folders it made itself as far as they are
-/// empty: nothing written is lost, nothing it did not make is touched.
+/// Owns the folder from its creation to keep(), and holds its lock during its lifetime: of two processes with the same folder
+/// the second one is refused. Destroyed before keep(), it removes the folders that it created, if they are empty; files, and
+/// folders that existed before, are left.
 class RunFolder {
  public:
   /// Without `out`: `runs/NAME` in the working folder, or the first of NAME-2, NAME-3 ... that does not exist (mkdir decides:
-  /// two processes at once get different ones). With `out`: that folder, which must be empty or not exist; parents are made.
-  /// InputError: `--out DIR: error: exists and is not empty`, `... is not a folder`, `... cannot be made: REASON`,
-  /// `... cannot be written: REASON`, `... is being written by another process`; a name that cannot be a folder's.
+  /// two processes at once get different ones). With `out`: that folder, which must be empty or not exist; parents are created.
+  /// Throws InputError: `--out DIR: error: exists and is not empty`, `... is not a folder`, `... cannot be made: REASON`, `...
+  /// cannot be written: REASON`, `... is being written by another process`; a name that cannot be a folder's.
   RunFolder(const std::optional<std::filesystem::path>& out, const std::string& name);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// From now on the folder stays.
+  /// Marks the folder as permanent.
   void keep() { made_.clear(); }
 
  private:

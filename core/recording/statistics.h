@@ -1,4 +1,4 @@
-// What is known of a run beside its rows: sums and peaks over ALL steps, which rows are too sparse for.
+// Statistics of a run: sums and peaks over ALL steps; the trace has fewer rows.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -6,11 +6,11 @@
 
 namespace gaitlab {
 
-/// By how much a value must exceed a peak to be a later one: motors at one limit all have its torque, but for rounding, and the
+/// Factor by which a value must exceed a peak to replace it: all motors at one limit have its torque, up to rounding, and the
 /// first of these is the peak.
 inline constexpr double kLarger = 1 + 1e-9;
 
-/// Of one joint, over the steps so far. SI.
+/// Statistics of one joint over the steps so far. SI.
 struct JointStatistics {
   double torque_peak = 0, torque_rms = 0;                  ///< N m, motor torque
   double torque_peak_time = 0;                             ///< s: start of the step in which torque_peak was reached
@@ -21,10 +21,10 @@ struct JointStatistics {
   double start_jump = 0;                                   ///< rad: set point - angle at t = 0
   double saturated_voltage = 0, saturated_current = 0;     ///< share of time
   double range_share = 0, range_worst = 0;                 ///< share of time outside [lo, hi]; worst excess, rad
-  double setpoint_outside = 0;                             ///< share of time the set point is outside [lo, hi]
+  double setpoint_outside = 0;                             ///< share of time with the set point outside [lo, hi]
   double electrical = 0, copper = 0, gear = 0, shaft = 0;  ///< J: drawn, lost, lost, given to the joint
-  double shaft_positive = 0;                               ///< J: shaft power where it is positive
-  double created = 0;                                      ///< J: what the gear gave instead of losing (eq. 2, back-driven)
+  double shaft_positive = 0;                               ///< J: positive part of the shaft power
+  double created = 0;  ///< J: energy that the gear gave instead of losing (eq. 2, back-driven)
 };
 
 /// A member of JointStatistics as a column of a table.
@@ -33,7 +33,7 @@ struct JointStatistic {
   const char *name, *unit, *definition;
 };
 
-/// All of them.
+/// All members of JointStatistics.
 inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(double)> kJointStatistics{{
     {&JointStatistics::torque_peak, "torque_peak", "N m", "largest magnitude of the motor torque"},
     {&JointStatistics::torque_peak_time, "torque_peak_time", "s", "start of the step in which torque_peak was reached"},
@@ -58,30 +58,30 @@ inline constexpr std::array<JointStatistic, sizeof(JointStatistics) / sizeof(dou
     {&JointStatistics::created, "created", "J", "what the gear gave instead of losing"},
 }};
 
-/// How far a rollout beside a run went from it (core/simulation/step_error.h).
+/// Difference between a run and a rollout beside it (core/simulation/step_error.h).
 struct Parting {
-  double time = -1;       ///< s: when a torque differed by more than the accuracy first; below 0: never
-  std::size_t joint = 0;  ///< whose
-  double share = 0;       ///< RMS of the difference of a joint's torque over its peak, of the worst joint
+  double time = -1;       ///< s: when a torque first differed by more than the accuracy, times its peak; below 0: never
+  std::size_t joint = 0;  ///< its joint
+  double share = 0;       ///< RMS of the difference of a joint's torque over its peak, for the worst joint
 };
 
 /// Numbers of a rollout's steps since the start.
 struct StepTally {
-  double solves = 0;                 ///< of the equations of motion; 0: not counted
+  double solves = 0;                 ///< solutions of the equations of motion; 0: not counted
   double off = 0;                    ///< joint-steps that ended off the law of their motor or stop
-  double coarse = 0;                 ///< s in which the shortest steps that an integrator takes did not reach the accuracy
-  bool estimated = false;            ///< whether there is an estimate of the torque error yet (core/simulation/step_error.h)
-  Parting event;                     ///< of the rollout with other steps that is the farther; share: of the estimated error
+  double coarse = 0;                 ///< s in which an integrator's shortest steps did not reach the accuracy
+  bool estimated = false;            ///< whether a torque error has been estimated so far (core/simulation/step_error.h)
+  Parting event;                     ///< of the rollout with other steps that differs more; share: of the estimated error
   Parting chaotic, ill;              ///< of the rollout under gravity times 1 + 1e-9, and of 1000 times that difference
   std::vector<double> torque_error;  ///< of each joint, RMS, N m
-  std::vector<double> torque_peak;   ///< of each joint, largest torque where that error is asked for, N m
+  std::vector<double> torque_peak;   ///< of each joint, largest torque at the moments of the estimate, N m
 };
 
-/// Largest rate lambda of M^-1 (B + sum J^T G J), 1/s, and what it comes from. A step h is stable for h lambda <= 1 (explicit).
+/// Largest rate lambda of M^-1 (B + sum J^T G J), 1/s, and its origin. A step h is stable for h lambda <= 1 (explicit).
 struct Stability {
   double rate = 0;
   enum class Source { motor, stop, contact, hinge } source = Source::motor;
-  std::size_t index = 0;  ///< joint, or contact element; hinge: what a passive one has
+  std::size_t index = 0;  ///< joint, or contact element; hinge: of a passive hinge
 };
 
 }  // namespace gaitlab

@@ -13,8 +13,8 @@ using Index = std::ptrdiff_t;
 
 constexpr double kShare = 0.05;      // of the duration
 constexpr double kReach = 0.5;       // s
-constexpr double kWorthwhile = 0.5;  // of the RMS must remain at most, or it is another shape and not late
-constexpr double kAsGood = 0.01;     // of the mean square to be explained: shifts closer than this are equally good
+constexpr double kWorthwhile = 0.5;  // largest remaining share of the RMS; above, the signals differ in shape, not in time
+constexpr double kAsGood = 0.01;     // share of the mean square to be explained: shifts that differ by less are equally good
 constexpr std::size_t kProducts = 1000000;
 constexpr Index kMargin = 2;  // samples that the cubic needs beyond the whole shift
 
@@ -23,7 +23,7 @@ class Search {
   Search(std::span<const double> first, std::span<const double> second, Index reach)
       : a_(first), b_(second), reach_(reach), begin_(reach + kMargin), end_(static_cast<Index>(first.size()) - begin_) {}
 
-  // In samples.
+  // The best shift, in samples.
   TimeShift best() const {
     const double unshifted = square(0, 1);
     Index lag = refined(coarse(unshifted));
@@ -37,13 +37,13 @@ class Search {
         remaining = there;
       }
     }
-    if (std::abs(lag) >= reach_) return {};  // still falling at the edge of the window: no shift, a trend
+    if (std::abs(lag) >= reach_) return {};  // minimum at the edge of the window: a trend, not a shift
     if (remaining > kWorthwhile * kWorthwhile * unshifted) return {};
     return {shift, std::sqrt(remaining)};
   }
 
  private:
-  // Mean of (b[k + lag] - a[k])^2 over every `stride`-th sample; four sums, because one would wait for itself.
+  // Mean of (b[k + lag] - a[k])^2 over every `stride`-th sample; four independent sums for speed.
   [[nodiscard]] double square(Index lag, Index stride) const {
     double sums[4] = {};
     Index k = begin_;
@@ -76,7 +76,7 @@ class Search {
     return sum / static_cast<double>(end_ - begin_);
   }
 
-  // Where the parabola through three neighbours has its vertex, relative to the middle one; 0 if it opens downwards.
+  // Vertex of the parabola through three neighbours, relative to the middle one; 0 if it opens downwards.
   static double vertex(double before, double here, double after) {
     const double bend = before - 2 * here + after;
     return bend > 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0;
@@ -85,7 +85,7 @@ class Search {
     return std::max(0.0, here - 0.25 * (before - after) * vertex(before, here, after));
   }
 
-  // The smallest of the whole shifts that are as good as any, from as many rows as can be afforded.
+  // The smallest whole shift that is as good as any, from an affordable number of rows.
   [[nodiscard]] Index coarse(double unshifted) const {
     const auto products = static_cast<std::size_t>(2 * reach_ + 1) * static_cast<std::size_t>(end_ - begin_);
     const auto stride = static_cast<Index>(products / kProducts + 1);
@@ -107,7 +107,7 @@ class Search {
     return found;
   }
 
-  // Down to the valley over all rows.
+  // Descends to the nearest minimum over all rows.
   [[nodiscard]] Index refined(Index lag) const {
     for (const Index step : {-1, 1}) {
       while (std::abs(lag + step) <= reach_ && square(lag + step, 1) < square(lag, 1)) lag += step;
@@ -131,7 +131,7 @@ TimeShift best_shift(std::span<const double> first, std::span<const double> seco
   const TimeShift none{0, plain_rms(first, second)};
   const double samples = std::min(kShare * static_cast<double>(first.size()), kReach / spacing);
   const auto reach = static_cast<Index>(samples);
-  if (reach < 1 || !(none.rms > 0)) return none;  // from 20 samples on the window is never empty: 0.9 n - 4
+  if (reach < 1 || !(none.rms > 0)) return none;  // the window is not empty from 20 samples on: 0.9 n - 4
   const TimeShift found = Search(first, second, reach).best();
   return found.time == 0 ? none : TimeShift{found.time * spacing, found.rms};
 }

@@ -4,19 +4,14 @@
 
 namespace gaitlab {
 
-std::size_t Trace::find(const std::string& name) const {
-  std::size_t index = 0;
-  while (index < columns.size() && columns[index].name != name) ++index;
-  return index;
-}
-
 namespace {
 
-constexpr std::string_view kWords = "2-";  // format 2; one of format 1 is 16 digits alone
+constexpr std::string_view kWords = "2-";  // prefix of format 2; a hash of format 1 is 16 digits alone
 
 std::string joined_names(const Trace& trace) {
   std::string names;
-  for (const Column& column : trace.columns) names += column.name + '\0';  // so that {"ab", "c"} and {"a", "bc"} differ
+  for (const Column& column : trace.columns)
+    names += column.name + '\0';  // separator, so that {"ab", "c"} and {"a", "bc"} differ
   return names;
 }
 

@@ -7,18 +7,13 @@
 #include <vector>
 
 #include "core/files/hash.h"
+#include "core/recording/column_list.h"
 
 namespace gaitlab {
 
-struct Column {
-  std::string name;        ///< `joint.m3/passive.torque` is written with the joint's number: `joint.7.torque`
-  std::string unit;        ///< "N m", "rad", "" ...
-  std::string definition;  ///< one sentence: what, which sign, which axes
-};
-
 /// Row-major table; the first column is `t`.
 struct Trace {
-  std::vector<Column> columns;
+  ColumnList columns;
   std::vector<double> values;  ///< rows() * columns.size()
 
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
@@ -27,15 +22,14 @@ struct Trace {
     return {values.data() + index * columns.size(), columns.size()};
   }
   /// Index of the column, or columns.size().
-  [[nodiscard]] std::size_t find(const std::string& name) const;
+  [[nodiscard]] std::size_t find(std::string_view name) const { return columns.find(name); }
 };
 
-/// Of the names and the bytes of all values: the same trace, the same hash. `2-`, the number of its format, and 16 hex digits
-/// of WordHash: of all names, each with a NUL behind it, then of the values.
+/// Hash of the names and the bytes of all values: `2-`, the number of its format, and 16 hex digits of WordHash: of all names,
+/// each followed by a NUL, then of the values.
 std::string hash(const Trace& trace);
 
-/// Whether `text` is the hash of this trace, of format 2 or of format 1: FNV-1a over the same bytes, without a number before
-/// it.
+/// Whether `text` is the hash of this trace, in format 2 or format 1: FNV-1a over the same bytes, without a prefix.
 bool is_hash(std::string_view text, const Trace& trace);
 
 }  // namespace gaitlab

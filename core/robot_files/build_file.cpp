@@ -55,7 +55,7 @@ std::optional<Dock> read_row(const std::vector<Node>& items, const SourceLocatio
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// The words of a line up to a comment, each with its place.
+/// Words of a line up to a comment, each with its place.
 std::vector<Node> words(const std::string& text, SourceLocation place) {
   std::vector<Node> out;
   bool inside = false;

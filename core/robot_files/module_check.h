@@ -1,4 +1,4 @@
-// Whether the parts of a module type make one body of hinges, with a physical inertia and faces that can dock.
+// Check of a module type: one tree of bodies and hinges, physical inertias, faces that can dock.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace gaitlab {
 
-/// Where the parts of a module type stand in its text, in the type's order.
+/// Places of a module type's parts in its text, in the type's order.
 struct ModulePlaces {
-  std::vector<SourceLocation> bodies;  ///< of their names
+  std::vector<SourceLocation> bodies;  ///< places of their names
   std::vector<Node> hinges, faces;     ///< their maps
   std::int64_t format = 1;             ///< of the text
 };

@@ -1,4 +1,4 @@
-// From a module type's YAML to a ModuleType: keys and their types. Whether it makes sense is checked in module_check.cpp.
+// Reader of a module type's YAML: keys and their types. module_check.cpp checks the values.
 #include "core/robot_files/module_file.h"
 
 #include <fmt/format.h>
@@ -70,7 +70,7 @@ class ModuleReader {
     each(reader.take("hinges"), "hinges", [this](const Node& node) { read_hinge(node); });
     each(reader.take("faces"), "faces", [this](const Node& node) { read_face(node); });
     if (const Node* node = reader.take("contacts")) read_contacts(*node);
-    reader.take("actuator");  // its keys are known once its type's plugin is
+    reader.take("actuator");  // its keys are read once the plugin of its type is known
     if (newer(reader, document_, {"connectors", "controller"})) read_connectors(reader.take("connectors"));
     reader.finish();
     return std::move(type_);
@@ -79,15 +79,15 @@ class ModuleReader {
   [[nodiscard]] const ModulePlaces& places() const { return places_; }
 
  private:
-  /// Every map of a module type may say where its values come from.
+  /// Opens a map of a module type, which may have a `source`.
   Reader open(const Node& node, const std::string& name) {
     Reader reader(node, name, problems_, nullptr);
     std::string source;
-    reader.text("source", source, "Where the values come from.");
+    reader.text("source", source, "Origin of the values.");
     return reader;
   }
 
-  /// Whether the keys of format 2 may be read; in a text of format 1 every one of them is a problem.
+  /// Whether the keys of format 2 may be read; in a text of format 1 each of them is a problem.
   bool newer(Reader& reader, const Node& map, std::initializer_list<const char*> keys) {
     for (const char* key : keys) {
       const Node* value = reader.take(key);
@@ -117,7 +117,7 @@ class ModuleReader {
       reader.number("shear", limits.shear, {"N", kPositive, kAny, "Largest force in the plane of the face."});
       reader.number("bending", limits.bending, {"N m", kPositive, kAny, "Largest moment about axes in that plane."});
       reader.number("torsion", limits.torsion, {"N m", kPositive, kAny, "Largest moment about the normal."});
-      reader.text("source", limits.source, "Where the values come from.");
+      reader.text("source", limits.source, "Origin of the values.");
       reader.finish();
       type_.connectors[name] = limits;
     }
@@ -193,7 +193,7 @@ class ModuleReader {
     reader.finish();
   }
 
-  /// Index of the body that `key` names; a problem where there is none.
+  /// Index of the body that `key` names; adds a problem for an unknown body.
   std::size_t body_of(Reader& reader, const char* key) {
     reader.require({key});
     std::string name;
@@ -249,12 +249,13 @@ class ModuleReader {
     hinge.hi = range[1];
   }
 
-  /// A motor, or what a hinge has without one. The keys of `actuator` and `controller` are known once their types' plugins are.
+  /// Reads a motor, or the spring and damper of a hinge without one. The keys of `actuator` and `controller` are read once the
+  /// plugins of their types are known.
   void read_drive(Reader& reader, HingeType& hinge) {
     enum class Drive { motor, none };
     constexpr std::array<const char*, 2> kDrives{"motor", "none"};
     Drive drive = Drive::motor;
-    reader.choice("drive", drive, kDrives, "Whether a motor drives the hinge.");
+    reader.choice("drive", drive, kDrives, "motor, or none for a passive hinge.");
     for (const char* key : {"actuator", "controller"}) {
       const Node* own = reader.take(key);
       if (own == nullptr) continue;
@@ -266,7 +267,7 @@ class ModuleReader {
     }
     Passive passive;
     reader.number("stiffness", passive.stiffness, {"N m/rad", 0, 1e6, "Of a spring."});
-    reader.number("rest", passive.rest, {"rad", -1000, 1000, "Angle at which the spring is at rest."});
+    reader.number("rest", passive.rest, {"rad", -1000, 1000, "Angle at which the spring has no torque."});
     reader.number("damping", passive.damping, {"N m s/rad", 0, 1e6, "Of a viscous damper."});
     reader.number("friction", passive.friction, {"N m", 0, 1e6, "Dry friction."});
     reader.number("friction_speed", passive.friction_speed, {"rad/s", 1e-6, 1e3, "Speed below which dry friction is viscous."});
@@ -361,7 +362,7 @@ ModuleType read_module(const Node& document, bool versioned, Problems& problems)
   const std::size_t before = problems.size();
   ModuleReader reader(document, problems);
   ModuleType type = reader.read(versioned);
-  // Whether the parts fit together is a question only for parts that are there.
+  // Parts are checked against one another only if all of them were read.
   if (problems.size() == before) check_module(type, reader.places(), problems);
   return type;
 }

@@ -1,4 +1,4 @@
-// Module types, from a file of their own or a map in the scenario.
+// Module types, from a separate file or a map in the scenario.
 #pragma once
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace gaitlab {
 
-/// Reads and checks a module type; findings go to `problems`, and then the type is not to be used. `versioned`: the map stands
-/// in a file of its own, which must say `gaitlab_module: 1` or 2 (docs/modules.md); one in the scenario that does not is of
+/// Reads and checks a module type; findings go to `problems`, and then the type must not be used. `versioned`: the map is a
+/// separate file, which must begin with `gaitlab_module: 1` or 2 (docs/modules.md); a map in the scenario without that key has
 /// format 1.
 ModuleType read_module(const Node& document, bool versioned, Problems& problems);
 

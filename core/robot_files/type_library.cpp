@@ -19,7 +19,7 @@ bool is_path(const std::string& text) {
   return text.find('/') != std::string::npos || text.ends_with(".yaml") || text.ends_with(".yml");
 }
 
-/// Names of the module type files in a folder.
+/// Adds the names of the module type files in a folder.
 void add_names(const std::string& folder, std::vector<std::string>& names) {
   std::error_code failure;
   for (const auto& file : fs::directory_iterator(folder, failure)) {

@@ -1,4 +1,4 @@
-// Module types by what a scenario calls them: a name, a file or an inline map; each read once.
+// Library of the module types of a scenario, by name, file or inline map; each is read once.
 #pragma once
 #include <map>
 #include <optional>
@@ -12,17 +12,17 @@ namespace gaitlab {
 
 class TypeLibrary {
  public:
-  /// `folder`: the scenario file's, where names and relative paths are looked for.
+  /// `folder`: folder of the scenario file, in which names and relative paths are searched.
   TypeLibrary(std::string folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
 
-  /// `robot.types`, a map of names to inline types.
+  /// Reads `robot.types`, a map of names to inline types.
   void define(const Node& types);
 
-  /// Index of the type that a node means, in the order of first use; nothing with a problem (reported once a type).
-  /// The nodes given must outlive the library.
+  /// Index of the type that a node refers to, in the order of first use; nothing with a problem (reported once per type). The
+  /// given nodes must outlive the library.
   std::optional<std::size_t> find(const Node& node);
 
-  /// A map is a type of its own, rather than types by module number.
+  /// Whether a map is an inline type, not a map of types by module number.
   static bool is_inline(const Node& map);
 
   std::vector<ModuleType> types;

@@ -23,7 +23,7 @@ std::string type_of(const Node* map, Kind kind) {
   return type == nullptr ? describe(kind).default_type : type->text;
 }
 
-/// The keys of a map but for those that are no figures.
+/// Keys of a map that are numbers of the motor.
 std::vector<std::string> figures_of(const Node* map) {
   std::vector<std::string> keys;
   if (map == nullptr) return keys;
@@ -48,7 +48,7 @@ bool alike(const Node* a, const Node* b) {
   return print_yaml(*a) == print_yaml(*b);
 }
 
-/// Every field of some settings: its value per joint, or what it says as a text.
+/// Every field of some settings: its value per joint, or its text.
 class Seen final : public Fields {
  public:
   struct Value {
@@ -70,7 +70,7 @@ class Seen final : public Fields {
   std::map<std::string, Value> values;
 };
 
-/// The default figures among the fields of a plugin.
+/// Collects the default numbers of a plugin's fields.
 class Figures final : public Fields {
  public:
   void visit(const Field& field) override {
@@ -85,7 +85,7 @@ class Figures final : public Fields {
   std::vector<DefaultFigure> found;
 };
 
-/// Gives each joint its own of several settings; what is one for all joints must be the same in all of them.
+/// Combines several settings, each for some joints; a field that is common to all joints must be equal in all of them.
 class PerJointMerge final : public Fields {
  public:
   PerJointMerge(const std::vector<Seen>& kinds, const std::vector<std::size_t>& of_joint)
@@ -174,7 +174,7 @@ void TypePresets::choose_each(const Robot& robot, const std::vector<Node>& docum
     const auto number = static_cast<std::size_t>(std::ranges::find(hinges, name, &HingeType::name) - hinges.begin());
     const Maps of{map_of(documents[type], kind_), map_of(documents[type].find("hinges")->items[number], kind_)};
     if (joint.driven()) maps.push_back(of.of_type);
-    // What a hinge without a motor would have is never used: that of any other.
+    // The settings of a hinge without a motor are never used: it gets those of any other.
     const auto known = joint.driven() ? std::ranges::find(kinds_, of) : kinds_.begin();
     of_joint_.push_back(static_cast<std::size_t>(known - kinds_.begin()));
     if (joint.driven() && known == kinds_.end()) kinds_.push_back(of);
@@ -206,7 +206,7 @@ std::vector<std::string> TypePresets::sources(const Entry& entry, const std::vec
   const std::vector<DefaultFigure> defaults = default_figures(entry);
   for (const Maps& maps : kinds_) {
     std::vector<std::string> known = but;
-    const auto takes = [&](const Node* map) {  // whether it has figures that are not known yet
+    const auto takes = [&](const Node* map) {  // whether it has numbers not yet in the list
       const std::size_t before = known.size();
       for (const std::string& key : figures_of(map)) {
         if (std::ranges::find(known, key) == known.end()) known.push_back(key);
@@ -250,7 +250,7 @@ void TypePresets::fill(const Entry& entry, void* settings, JointNames joints, Pr
   std::vector<const Node*> told{kinds_.front().of_type};
   std::vector<Seen> seen;
   for (const Maps& maps : kinds_) {
-    Problems known;  // those of a map that was read before
+    Problems known;  // problems of a map that was read before
     const bool fresh = std::ranges::find(told, maps.of_type) == told.end();
     const std::shared_ptr<void> own = default_settings(entry);
     read(entry, maps, own.get(), joints, fresh ? problems : known, &maps == &kinds_.front() ? known : problems);

@@ -4,18 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <limits>
+#include <utility>
+#include <variant>
 
+#include "core/scenario/height_file.h"
 #include "core/settings/grid.h"
-#include "core/settings/text_file.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
 namespace {
-
-constexpr Spec kHeights{"m", -1e6, 1e6, "Heights, a row for each y, upwards; instead of `file`."};
-constexpr std::size_t kMostValues = 40000;  // a resolved scenario holds them in full, and is at most 1 MB
 
 struct BoxFields {
   Box box;
@@ -33,30 +30,78 @@ struct HeightfieldFields {
   Heightfield& field;
   bool writing;
   void fields(Fields& f) {
-    std::string file;  // read by finish_ground
-    if (!writing) f.text("file", file, "Text file with the heights: a row per line, numbers separated by commas or blanks.");
-    Rows rows;
-    for (std::size_t i = 0; i < field.rows(); ++i) {
-      const auto first = field.values.begin() + static_cast<std::ptrdiff_t>(i * field.columns);
-      rows.emplace_back(first, first + static_cast<std::ptrdiff_t>(field.columns));
+    const bool from_file = !field.source.file.empty();
+    if (!writing || from_file) {  // finish_ground reads it
+      f.text(
+          "file", field.source.file,
+          "File with the heights: text, a row per line, numbers separated by commas or blanks; a matrix of numpy.save "
+          "(.npy: float32, float64 or integers, in C order); a PNG of 16 bit grey values. Up to 4096 x 4096; text, 1 MB. The "
+          "first row is that of the least y.");
+      f.number("scale", field.source.scale,
+               {"m", 1e-12, 1e6, "Metres per unit of the numbers in `file`; a PNG needs it. Default: 1."});
+      f.text("hash", field.source.hash,
+             "Hash of `file`; another file is refused. A run writes it down where it has more than 40000 heights.");
     }
-    f.rows("values", rows, kHeights);
-    f.vector("origin", span_of(field.origin), {"m", -1e6, 1e6, "Where the first height of the first row is, world."});
+    if (!writing || !from_file) {
+      Rows rows;
+      for (std::size_t i = 0; i < field.rows(); ++i) {
+        const auto first = field.values.begin() + static_cast<std::ptrdiff_t>(i * field.columns);
+        rows.emplace_back(first, first + static_cast<std::ptrdiff_t>(field.columns));
+      }
+      f.rows("values", rows, kHeights);
+      if (!writing) set(rows);
+    }
+    f.vector("origin", span_of(field.origin), {"m", -1e6, 1e6, "Position of the first height of the first row, world."});
     f.number("spacing", field.spacing, {"m", 1e-6, 1e6, "Distance between neighbouring heights, in x and in y."});
-    set(rows);
   }
   void set(const Rows& rows) const {
-    field.values.clear();
-    for (const std::vector<double>& row : rows) field.values.insert(field.values.end(), row.begin(), row.end());
+    std::vector<double> heights;
+    for (const std::vector<double>& row : rows) heights.insert(heights.end(), row.begin(), row.end());
+    field.values = std::move(heights);
     field.columns = rows.empty() ? 0 : rows[0].size();
   }
 };
 
-void finish_boxes(const Node& section, Scenario& scenario, Problems& problems) {
-  const Node* list = section.find("boxes");
-  std::vector<Box>& boxes = scenario.ground.boxes;
+/// The settings of a type of ground, under the key of its name; none: it has no overload of its own. writing: the whole ground
+/// is of this type.
+template <class Shape>
+void shape_fields(Fields&, Shape&, bool /*writing*/) {}
+
+void shape_fields(Fields& f, Boxes& boxes, bool writing) {
+  std::vector<BoxFields> each;
+  for (const Box& box : boxes) each.push_back({box});
+  f.list("boxes", each, "Solid boxes, for type boxes. Let neighbouring boxes of different height overlap by about 1 mm.");
+  std::vector<Box> read;
+  for (BoxFields& one : each) {
+    one.box.R = rpy(one.box.rpy);
+    read.push_back(one.box);
+  }
+  if (!writing) boxes = std::move(read);
+}
+
+void shape_fields(Fields& f, Heightfield& field, bool writing) {
+  HeightfieldFields fields{field, writing};
+  f.group("heightfield", fields, "A smooth surface through heights on a square grid, for type heightfield.");
+}
+
+/// Inputs of the checks that need the whole section.
+struct GroundNodes {
+  const Node& node;
+  const std::string& folder;
+  const Scenario& scenario;
+  Problems& problems;
+};
+
+template <class Shape>
+void finish_shape(Shape&, const GroundNodes&) {}
+
+void finish_shape(Boxes& ground, const GroundNodes& section) {
+  const Scenario& scenario = section.scenario;
+  Problems& problems = section.problems;
+  const Node* list = section.node.find("boxes");
+  std::vector<Box> boxes = ground.list();
   if (list == nullptr || (list->kind == Node::Kind::list && list->items.empty())) {
-    problems.add(list != nullptr ? list->place : section.place,
+    problems.add(list != nullptr ? list->place : section.node.place,
                  "a ground of type boxes needs some; expected boxes: [{center, size}]");
     return;
   }
@@ -66,90 +111,107 @@ void finish_boxes(const Node& section, Scenario& scenario, Problems& problems) {
     if (node.find("friction") == nullptr) boxes[i].friction = scenario.ground.friction;
     if (node.find("size") == nullptr)
       problems.add(node.place, fmt::format("boxes[{}] has no size; expected size: [x, y, z]", i));
-    if (boxes[i].mass > 0 && !scenario.contact.moves_boxes()) {
+    if (boxes[i].mass > 0 && !scenario.contact.model().moves_boxes) {
       problems.add(
           node.find("mass")->place,
           fmt::format("boxes[{}] has a mass, and contact.law: penalty moves no box; expected mass: 0, or contact.law: bullet",
                       i));
     }
   }
+  ground = std::move(boxes);
 }
 
-void finish_field(const Node& section, const std::string& folder, Heightfield& field, Problems& problems) {
-  const Node* map = section.find("heightfield");
+void finish_shape(Heightfield& field, const GroundNodes& section) {
+  Problems& problems = section.problems;
+  const Node* map = section.node.find("heightfield");
   const Node* file = map == nullptr ? nullptr : map->find("file");
   const Node* values = map == nullptr ? nullptr : map->find("values");
-  const SourceLocation place = map == nullptr ? section.place : map->place;
+  const SourceLocation place = map == nullptr ? section.node.place : map->place;
   if (map != nullptr && map->kind != Node::Kind::map) return;
   if (file == nullptr && values == nullptr) {
     problems.add(place, "a heightfield needs heights; expected heightfield: {values: [[...], [...]]} or {file: PATH}");
     return;
   }
-  SourceLocation grid = values != nullptr ? values->place : file->place;
   if (file != nullptr && values != nullptr) {
     problems.add(file->place, "the heightfield has a file and values; expected one of them")
         .notes.emplace_back(values->place, "values is here");
     return;
   }
-  const std::size_t before = problems.size();
-  if (file != nullptr && file->kind == Node::Kind::scalar) {
-    const std::string path = (std::filesystem::path(folder) / file->text).lexically_normal().string();
-    Problems found;
-    try {
-      const Node node = grid_node(read_text(path, file->place), path);
-      grid = node.place;
-      HeightfieldFields{field, false}.set(read_rows(node, "row", kHeights, found));
-    } catch (const InputError& error) {
-      add_all(error, found);
-    }
-    add_found(found, {path, folder, "file of heights", ""}, problems);
+  for (const char* key : {"scale", "hash"}) {
+    if (const Node* given = map->find(key); given != nullptr && file == nullptr)
+      problems.add(given->place,
+                   fmt::format("{} is that of a file, and the heights are given as values; expected no {}", key, key));
   }
+  const std::size_t before = problems.size();
+  SourceLocation grid = values != nullptr ? values->place : file->place;
+  if (file != nullptr && file->kind == Node::Kind::scalar) grid = read_height_file(*map, section.folder, field, problems);
   if (problems.size() != before) return;
   const bool read = values != nullptr ? values->kind == Node::Kind::list : file->kind == Node::Kind::scalar;
   const bool wrong_rows = field.values.empty() && values != nullptr && read && !values->items.empty();  // reported already
   if (!read || wrong_rows) return;
   if (field.columns < 2 || field.rows() < 2) {
     problems.add(grid, fmt::format("the heightfield has {} rows of {}; expected at least 2 of 2", field.rows(), field.columns));
-  } else if (field.values.size() > kMostValues) {
-    problems.add(grid, fmt::format("the heightfield has {} heights; allowed are up to {}", field.values.size(), kMostValues));
+  } else if (values != nullptr && field.values.size() > kMostWritten) {
+    problems.add(grid, fmt::format("the heightfield has {} heights; allowed are up to {}, more in a file", field.values.size(),
+                                   kMostWritten));
   }
+}
+
+/// Calls with a value of each type of ground, in the order of Ground::Shape: the ground's own, and defaults of the others.
+template <class Visit, std::size_t... kIndex>
+void visit_ground_types(const Ground& ground, const Visit& visit, std::index_sequence<kIndex...>) {
+  const auto one = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
+    const auto* own = std::get_if<k>(&ground.shape);
+    visit(k, own == nullptr ? std::variant_alternative_t<k, Ground::Shape>() : *own);
+  };
+  (one(std::integral_constant<std::size_t, kIndex>()), ...);
+}
+
+constexpr auto kGroundNames = [] {
+  std::array<const char*, kGroundTypes.size()> names{};
+  for (std::size_t k = 0; k < names.size(); ++k) names[k] = kGroundTypes[k].name;
+  return names;
+}();
+
+const char* about_ground_types() {
+  static const std::string kText = [] {
+    std::vector<std::string> all;
+    for (const GroundType& type : kGroundTypes) {
+      if (*type.about != 0) all.push_back(fmt::format("{}: {}", type.name, type.about));
+    }
+    return fmt::format("{}.", fmt::join(all, "; "));
+  }();
+  return kText.c_str();
 }
 
 }  // namespace
 
 void GroundFields::fields(Fields& f) {
-  f.choice("type", ground.kind, enum_names<Ground::Kind>(),
-           "plane: world z = 0, solid below; boxes: the same with boxes on it; heightfield: a surface through heights.");
+  std::size_t type = ground.shape.index();
+  f.choice("type", type, kGroundNames, about_ground_types());
   f.number("friction", ground.friction, {"", 0, 100, "Coulomb's coefficient of friction f between robot and ground."});
-  if (!writing || ground.kind == Ground::Kind::boxes) {
-    std::vector<BoxFields> boxes;
-    for (const Box& box : ground.boxes) boxes.push_back({box});
-    f.list("boxes", boxes, "Solid boxes, for type boxes. Let neighbouring boxes of different height overlap by about 1 mm.");
-    ground.boxes.clear();
-    for (BoxFields& one : boxes) {
-      one.box.R = rpy(one.box.rpy);
-      ground.boxes.push_back(one.box);
-    }
-  }
-  if (!writing || ground.kind == Ground::Kind::heightfield) {
-    HeightfieldFields field{ground.field, writing};
-    f.group("heightfield", field, "A smooth surface through heights on a square grid, for type heightfield.");
-  }
+  const Ground before = ground;
+  const auto one = [&](std::size_t k, auto shape) {
+    if (writing && k != type) return;
+    shape_fields(f, shape, writing);
+    if (!writing && k == type) ground.shape = std::move(shape);
+  };
+  visit_ground_types(before, one, std::make_index_sequence<kGroundTypes.size()>());
 }
 
 void finish_ground(const Node& section, const std::string& folder, Scenario& scenario, Problems& problems) {
   if (section.kind != Node::Kind::map) return;
-  Ground& ground = scenario.ground;
-  const std::string type = name_of(ground.kind);
+  const std::string type = scenario.ground.type().name;
   const Node* given = section.find("type");
   if (given != nullptr && given->text != type) return;  // unknown, and reported
-  for (std::size_t i = 0; i < section.keys.size(); ++i) {
-    const auto& [key, place] = section.keys[i];
-    if ((key != "boxes" && key != "heightfield") || key == type) continue;
-    problems.add(place, fmt::format("{} is given, but the ground is of type {}; expected type: {}", key, type, key));
+  for (const auto& entry : section.keys) {
+    const std::string& key = entry.first;
+    const auto has_key = [&](const GroundType& other) { return other.has_settings && key == other.name; };
+    if (key == type || std::ranges::none_of(kGroundTypes, has_key)) continue;
+    problems.add(entry.second, fmt::format("{} is given, but the ground is of type {}; expected type: {}", key, type, key));
   }
-  if (ground.kind == Ground::Kind::boxes) finish_boxes(section, scenario, problems);
-  if (ground.kind == Ground::Kind::heightfield) finish_field(section, folder, ground.field, problems);
+  const GroundNodes read{section, folder, scenario, problems};
+  std::visit([&](auto& shape) { finish_shape(shape, read); }, scenario.ground.shape);
 }
 
 }  // namespace gaitlab

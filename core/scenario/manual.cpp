@@ -22,8 +22,8 @@ std::vector<KeyRow> scenario_keys(const Catalog& catalog) {
   explainer.row("gaitlab", "", "1", "1", "Format version.");
   explainer.row("name", "", "the file's name", "text", "Name of the run folder.");
   explainer.row("plugins", "", "[]", "list of paths",
-                "Plugin libraries, relative to this file, or {path, hash}; what only looks at a scenario loads them with "
-                "--plugins-from-scenario.");
+                "Plugin libraries, relative to this file, or {path, hash}; commands that do not run the scenario load them "
+                "with --plugins-from-scenario.");
   explainer.row("robot:", "", "", "", "The robot; required.");
   explainer.row("  modules", "", kDefaultType, "name | file | map",
                 "Module type, or {0: mtran, 5: ./foot.yaml, default: mtran}.");
@@ -51,7 +51,7 @@ std::vector<KeyRow> plugin_keys(const Entry& entry) {
   return explainer.rows();
 }
 
-/// As it is printed: equations keep their lines.
+/// Code block: equations keep their lines.
 std::string fenced(const std::string& text) { return "```text\n" + text + (text.ends_with('\n') ? "" : "\n") + "```\n"; }
 
 }  // namespace
@@ -76,6 +76,8 @@ std::string scenario_page(const Catalog& catalog) {
 
 std::string default_step(const Engine& engine) {
   const std::string given = number_text(engine.step) + " s";
+  if (engine.choose_step != nullptr)
+    return fmt::format("auto, the longest up to {} s that is stable at the start", number_text(engine.step));
   if (engine.adaptive() == nullptr) return given;
   return fmt::format("auto (integrator {}); {} with another, and {} is the integrator where a step is given",
                      engine.adaptive()->name, given, engine.fixed().name);
@@ -83,7 +85,7 @@ std::string default_step(const Engine& engine) {
 
 std::string plugins_page(const Catalog& catalog) {
   std::string page = "# CPGs, controllers, actuators and engines\n\n" + std::string(kRenewed) +
-                     "The manuals of what is built in, as `gaitlab explain KIND NAME` prints them. One of your own:\n"
+                     "The manuals of the built-in plugins, as `gaitlab explain KIND NAME` prints them. One of your own:\n"
                      "[write a CPG](../tutorials/write-a-cpg.md).\n";
   for (const PluginKind& kind : kPluginKinds) {
     for (const std::string& name : catalog.names(kind.kind)) {

@@ -1,4 +1,4 @@
-// What the program knows about its scenario file and its plugins, for people: `gaitlab explain` and docs/reference.
+// Manual of the scenario file and of the plugins: `gaitlab explain` and docs/reference.
 #pragma once
 #include <string>
 
@@ -11,7 +11,7 @@ std::string explain_scenario(const Catalog& catalog);
 /// A plugin's manual: its text, then a table of its fields. Throws PluginError.
 std::string explain_plugin(const Entry& entry);
 
-/// What an engine takes where a scenario gives no step: seconds, or auto and what else there is.
+/// Step of an engine if the scenario gives none, in words: seconds, or auto with the alternatives.
 std::string default_step(const Engine& engine);
 
 /// The same as pages of Markdown: docs/reference/scenario.md, and plugins.md with every plugin and engine.

@@ -8,8 +8,8 @@
 
 namespace gaitlab {
 
-/// Gives them their present names, before and after the settings of --set. What --set gives under one name takes the place of
-/// what the file gives under the other; two names by the same hand are a problem.
+/// Renames keys with old names to their present names, before and after the settings of --set are applied. A value that --set
+/// gives under one name replaces the value that the file gives under the other; two names in the same source are a problem.
 void rename_old_names(Node& root, const std::vector<std::string>& sets, Problems& problems);
 
 }  // namespace gaitlab

@@ -9,6 +9,7 @@
 #include "core/files/atomic_file.h"
 #include "core/files/hash.h"
 #include "core/settings/reader.h"
+#include "core/settings/text_file.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One entry as the user wrote it.
+/// One entry of `plugins` as written by the user.
 struct PluginEntry {
   std::string path, hash;
 
@@ -26,7 +27,7 @@ struct PluginEntry {
   }
 };
 
-/// Reads an entry; `place`: the path's. False with a problem.
+/// Reads an entry; `place`: place of the path. False with a problem.
 bool read_entry(const Node& node, PluginEntry& entry, SourceLocation& place, Problems& problems) {
   const std::size_t before = problems.size();
   place = node.place;
@@ -108,6 +109,19 @@ void load_plugin_file(const std::string& path, Catalog& catalog) {
   std::vector<PluginFile> files;
   load({path, {}}, SourceLocation{path}, ".", catalog, files, problems);
   problems.raise();
+}
+
+std::string hidden_file(const Node& section, const std::string& folder) {
+  if (section.kind == Node::Kind::scalar) {
+    const std::string path = path_from(folder, section.text);
+    std::error_code none;
+    const bool file = section.text.find('\n') == std::string::npos && std::filesystem::is_regular_file(path, none);
+    return file && !may_quote(path, folder) ? path : "";
+  }
+  for (const Node& item : section.items) {
+    if (std::string found = hidden_file(item, folder); !found.empty()) return found;
+  }
+  return {};
 }
 
 }  // namespace gaitlab

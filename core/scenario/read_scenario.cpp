@@ -1,4 +1,4 @@
-// read_scenario: the file, --set, plugins, robot and sections in this order; then what only the whole can show.
+// Reader of scenarios: the file, --set, plugins, robot and sections in this order; then checks of the whole.
 #include "core/scenario/read_scenario.h"
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ class ScenarioReader {
     if (folder_.empty()) folder_ = ".";
   }
 
-  /// Reads the file's text; afterwards with() makes rollouts of it.
+  /// Reads the file's text; afterwards with() makes rollouts from it.
   const Scenario& read(const std::string& text, const std::vector<std::string>& sets) {
     std::optional<Node> root = parse_yaml(text, path_, problems_);
     if (!root) raise();
@@ -46,7 +46,7 @@ class ScenarioReader {
     rename_old_names(root_, sets, problems_);
     if (root_.find("gaitlab_module") != nullptr) {
       problems_.add(root_.place,
-                    fmt::format("this is a module type, not a scenario; what is in it: gaitlab explain module {}", path_));
+                    fmt::format("this is a module type, not a scenario; its content: gaitlab explain module {}", path_));
       raise();
     }
     if (root_.find("gaitlab_study") != nullptr) {
@@ -54,10 +54,10 @@ class ScenarioReader {
       raise();
     }
     Reader head(root_, "the scenario", problems_, nullptr);
-    if (!head.version("gaitlab")) raise();  // another version's keys mean something else
+    if (!head.version("gaitlab")) raise();  // in another version the keys have another meaning
     if (const Node* plugins = root_.find("plugins")) {
       scenario_.plugins = read_plugins(*plugins, folder_, catalog_, problems_);
-      raise();  // what a library would have registered would be reported as unknown
+      raise();  // without the libraries their plugins would be reported as unknown
     }
     attempt([&] {
       for (std::string& note : drop_old_keys(root_, retyped, catalog_)) add_note(std::move(note));
@@ -67,6 +67,7 @@ class ScenarioReader {
     read_body();
     read_sections();
     raise();
+    choose_step();
     Scenario::Places places;
     note_places(root_, "", places);
     scenario_.places = std::make_shared<const Scenario::Places>(std::move(places));
@@ -75,7 +76,7 @@ class ScenarioReader {
 
   [[nodiscard]] bool driven() const { return scenario_.actuator.entry != nullptr; }
 
-  /// The scenario with more settings, of sections other than the robot's; only what they touch is read anew.
+  /// The scenario with further settings, of sections other than the robot's; only sections that depend on them are read again.
   [[nodiscard]] Scenario with(const std::vector<std::string>& sets) const {
     if (sets.empty()) return scenario_;
     ScenarioReader own = *this;
@@ -87,6 +88,7 @@ class ScenarioReader {
     own.follow_dependencies();
     own.read_sections();
     own.raise();
+    own.choose_step();
     own.note_own_places();
     return std::move(own.scenario_);
   }
@@ -102,12 +104,12 @@ class ScenarioReader {
 
   void tell_dropped_source(const std::vector<std::string>& sets) {
     const auto another = [](const std::string& set) { return set.starts_with("actuator.source="); };
-    if (std::ranges::any_of(sets, another)) std::erase(scenario_.notes, source_note_);  // that of the template
+    if (std::ranges::any_of(sets, another)) std::erase(scenario_.notes, source_note_);  // note of the template
     source_note_ = {{path_}, drop_source(root_, sets)};
     add_note(source_note_.text);
   }
 
-  /// Where the touched keys are given, as far as that differs from the template's own.
+  /// Notes the places of the touched keys that differ from the template's.
   void note_own_places() {
     Node touched{Node::Kind::map};
     for (std::size_t i = 0; i < root_.keys.size(); ++i) {
@@ -157,7 +159,7 @@ class ScenarioReader {
     return touched_.empty() || std::ranges::find(touched_, section) != touched_.end();
   }
 
-  /// Sections whose defaults or checks depend on what was touched; each starts from its defaults again.
+  /// Adds sections whose defaults or checks depend on a touched one; each starts from its defaults again.
   void follow_dependencies() {
     constexpr std::array<std::pair<const char*, const char*>, 4> kFollows{
         {{"contact", "physics"}, {"contact", "ground"}, {"controller", "cpg"}, {"actuator", "controller"}}};
@@ -186,7 +188,7 @@ class ScenarioReader {
     }
   }
 
-  /// A height and on_ground exclude one another; whoever gives a height need not turn on_ground off.
+  /// A height and on_ground exclude one another; if a height is given, on_ground need not be turned off.
   void check_height(const Node& position, bool given, const Node* on_ground) {
     if (on_ground != nullptr && scenario_.on_ground == given) {
       problems_
@@ -203,17 +205,17 @@ class ScenarioReader {
     if (!touched_.empty()) reader.only(touched_);
     for (const char* known : {"gaitlab", "name", "plugins", "robot", "controller", "cpg"}) reader.take(known);
     reader.require({"duration"});
-    if (const Node* sensors = reader.take("sensors")) check_sensors(*sensors);
+    if (const Node* sensors = reader.take("sensors")) refuse_sensors(*sensors, problems_);
     const TypePresets motors(Kind::actuator, scenario_.robot.get(), *scenario_.module_documents);
     const TypePresets gains(Kind::controller, scenario_.robot.get(), *scenario_.module_documents);
     if (!motors.agreed() && !given(root_, "actuator")) {
       motors.refuse(given(root_, "robot").value_or(root_.place), problems_);
-      raise();  // what one of them states would be reported as missing
+      raise();  // a key of such a section would be reported as missing
     }
     SectionFields sections(scenario_, &catalog_, &problems_, without_motors() ? "none" : motors.type());
     sections.controller.type = gains.type();
     sections.has_cpg = root_.find("cpg") != nullptr;
-    sections.physics.solver = asks_for_solver();
+    sections.physics.law = wanted_law();
     sections.actuator.presets = [&](const Entry& entry, void* settings) { motors.fill(entry, settings, joints, problems_); };
     sections.controller.presets = [&](const Entry& entry, void* settings) { gains.fill(entry, settings, joints, problems_); };
     sections.actuator.none = !reads("actuator") && scenario_.actuator.entry == nullptr;
@@ -222,10 +224,17 @@ class ScenarioReader {
     if (reads("actuator") && sections.actuator.sound) attempt([&] { tell_replaced_motors(motors); });
     if (const Node* ground = root_.find("ground"); ground != nullptr && reads("ground"))
       finish_ground(*ground, folder_, scenario_, problems_);
-    ScenarioChecks checks(root_, scenario_, catalog_, problems_);
-    if (!gains.agreed() && !given(root_, "controller") && !sections.actuator.none) {
+    if (!gains.agreed() && !given(root_, "controller") && !sections.actuator.none)
       gains.refuse(given(root_, "robot").value_or(root_.place), problems_);
-    }
+    check_sections(sections, joints);
+    const auto concerns = [&](const char* section) { return reads(section); };
+    constexpr std::array kOfPlugins{"physics", "contact", "actuator", "controller", "cpg"};
+    if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
+  }
+
+  /// Rules that join several sections.
+  void check_sections(const SectionFields& sections, const JointNames joints) {
+    ScenarioChecks checks(root_, scenario_, catalog_, problems_);
     checks.law();
     if (sections.actuator.none) {
       refuse_controller();
@@ -239,13 +248,26 @@ class ScenarioReader {
     checks.base_velocity();
     if (as_ == ReadAs::scenario) checks.limits();
     finish_periods(root_, scenario_, catalog_, problems_);
-    const auto concerns = [&](const char* section) { return reads(section); };
-    constexpr std::array kOfPlugins{"physics", "contact", "actuator", "controller", "cpg"};
-    if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
+  }
+
+  /// Chooses the step if the engine does so. For a robot that the engine refuses the engine's default remains; the run reports
+  /// the reason.
+  void choose_step() {
+    Physics& physics = scenario_.physics;
+    if (!physics.chosen_step) return;
+    physics.step = physics.engine->step;
+    try {
+      const double chosen = physics.engine->choose_step(scenario_);
+      if (chosen > 0) physics.step = chosen;
+    } catch (const RunError&) {
+    } catch (const InputError&) {
+    }
+    check_step(root_, scenario_, problems_);
+    raise();
   }
 
   void tell_replaced_motors(const TypePresets& motors) {
-    for (const Note& note : motor_notes_) std::erase(scenario_.notes, note);  // those of the template's motors
+    for (const Note& note : motor_notes_) std::erase(scenario_.notes, note);  // notes on the template's motors
     motor_notes_.clear();
     if (!driven() || !scenario_.robot) return;
     const ReplacedMotors replaced(root_, scenario_, motors);
@@ -254,20 +276,14 @@ class ScenarioReader {
     scenario_.actuator_source = replaced.source();
   }
 
-  void check_sensors(const Node& node) {
-    if (node.kind == Node::Kind::list && node.items.empty()) return;
-    const std::string what = node.kind == Node::Kind::list ? fmt::format("a list of {}", node.items.size()) : found(node);
-    problems_.add(node.place, fmt::format("sensors is {}; expected [], there are no sensor types yet", what));
-  }
-
   /// Before its section is read: the step's default is above it.
-  [[nodiscard]] bool asks_for_solver() const {
+  [[nodiscard]] ContactLaw wanted_law() const {
     const Node* contact = root_.find("contact");
     const Node* law = contact == nullptr ? nullptr : contact->find("law");
-    return law != nullptr && law->text == "bullet";
+    return law == nullptr ? ContactLaw::penalty : named<ContactLaw>(law->text).value_or(ContactLaw::penalty);
   }
 
-  /// The robot has hinges, and none of them has a motor.
+  /// Whether the robot has hinges, but none with a motor.
   [[nodiscard]] bool without_motors() const {
     return scenario_.robot && !scenario_.robot->joints.empty() &&
            std::ranges::none_of(scenario_.robot->joints, [](const Joint& joint) { return joint.driven(); });
@@ -280,21 +296,7 @@ class ScenarioReader {
     }
   }
 
-  /// A file that the section names, and that messages may not quote; empty: there is none.
-  [[nodiscard]] std::string other_file(const Node& section) const {
-    if (section.kind == Node::Kind::scalar) {
-      const std::string path = path_from(folder_, section.text);
-      std::error_code none;
-      const bool file = section.text.find('\n') == std::string::npos && std::filesystem::is_regular_file(path, none);
-      return file && !may_quote(path, folder_) ? path : "";
-    }
-    for (const Node& item : section.items) {
-      if (std::string found = other_file(item); !found.empty()) return found;
-    }
-    return {};
-  }
-
-  /// Uses a plugin; what it throws is bad input like any other.
+  /// Uses a plugin; its exceptions are bad input like any other.
   template <class Use>
   void attempt(Use use) {
     try {
@@ -302,7 +304,7 @@ class ScenarioReader {
     } catch (const PluginError& error) {
       const std::string section = word(error.kind);
       const Node* node = root_.find(section);
-      const std::string other = node != nullptr ? other_file(*node) : "";
+      const std::string other = node != nullptr ? hidden_file(*node, folder_) : "";
       problems_.add(
           place_of(root_, section, "type"),
           other.empty() ? error.what() : fmt::format("{} does not take the file {}; {}", section, in_quotes(other), kNotShown));
@@ -311,7 +313,7 @@ class ScenarioReader {
 
   void make_plugins(const SectionFields& sections) {
     if (!scenario_.robot) return;
-    if (!cpg_note_.text.empty()) std::erase(scenario_.notes, cpg_note_);  // that of the template's CPG
+    if (!cpg_note_.text.empty()) std::erase(scenario_.notes, cpg_note_);  // note of the template's CPG
     const RobotInfo robot = info(*scenario_.robot);
     std::unique_ptr<Actuator> actuator;
     std::unique_ptr<Controller> controller;
@@ -345,7 +347,7 @@ class ScenarioReader {
   std::shared_ptr<const std::vector<std::string>> joints_;  ///< nullptr: the robot could not be read
   Note cpg_note_, source_note_;
   std::vector<Note> motor_notes_;
-  std::vector<std::string> touched_;  ///< sections to read; none: all
+  std::vector<std::string> touched_;  ///< sections to read; empty: all
 };
 
 Scenario read_scenario(const std::string& path, const std::vector<std::string>& sets, Catalog& catalog, ReadAs as) {
@@ -374,18 +376,18 @@ ScenarioTemplate::ScenarioTemplate(std::string path, std::vector<std::string> se
 ScenarioTemplate::~ScenarioTemplate() = default;
 
 Scenario ScenarioTemplate::with(const std::vector<std::string>& own) const {
-  // What decides which keys there are, or needs the robot again.
+  // Settings that decide which keys exist, or that need the robot again.
   const auto whole = [&](const std::string& set) {
     const std::string key = set.substr(0, set.find('='));
     const std::string section = key.substr(0, key.find('.'));
     constexpr std::array kWhole{"gaitlab", "name", "plugins", "robot"};
     if (std::ranges::find(kWhole, section) != kWhole.end() || key.ends_with(".type")) return true;
     if (key == section && find_kind(section) != nullptr) return true;  // a whole section of a plugin
-    // The template's own type dropped the model of the old one, which may be meant.
+    // The template's type dropped the model of the previous type, which the setting may refer to.
     const auto types = [&](const std::string& one) { return one.starts_with(section + ".type="); };
     return key.starts_with(section + ".model") && std::ranges::any_of(sets_, types);
   };
-  // Without a motor the control period is not what the sections say.
+  // Without a motor the control period depends on more than these sections.
   if (!reader_->driven() || std::ranges::any_of(own, whole)) {
     std::vector<std::string> all = sets_;
     all.insert(all.end(), own.begin(), own.end());

@@ -10,7 +10,7 @@ namespace gaitlab {
 
 class ScenarioReader;
 
-/// record: the scenario of a run that was made, in which limits may contradict each other, as older versions allowed.
+/// record: the scenario of an earlier run, whose limits may contradict each other, as older versions allowed.
 enum class ReadAs { scenario, record };
 
 /// Reads and checks a scenario file. `sets` are `key.path=value` texts in order. Loads the scenario's plugins into the catalog.
@@ -30,10 +30,10 @@ class ScenarioTemplate {
   ScenarioTemplate(const ScenarioTemplate&) = delete;
   ScenarioTemplate& operator=(const ScenarioTemplate&) = delete;
 
-  /// The scenario with more `key.path=value` texts behind the template's own: what read_scenario gives for all of them. The
-  /// sections that `own` names, and those that depend on them, are read anew; the robot and all else are shared. The whole file
-  /// is read again where `own` sets the robot, the plugins, a type or a `.model` whose type the template set, and for robots
-  /// without a motor. Throws InputError with every problem found. One thread at a time.
+  /// The scenario with further `key.path=value` texts after the template's: the same result as read_scenario with all of them.
+  /// The sections that `own` names, and those that depend on them, are read again; the robot and everything else are shared.
+  /// The whole file is read again if `own` sets the robot, the plugins, a type or a `.model` whose type the template set, or if
+  /// the robot has no motor. Throws InputError with every problem found. One thread at a time.
   [[nodiscard]] Scenario with(const std::vector<std::string>& own) const;
 
  private:

@@ -16,7 +16,7 @@ ReplacedMotors::ReplacedMotors(const Node& root, const Scenario& scenario, const
   if (presets.holds(entry)) return;
   dropped_ = dropped_figures(Kind::actuator, *scenario.robot, *scenario.module_documents, presets, entry);
   const Node* const section = root.find("actuator");
-  std::vector<std::string> assumed;  // that state something
+  std::vector<std::string> assumed;  // types that state motor values
   for (const DefaultFigure& one : default_figures(entry)) {
     if (section != nullptr && section->find(one.key) != nullptr) continue;
     defaults_.push_back(fmt::format("{} {}", one.key, with_unit(one.value, one.unit)));

@@ -1,4 +1,4 @@
-// The module types' motors that the scenario's type of actuator replaces: what is dropped, and which defaults come instead.
+// Motors of module types that the scenario's type of actuator replaces: dropped values, and defaults used instead.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,24 +8,24 @@
 
 namespace gaitlab {
 
-/// Nothing is replaced where the scenario's actuator is of the type that the module types agree on; nothing dropped where they
-/// state none.
+/// Nothing is replaced if the scenario's actuator has the type on which the module types agree; nothing is dropped if they
+/// state no motor values.
 class ReplacedMotors {
  public:
-  /// root: the scenario's tree. scenario: its robot and actuator have been read. presets: of actuators.
+  /// root: the scenario's tree. scenario: with robot and actuator read. presets: of actuators.
   ReplacedMotors(const Node& root, const Scenario& scenario, const TypePresets& presets);
 
-  /// One for each module type whose figures are dropped, at the place of the type; none where the scenario gives every figure.
+  /// A note for each module type whose values are dropped, at the place of the type; none if the scenario gives every value.
   [[nodiscard]] std::vector<Note> notes() const;
-  /// The source of the section, behind the figures that are defaults of the actuator and that it does not say.
+  /// Source of the section, followed by the defaults of the actuator that the section does not set.
   [[nodiscard]] const std::string& source() const { return source_; }
 
  private:
   SourceLocation place_;
   std::string actuator_, source_, why_;
   std::vector<DroppedFigures> dropped_;
-  std::vector<std::string> defaults_;  ///< that hold: `R 4.3 ohm`
-  bool given_ = false;                 ///< the section has a figure
+  std::vector<std::string> defaults_;  ///< defaults in force: `R 4.3 ohm`
+  bool given_ = false;                 ///< the section sets a value
 };
 
 }  // namespace gaitlab

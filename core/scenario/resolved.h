@@ -1,4 +1,4 @@
-// The scenario written out in full.
+// Resolved scenario: all settings written out in full.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// The self-contained YAML text: every default written out, module types and docks inlined, plugins by path and hash.
-/// Reading it again and resolving that gives the same bytes.
+/// The self-contained YAML text: every default written out, module types and docks inlined, plugins by path and hash. Reading
+/// and resolving it again gives the same bytes.
 std::string resolved(const Scenario& scenario);
 
 }  // namespace gaitlab

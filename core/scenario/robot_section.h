@@ -9,18 +9,18 @@
 
 namespace gaitlab {
 
-inline constexpr const char* kDefaultType = "mtran";  ///< of the modules, where the scenario names none
+inline constexpr const char* kDefaultType = "mtran";  ///< default type of the modules
 
-/// What `modules`, `types`, `build` and `docks` say. robot == nullptr: there were problems.
+/// Robot of the keys `modules`, `types`, `build` and `docks`. robot == nullptr: there were problems.
 struct RobotParts {
   std::shared_ptr<const Robot> robot = {};
-  std::vector<Node> documents = {};  ///< of the module types, one a Robot::types entry
+  std::vector<Node> documents = {};  ///< of the module types, one per entry of Robot::types
 };
 
-/// `reader` stands at the map `robot`; `folder` is the scenario file's.
+/// `reader` is at the map `robot`; `folder`: folder of the scenario file.
 RobotParts read_robot(Reader& reader, const SourceLocation& place, const std::string& folder, Problems& problems);
 
-/// The same keys again, self-contained: `types` in full, `modules` by name, `docks`.
+/// The same keys, self-contained: `types` in full, `modules` by name, `docks`.
 std::vector<std::pair<std::string, Node>> robot_nodes(const Robot& robot, const std::vector<Node>& documents);
 
 }  // namespace gaitlab

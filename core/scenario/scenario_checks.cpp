@@ -15,24 +15,31 @@ namespace gaitlab {
 
 void ScenarioChecks::law() {
   const Engine* engine = scenario_.physics.engine;
-  if (!scenario_.contact.solver() || engine == nullptr) return;
-  if (!(engine->solver_step > 0)) {
-    std::vector<std::string> able;
-    for (const std::string& name : catalog_.engines()) {
-      if (catalog_.engine(name)->solver_step > 0) able.push_back(name);
+  const ContactModel& contact = scenario_.contact.model();
+  if (engine == nullptr) return;
+  if (contact.has_step_of_its_own) {
+    if (!(engine->solver_step > 0)) refuse_law(*engine);
+    if (scenario_.physics.integrator != &engine->integrators.front()) {
+      problems_.add(
+          place_of(root_, "physics", "integrator"),
+          fmt::format("contact law '{}' takes steps of its own; expected {}", contact.text, engine->integrators.front().name));
     }
-    problems_.add(place_of(root_, "contact", "law"),
-                  fmt::format("engine '{}' has no contact law 'bullet'; expected penalty{}", engine->name,
-                              able.empty() ? "" : fmt::format(", or engine: {}", fmt::join(able, " or "))));
   }
-  if (scenario_.physics.integrator != &engine->integrators.front()) {
-    problems_.add(place_of(root_, "physics", "integrator"),
-                  fmt::format("contact law 'bullet' takes steps of its own; expected {}", engine->integrators.front().name));
+  if (const GroundType& ground = scenario_.ground.type(); !contact.any_ground && !ground.plane_and_boxes) {
+    problems_.add(place_of(root_, "ground", "type"), fmt::format("contact law '{}' does not support a {}; expected {}",
+                                                                 contact.text, ground.name, plane_and_box_types()));
   }
-  if (scenario_.ground.kind == Ground::Kind::heightfield) {
-    problems_.add(place_of(root_, "ground", "type"),
-                  "contact law 'bullet' knows no heightfield; expected none, plane or boxes");
+}
+
+void ScenarioChecks::refuse_law(const Engine& engine) {
+  std::vector<std::string> able;
+  for (const std::string& name : catalog_.engines()) {
+    if (catalog_.engine(name)->solver_step > 0) able.push_back(name);
   }
+  problems_.add(
+      place_of(root_, "contact", "law"),
+      fmt::format("engine '{}' has no contact law '{}'; expected penalty{}", engine.name, scenario_.contact.model().text,
+                  able.empty() ? "" : fmt::format(", or engine: {}", fmt::join(able, " or "))));
 }
 
 SourceLocation ScenarioChecks::angle_place(std::size_t joint) const {
@@ -59,7 +66,7 @@ void ScenarioChecks::initial_angles() {
     std::string text;
     int more = 0;
   };
-  std::map<std::string, Outside> findings;  // one a place: a number may stand for all joints
+  std::map<std::string, Outside> findings;  // one per place: a number may hold for all joints
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const double angle = angles[j];
     if (angle >= joints[j].lo - 1e-9 && angle <= joints[j].hi + 1e-9) continue;
@@ -132,7 +139,7 @@ void ScenarioChecks::automatic_step() {
   }
   const std::string chosen =
       fmt::format("integrator '{}' of engine '{}'", scenario_.physics.integrator->name, scenario_.physics.engine->name);
-  if (step != nullptr && step->text == "auto") {
+  if (step != nullptr && step->text == "auto" && !scenario_.physics.chosen_step) {
     problems_.add(step->place,
                   fmt::format("{} chooses no steps; expected a number of seconds, or {}", chosen, fmt::join(able, " or ")));
   }
@@ -165,9 +172,9 @@ void ScenarioChecks::rotors(const Actuator& actuator) {
   const In inertia = actuator.reflected_inertia();
   const Engine* engine = scenario_.physics.engine;
   const bool some = std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; });
-  if (some && scenario_.contact.solver()) {
+  if (const ContactModel& contact = scenario_.contact.model(); some && !contact.rotor_inertia) {
     problems_.add(place_of(root_, "actuator", "rotor_inertia"),
-                  "contact law 'bullet' cannot add rotor inertia; expected 0, or contact.law: penalty");
+                  fmt::format("contact law '{}' cannot add rotor inertia; expected 0, or contact.law: penalty", contact.text));
     return;
   }
   if (!some || engine == nullptr || engine->rotor_inertia) return;
@@ -179,6 +186,12 @@ void ScenarioChecks::rotors(const Actuator& actuator) {
                 fmt::format("engine '{}' cannot add rotor inertia; {}", engine->name,
                             able.empty() ? "no engine of this build can: set it to 0"
                                          : fmt::format("expected 0, or engine: {}", fmt::join(able, " or "))));
+}
+
+void refuse_sensors(const Node& node, Problems& problems) {
+  if (node.kind == Node::Kind::list && node.items.empty()) return;
+  const std::string what = node.kind == Node::Kind::list ? fmt::format("a list of {}", node.items.size()) : found(node);
+  problems.add(node.place, fmt::format("sensors is {}; expected [], there are no sensor types yet", what));
 }
 
 }  // namespace gaitlab

@@ -1,34 +1,35 @@
-// What only a whole scenario can show, once its sections are read.
+// Checks of a scenario as a whole, after its sections are read.
 #pragma once
 #include "core/plugin/catalog.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab {
 
-/// Each check adds its findings to the problems, at the places of `root`, the scenario's tree.
+/// Checks that add their findings to the problems, at the places of `root`, the scenario's tree.
 class ScenarioChecks {
  public:
   ScenarioChecks(const Node& root, const Scenario& scenario, const Catalog& catalog, Problems& problems)
       : root_(root), scenario_(scenario), catalog_(catalog), problems_(problems) {}
 
-  /// What Bullet's own solver cannot do.
+  /// Settings that Bullet's own solver does not support.
   void law();
-  /// Within the hinges' ranges.
+  /// Initial angles are within the hinges' ranges.
   void initial_angles();
-  /// Joints of the robot.
+  /// Joints of the figure exist in the robot.
   void figure_joints();
-  /// A base cannot start with a velocity that it cannot have.
+  /// The initial velocity of the base is among its degrees of freedom.
   void base_velocity();
-  /// What warns comes before what fails.
+  /// Every warning limit is below the limit that fails.
   void limits();
-  /// What only integrators that choose their steps have.
+  /// Settings that require an integrator that chooses its steps.
   void automatic_step();
-  /// The controller commands what the actuator takes.
+  /// The controller's unit is the actuator's.
   void units(const Actuator& actuator, const Controller& controller);
-  /// An engine that cannot add rotor inertia refuses it and names the ones that can.
+  /// Rotor inertia requires an engine that can add it; names the engines that can.
   void rotors(const Actuator& actuator);
 
  private:
+  void refuse_law(const Engine& engine);
   /// SourceLocation of a joint's initial angle.
   [[nodiscard]] SourceLocation angle_place(std::size_t joint) const;
 
@@ -37,5 +38,8 @@ class ScenarioChecks {
   const Catalog& catalog_;
   Problems& problems_;
 };
+
+/// Refuses `sensors`, unless it is an empty list.
+void refuse_sensors(const Node& node, Problems& problems);
 
 }  // namespace gaitlab

@@ -6,8 +6,11 @@
 
 namespace gaitlab {
 
-/// Fills in what follows from others (the control period of what nobody commands, the longest step), and adds what does not fit
-/// to the problems, at the places of `root`.
+/// Sets periods that follow from others (the control period without actuator and CPG, the longest step), and adds periods that
+/// do not fit to the problems, at the places of `root`.
 void finish_periods(const Node& root, Scenario& scenario, const Catalog& catalog, Problems& problems);
+
+/// Adds a problem for each period that is not a whole multiple of the step.
+void check_step(const Node& root, const Scenario& scenario, Problems& problems);
 
 }  // namespace gaitlab

@@ -7,10 +7,10 @@
 namespace gaitlab {
 namespace {
 
-// What is read piece by piece rather than through Fields: the robot's parts and the head of the file.
+// Schema of the parts that are read one by one rather than through Fields: the robot's parts and the head of the file.
 constexpr const char* kParts = R"json({
   "vector": {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3},
-  "source": {"type": ["string", "number", "boolean"], "description": "Where the values come from."},
+  "source": {"type": ["string", "number", "boolean"], "description": "Origin of the values."},
   "dock": {"anyOf": [
     {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 5, "maxItems": 5,
      "description": "child_face, child_module, parent_face, parent_module, orientation"},
@@ -103,7 +103,7 @@ constexpr const char* kRobot = R"json({
 constexpr const char* kHead = R"json({
   "gaitlab": {"const": 1, "description": "Format version."},
   "name": {"type": ["string", "number", "boolean"], "description": "Name of the run folder; default: the file's name."},
-  "plugins": {"type": "array", "default": [], "description": "Plugin libraries, relative to this file; what only looks at a scenario loads them with --plugins-from-scenario.", "items": {"anyOf": [
+  "plugins": {"type": "array", "default": [], "description": "Plugin libraries, relative to this file; commands that do not run the scenario load them with --plugins-from-scenario.", "items": {"anyOf": [
     {"type": "string"},
     {"type": "object", "additionalProperties": false, "required": ["path"], "properties": {
       "path": {"type": "string", "description": "The library."},
@@ -115,7 +115,7 @@ std::string first_line(std::string_view text) { return std::string(text.substr(0
 /// A section whose keys depend on the value of one of them.
 class Alternatives {
  public:
-  /// `head`: the section's schema, of which only the choosing key is kept. `preset`: the value of an absent key; empty: any.
+  /// `head`: schema of the section, from which only the deciding key is kept. `preset`: value of an absent key; empty: any.
   Alternatives(const Json& head, std::string key, std::string preset) : key_(std::move(key)), preset_(std::move(preset)) {
     json_ = {{"type", "object"}, {"description", head["description"]}};
     json_["properties"][key_] = head["properties"][key_];
@@ -196,7 +196,7 @@ std::string scenario_schema(const Catalog& catalog) {
   properties["robot"] = robot_section();
   for (const auto& [key, value] : heads.items()) properties[key] = value;
   properties["physics"] = physics_section(heads["physics"], catalog);
-  // The module type may name another motor than the default's, so that without a type the keys may be any motor's.
+  // A module type may name another motor than the default, so that without `type` the keys of any motor are allowed.
   properties["actuator"] = plugin_section(sections.actuator, heads["actuator"], catalog, "");
   properties["controller"] =
       plugin_section(sections.controller, heads["controller"], catalog, describe(Kind::controller).default_type);

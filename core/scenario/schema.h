@@ -1,4 +1,4 @@
-// The JSON Schema (draft 7, which editors read) of the scenario file, from the same walk as its reader.
+// JSON Schema (draft 7, for editors) of the scenario file, from the same walk as its reader.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// As text, indented. What it refuses, the reader refuses; the reader knows more (joint names, fit of the parts). Throws
-/// PluginError.
+/// Schema as indented text. The reader refuses everything that it refuses, and checks more (joint names, fit of the parts).
+/// Throws PluginError.
 std::string scenario_schema(const Catalog& catalog);
 
 }  // namespace gaitlab

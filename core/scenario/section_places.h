@@ -1,4 +1,4 @@
-// Where the sections and keys of a scenario were given, and in which order its problems are reported.
+// Locations of the sections and keys of a scenario in its file, and the order in which its problems are reported.
 #pragma once
 #include <map>
 #include <optional>
@@ -10,16 +10,16 @@
 
 namespace gaitlab {
 
-/// SourceLocation of a key's value (`key` empty: of the section's name), or nothing where it is not given.
+/// Place of a key's value (`key` empty: of the section's name), or nothing if the key is absent.
 std::optional<SourceLocation> given(const Node& root, const std::string& section, const std::string& key = {});
 
-/// The same, or the section's name, or the whole map.
+/// The same, or else the place of the section's name, or of the whole map.
 SourceLocation place_of(const Node& root, const std::string& section, const std::string& key);
 
-/// Notes where every key of a map was given, `physics.step` and so on.
+/// Notes the place of every key of a map under its path, `physics.step` and so on.
 void note_places(const Node& map, const std::string& prefix, std::map<std::string, SourceLocation>& places);
 
-/// Stable by place within the scenario file, so that findings come in the order in which one reads.
+/// Problems in stable order of their places within the scenario file, so that they are reported in reading order.
 std::vector<Problem> in_order(std::vector<Problem> problems, const std::string& file);
 
 }  // namespace gaitlab

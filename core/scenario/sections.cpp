@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kNone = "none";
 constexpr const char* kDefaultEngine = "bullet";
 
-/// Texts as the interface wants them; they live as long as this.
+/// Texts for the interface, which live as long as this object.
 struct Names {
   std::vector<std::string> texts;
   std::vector<const char*> pointers;
@@ -34,7 +34,7 @@ std::size_t count(const Problems* problems) { return problems == nullptr ? 0 : p
 void BaseFields::fields(Fields& f) {
   f.choice("base", scenario.base, enum_names<Base>(), "floating; fixed; planar: world x, world z and rotation about world y.");
   f.flag("on_ground", scenario.on_ground,
-         "Whether the robot is lowered onto the ground until its first contact element touches; false where `position` has a "
+         "Lower the robot onto the ground until its first contact element touches; false if `position` has a "
          "height.");
   if (with_position) {
     std::vector<double> position{scenario.position.x(), scenario.position.y()};
@@ -71,7 +71,7 @@ void PhysicsFields::fields(Fields& f) {
   const bool known = count(problems) == before && names.has(name);
   if (names.texts.empty()) {
     f.problem("engine", "no physics engine is built in");
-  } else if (!names.has(name) && count(problems) == before) {  // another engine in its place would give other numbers
+  } else if (!names.has(name) && count(problems) == before) {  // another engine instead would give other numbers
     f.problem("engine",
               fmt::format("this program was built without the default engine '{0}'; write physics: {{engine: {1}}}, or "
                           "add --set physics.engine={1}",
@@ -80,14 +80,15 @@ void PhysicsFields::fields(Fields& f) {
   if (known && catalog != nullptr) physics.engine = catalog->engine(name);
   const bool filled = physics.step > 0;
   double step = physics.adaptive_step ? 0 : physics.step;
-  if (known && !filled && physics.engine->adaptive() == nullptr) {
-    step = solver && physics.engine->solver_step > 0 ? physics.engine->solver_step : physics.engine->step;
+  const bool own_step = enum_row(law).has_step_of_its_own;
+  const bool chooses = known && !own_step && physics.engine->choose_step != nullptr;
+  if (known && !filled && !chooses && physics.engine->adaptive() == nullptr) {
+    step = physics.engine->given_step(own_step);
   }
-  f.number_or(
-      "step", step, "auto",
-      {"s", 1e-9, 1,
-       "Time step; default: that of the engine, for the integrator and contact law. auto: chosen by accuracy. What a step "
-       "costs: gaitlab converge."});
+  f.number_or("step", step, "auto",
+              {"s", 1e-9, 1,
+               "Time step; the default depends on engine, integrator and contact law. auto: chosen by accuracy (articulated), "
+               "or by the stability limit at the start (bullet). gaitlab converge shows the error of a step."});
   if (known) {
     const Engine& engine = *physics.engine;
     const Integrator& preset = filled ? *physics.integrator : step > 0 ? engine.fixed() : engine.integrators.front();
@@ -96,8 +97,9 @@ void PhysicsFields::fields(Fields& f) {
     f.one_of("integrator", integrator, integrators.pointers, "Integrator of the engine.");
     physics.integrator = engine.integrator(integrator);
     physics.adaptive_step = step <= 0 && physics.adapts();
+    physics.chosen_step = step <= 0 && chooses;
     if (step > 0 || !physics.adapts()) physics.step = step > 0 ? step : engine.step;
-    if (physics.adapts() || catalog != nullptr) {  // written out only where it means something
+    if (physics.adapts() || catalog != nullptr) {  // written out only if it has an effect
       f.number(
           "accuracy", physics.accuracy,
           {"", 1e-6, 0.5,
@@ -105,11 +107,11 @@ void PhysicsFields::fields(Fields& f) {
            "at rest). The integrator adaptive divides its steps until they agree to that."});
     }
   } else {
-    std::string any;  // which there are depends on the engine
+    std::string any;  // the set depends on the engine
     f.text("integrator", any, "");
   }
   f.vector("gravity", span_of(physics.gravity), {"m/s^2", -1000, 1000, "Acceleration of gravity, world axes."});
-  // Written out only where it is not the default: older goldens do not have it.
+  // Written out only if it differs from the default, because older goldens do not contain it.
   if (catalog == nullptr && physics.estimate == Estimate::full) return;
   f.choice(
       "estimate", physics.estimate, enum_names<Estimate>(),
@@ -123,8 +125,8 @@ void ContactSettings::fields(Fields& f) {
            "penalty: Fn = Kn p^k + Cd p^d p' >= 0; friction -f Fn v/v_lim up to v_lim, then -f Fn v/|v|. bullet: Bullet's own "
            "solver, for comparison and clutter; it has none of the keys below but `on`.");
   f.choice("on", on, enum_names<ContactSet>(),
-           "Which elements touch: those of the free blocks' feet, of every block, or none.");
-  if (solver()) return;
+           "Contact elements that touch the ground: feet of the free blocks, all, or none.");
+  if (!model().penalty_settings) return;
   f.number("stiffness", penalty.kn,
            {"N/m^k", 0, 1e12, "Kn of the spring. On stiffer ground the robot sinks in less, and steps must be shorter."});
   f.number("exponent", penalty.k, {"", 1, 10, "k: exponent of the depth in the spring's force."});
@@ -166,7 +168,7 @@ void PluginFields::fields(Fields& f) {
     sound = count(problems) == before;
     if (sound && choice.entry != nullptr && own_keys) visit_settings(*choice.entry, choice.settings.get(), f);
   } catch (const PluginError& error) {
-    if (problems == nullptr) throw;  // nobody would see it
+    if (problems == nullptr) throw;  // the error would be lost
     f.problem("type", error.what());
   }
   sound = count(problems) == before;
@@ -187,22 +189,21 @@ void FigureSettings::fields(Fields& f) {
 void Limits::fields(Fields& f) {
   f.number("warn_share", warn_share,
            {"", 0, 1,
-            "Share of what motors, gears and docks have (torque at that speed, ratings) above which the verdict warns. "
+            "Share of the limits of motors, gears and docks (torque at that speed, ratings) above which the verdict warns. "
             "Default: chosen."});
   f.number("tracking_error", tracking_error,
            {"rad", kPositive, 1000,
-            "Largest difference of a set point and its angle; up to twice that is a warning, more a failure. Default: what the "
-            "axis of the paper's figure 14 has room for."});
+            "Largest difference of a set point and its angle; up to twice that is a warning, more a failure. Default: the axis "
+            "of the paper's figure 14."});
   f.number(
       "saturated_share", saturated_share,
       {"", 0, 1,
        "Share of the judged window that a joint may be at a limit of its motor; less is a warning, more a failure. Default: "
        "chosen."});
-  f.number(
-      "saturated_periods", saturated_periods,
-      {"", 0, 1e6,
-       "How many control periods on end it may be there; a longer stretch is a failure. Default: chosen; one or two are the "
-       "answer to a step of the set point."});
+  f.number("saturated_periods", saturated_periods,
+           {"", 0, 1e6,
+            "Longest stretch at the limit, in control periods; a longer one is a failure. Default: chosen; a step of the set "
+            "point takes one or two."});
   f.number("height", height,
            {"", 0, 1,
             "Share of its height above the ground at the start below which the centre of mass has fallen. Default: chosen."});
@@ -210,20 +211,21 @@ void Limits::fields(Fields& f) {
       "tilt", tilt,
       {"rad", kPositive, 4, "Tilt of the base from its start above which the verdict warns. Default: 60 degrees, chosen."});
   f.number("beyond_range", beyond_range,
-           {"rad", 0, 100, "How far a joint may be beyond its range; less is a warning. Default: chosen, a soft stop's give."});
+           {"rad", 0, 100,
+            "Largest angle of a joint beyond its range; less is a warning. Default: chosen, the deflection of a soft stop."});
   f.number("beyond_range_share", beyond_range_share,
            {"", 0, 1, "Share of the time that a joint may be beyond its range; less is a warning. Default: chosen."});
-  f.number("start_jump", start_jump,
-           {"rad", 0, 100,
-            "Jump of a set point at t = 0 above which there is a warning. Default: half of what the axis of the paper's figure "
-            "14 has room for."});
+  f.number(
+      "start_jump", start_jump,
+      {"rad", 0, 100,
+       "Jump of a set point at t = 0 above which there is a warning. Default: half of the axis of the paper's figure 14."});
   f.number("touch", touch,
            {"m", 0, 10,
-            "How deep two bodies may be in one another without a word. Default: the roundness of cylinders, which are prisms "
-            "here, and the give of a hinge's stop."});
+            "Overlap of two bodies above which there is a warning. Default: covers the error of cylinders (computed as prisms) "
+            "and the deflection of a hinge's stop."});
   f.number("collision", collision,
-           {"m", 0, 10, "How deep two bodies may be in one another; less is a warning, more a failure. Default: chosen."});
-  f.number("sink", sink, {"m", 0, 10, "How deep a body may be in the ground. Default: the softness of the ground."});
+           {"m", 0, 10, "Largest overlap of two bodies; less is a warning, more a failure. Default: chosen."});
+  f.number("sink", sink, {"m", 0, 10, "Largest depth of a body in the ground. Default: covers the compression of the ground."});
   f.number(
       "energy_residual", energy_residual,
       {"", 0, 1,
@@ -231,17 +233,17 @@ void Limits::fields(Fields& f) {
        "error of the torques that is judged."});
   f.number("energy_created", energy_created,
            {"", 0, 1, "Share of the energy drawn that back-driven gears may create (eq. 2). Default: chosen."});
-  f.number(
-      "slip", slip,
-      {"", 0, 1e6,
-       "Share of its way that a robot may slide on its feet, weighted by their loads; more is a warning. Default: chosen."});
+  f.number("slip", slip,
+           {"", 0, 1e6,
+            "Largest slip distance of the feet, weighted by their loads, as a share of the robot's path; more is a warning. "
+            "Default: chosen."});
   f.number("torque_error", torque_error,
            {"", kPositive, 1,
-            "Estimated error of a joint's torque, share of its largest, above which a run is no evidence of a gait. Default: "
+            "Estimated error of a joint's torque, as a share of its largest torque, above which a run is not judged. Default: "
             "chosen."});
   f.number("progress", progress,
            {"", 0, 1000,
-            "Least travel per period, share of the robot's extent; less is a failure. Default: 0, with which less than a "
+            "Least travel per period, as a share of the robot's extent; less is a failure. With the default, 0, less than a "
             "hundredth is a warning."});
 }
 
@@ -255,8 +257,8 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
   actuator.host = [this, &s](Fields& f) {
     if (writing && s.actuator_source.empty()) return;
     f.text("source", s.actuator_source,
-           "Who says the figures that this section gives instead of the module types', such as a data sheet; a verdict repeats "
-           "it. Without it they count as chosen.");
+           "Source of the values that this section gives instead of the module types', such as a data sheet; the verdict cites "
+           "it. Without a source they count as chosen.");
   };
   controller.host = [&s](Fields& f) {
     f.number("period", s.control_period,
@@ -271,9 +273,9 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
 void SectionFields::fields(Fields& f) {
   GroundFields ground{scenario.ground, writing};
   f.group("initial", scenario.initial, "State at the start.");
-  f.group("physics", physics, "How time is integrated.");
-  f.group("ground", ground, "What the robot stands on.");
-  f.group("contact", scenario.contact, "How the robot touches the ground.");
+  f.group("physics", physics, "Engine and time integration.");
+  f.group("ground", ground, "The ground.");
+  f.group("contact", scenario.contact, "Contact of the robot with the ground.");
   const auto group = [&f](PluginFields& section) {
     const PluginKind& kind = describe(section.kind);
     f.group(kind.section, section, kind.about);
@@ -283,8 +285,8 @@ void SectionFields::fields(Fields& f) {
   if (has_cpg) group(cpg);
   f.number("duration", scenario.duration, {"s", kPositive, 1e6, "Simulated time; required."});
   f.group("trace", scenario.trace, "The recorded trace.");
-  if (!writing || scenario.limits != Limits()) f.group("limits", scenario.limits, "What the verdict on a run allows.");
-  if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "What figure.svg shows.");
+  if (!writing || scenario.limits != Limits()) f.group("limits", scenario.limits, "Limits of the verdict.");
+  if (!writing || !scenario.figure.joints.empty()) f.group("figure", scenario.figure, "Content of figure.svg.");
   f.integer("seed", scenario.seed, {"", 0, 9e18, "Seed of the random number generator."});
 }
 

@@ -8,35 +8,35 @@
 
 namespace gaitlab {
 
-/// The robot's keys on how it stands.
+/// Keys of the robot's initial pose and base.
 struct BaseFields {
   Scenario& scenario;
-  bool with_position = true;  ///< writing: only where it says something
-  std::size_t numbers = 2;    ///< out: of the position
+  bool with_position = true;  ///< writing: only if the position matters
+  std::size_t numbers = 2;    ///< out: how many numbers the position has
   void fields(Fields& f);
 };
 
-/// `physics`. The catalog may be absent when writing.
+/// The section `physics`. The catalog may be absent when writing.
 struct PhysicsFields {
   Physics& physics;
   const Catalog* catalog;
-  const Problems* problems = nullptr;  ///< reading: what shows that the engine's name was wrong
-  bool solver = false;                 ///< reading: contact.law is bullet, whose default step is another
+  const Problems* problems = nullptr;    ///< reading: what shows that the engine's name was wrong
+  ContactLaw law = ContactLaw::penalty;  ///< reading: contact.law, by which the default of the step differs
   void fields(Fields& f);
 };
 
-/// `actuator`, `controller` or `cpg`: a plugin by its type, its settings, and the host's own key.
+/// The section `actuator`, `controller` or `cpg`: type of the plugin, its settings, and one key of the host.
 struct PluginFields {
   Kind kind;
   PluginSelection& choice;
-  std::string type;        ///< where the scenario names none; "none": no plugin
+  std::string type;        ///< default type; "none": no plugin
   const Catalog* catalog;  ///< may be absent when writing
   std::function<void(Fields&)> host = {};
-  std::function<void(const Entry&, void* settings)> presets = {};  ///< defaults other than the plugin's own
-  const Problems* problems = nullptr;                              ///< reading: what shows that the type was wrong
-  bool own_keys = true;                                            ///< explaining: the plugin's manual has them
+  std::function<void(const Entry&, void* settings)> presets = {};  ///< defaults that replace the plugin's
+  const Problems* problems = nullptr;                              ///< reading: shows whether the type was wrong
+  bool own_keys = true;                                            ///< explaining: false, because the plugin's manual has them
   bool none = false;                                               ///< out: `none` was chosen
-  bool sound = true;                                               ///< out: the settings can be used
+  bool sound = true;                                               ///< out: the settings are usable
 
   void fields(Fields& f);
 
@@ -44,13 +44,13 @@ struct PluginFields {
   void choose(Fields& f);
 };
 
-/// What follows the robot, in the file's order.
+/// Sections after the robot, in the file's order.
 struct SectionFields {
   Scenario& scenario;
   PhysicsFields physics;
   PluginFields actuator, controller, cpg;
   bool has_cpg = true;
-  bool writing = false;  ///< out in full: only what the ground's type has
+  bool writing = false;  ///< writing in full: only the keys of the ground's type
 
   /// catalog, problems: as above. `actuator_type`: the default.
   SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type);

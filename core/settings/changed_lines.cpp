@@ -12,7 +12,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::size_t kMostPairs = 4'000'000;  // of lines that are compared, of 2 bytes each
+constexpr std::size_t kMostPairs = 4'000'000;  // of compared lines, of 2 bytes each
 
 using Lines = std::vector<std::string_view>;
 
@@ -44,7 +44,7 @@ class CommonLines {
   [[nodiscard]] bool kept(std::size_t i, std::size_t j) const {
     return !length_.empty() && i < a_.size() && j < b_.size() && a_[i] == b_[j];
   }
-  /// Whether line i of the first text is in no longest subsequence from here on.
+  /// Whether no longest subsequence contains line i of the first text from here on.
   [[nodiscard]] bool gone(std::size_t i, std::size_t j) const {
     if (i == a_.size() || j == b_.size()) return j == b_.size();
     return length_.empty() || at(i + 1, j) >= at(i, j + 1);
@@ -59,7 +59,7 @@ class CommonLines {
   std::vector<std::uint16_t> length_;  // empty: too many lines to compare
 };
 
-/// Of a long line, what is left of its beginning once the other line has been seen to share it.
+/// Rest of a long line after the beginning that it shares with the other line.
 std::string_view from_the_change(std::string_view line, std::string_view other) {
   constexpr std::size_t kShort = 60;
   constexpr std::size_t kBefore = 20;
@@ -104,7 +104,7 @@ std::vector<std::string> changed_lines(const std::string& then, const std::strin
     std::size_t end_j = j;
     while ((end_i < a.size() || end_j < b.size()) && !common.kept(end_i, end_j)) ++(common.gone(end_i, end_j) ? end_i : end_j);
     for (; i < end_i || j < end_j; i = std::min(i + 1, end_i), j = std::min(j + 1, end_j)) {
-      if (i < end_i && j < end_j && a[i] == b[j]) continue;  // where there were too many lines to compare
+      if (i < end_i && j < end_j && a[i] == b[j]) continue;  // equal, if there were too many lines to compare
       if (changed.size() == most) {
         ++more;
       } else {

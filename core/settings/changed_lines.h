@@ -1,4 +1,4 @@
-// In which lines two texts differ: scenarios as they were resolved, then and now.
+// Lines in which two texts differ: the resolved scenarios of two runs.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace gaitlab {
 
-/// One sentence per line that was changed, added or removed, in the order of `now`: `line 136: "Kp: 97", was "Kp: 100"`, with
-/// `nothing` for the side that has no such line. The number is that of the line in `now`; a removed line has that of the line
-/// that now stands in its place. At most `most` sentences, and then one that counts the others.
+/// One sentence per changed, added or removed line, in the order of `now`: `line 136: "Kp: 97", was "Kp: 100"`, with `nothing`
+/// for the side without that line. The number is that of the line in `now`; for a removed line, that of the line now in its
+/// place. At most `most` sentences, and then one with the number of the others.
 std::vector<std::string> changed_lines(const std::string& then, const std::string& now, std::size_t most = 10);
 
 }  // namespace gaitlab

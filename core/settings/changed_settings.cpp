@@ -15,20 +15,20 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::size_t kShortValue = 30;      // characters: a longer value is shown from a little before the change on
-constexpr std::size_t kBeforeTheChange = 8;  // characters of it
-constexpr std::size_t kLongestVector = 6;    // elements: an inertia; a longer list is compared element by element
+constexpr std::size_t kShortValue = 30;      // characters: of a longer value only the part around the change is shown
+constexpr std::size_t kBeforeTheChange = 8;  // characters shown before the change
+constexpr std::size_t kLongestVector = 6;    // elements, as in an inertia; a longer list is compared element by element
 constexpr std::string_view kNotSet = "not set";
 
 bool is_scalar(const Node& node) { return node.kind == Node::Kind::scalar || node.kind == Node::Kind::null; }
 
-/// A vector, a dock: it is read as one value.
+/// Whether a list is one value, such as a vector or a dock.
 bool is_vector(const Node& node) {
   return node.kind == Node::Kind::list && node.items.size() <= kLongestVector &&
          std::all_of(node.items.begin(), node.items.end(), is_scalar);
 }
 
-/// In one line.
+/// Value on one line.
 std::string value_text(Node node) {
   node.flow = true;
   std::string text = print_yaml(node);
@@ -36,9 +36,9 @@ std::string value_text(Node node) {
   return text;
 }
 
-/// Of a long value the part around what changed; `same` characters are those of the other value, too.
+/// Part of a long value around the change; its first `same` characters are equal in the other value.
 std::string around(const std::string& text, std::size_t same) {
-  const auto inside = [&](std::size_t at) {  // a character of several bytes
+  const auto inside = [&](std::size_t at) {  // whether the byte is inside a character of several bytes
     return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80;
   };
   std::size_t from = text.size() > kShortValue && same > kBeforeTheChange ? same - kBeforeTheChange : 0;
@@ -98,7 +98,7 @@ class SettingsDifference {
     }
   }
 
-  /// Without what both lists begin and end with, so that one element in the middle of a list is one change.
+  /// Compares two lists without their common beginning and end, so that one element in the middle of a list is one change.
   void elements(const std::string& key, const Node& then, const Node& now) {
     const auto same = [](const Node& a, const Node& b) { return value_text(a) == value_text(b); };
     std::size_t begin = 0;

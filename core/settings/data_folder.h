@@ -1,10 +1,10 @@
-// Where the module types and robots that come with the program are.
+// Folder of the module types and robots that are shipped with the program.
 #pragma once
 #include <string>
 
 namespace gaitlab {
 
-/// `../share/gaitlab/scenarios` beside the program's folder where it is installed, else the source tree's scenarios.
+/// `../share/gaitlab/scenarios` beside the program's folder if it is installed, else the source tree's scenarios.
 std::string data_folder();
 
 }  // namespace gaitlab

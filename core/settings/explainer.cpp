@@ -62,7 +62,7 @@ std::string markdown_table(const std::vector<KeyRow>& rows) {
   };
   std::string out = "| key | unit | default | range | meaning |\n|---|---|---|---|---|\n";
   for (const KeyRow& row : rows) {
-    // Spaces at the left show depth, which a table of Markdown would swallow.
+    // Spaces at the left show the depth; a table of Markdown would drop them.
     const std::size_t depth = std::min(row.key.find_first_not_of(' '), row.key.size());
     std::string key;
     for (std::size_t i = 0; i < depth; ++i) key += "&nbsp;";
@@ -153,7 +153,7 @@ void Explainer::on(const char* key, const char* about, const field::Map& field) 
 
 void Explainer::elements(const char* key, const field::List& list) {
   const std::size_t size = list.size(list.self);
-  if (size == 0) list.resize(list.self, 1);  // an element with its defaults, to look at
+  if (size == 0) list.resize(list.self, 1);  // an element with defaults, to be listed
   const std::string before = prefix_;
   prefix_ += std::string(key) + "[].";
   ++depth_;

@@ -1,4 +1,4 @@
-// Lists the keys of Settings structs with unit, default, range and sentence: `gaitlab explain`.
+// List of the keys of Settings structs with unit, default, range and sentence: `gaitlab explain`.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,12 +7,12 @@
 
 namespace gaitlab {
 
-/// One line of the table.
+/// One row of the table.
 struct KeyRow {
   std::string key, unit, preset, range, about;  ///< preset: the default
 };
 
-/// The rows as text of at most 80 columns: key, unit, default and range, and below them the sentence.
+/// The rows as text of at most 80 columns: key, unit, default and range, and the sentence below.
 std::string table(const std::vector<KeyRow>& rows);
 /// The same as a table of Markdown.
 std::string markdown_table(const std::vector<KeyRow>& rows);
@@ -23,11 +23,11 @@ class Explainer final : public Fields {
   void visit(const Field& field) override;
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 
-  /// A row by hand.
+  /// Adds a row that is not a field.
   void row(const std::string& key, const std::string& unit, const std::string& preset, const std::string& range,
            const std::string& about);
   [[nodiscard]] const std::vector<KeyRow>& rows() const { return rows_; }
-  /// The keys of the outermost map alone.
+  /// Keys of the outermost map.
   [[nodiscard]] const std::vector<std::string>& keys() const { return keys_; }
 
  private:

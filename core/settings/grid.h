@@ -1,4 +1,4 @@
-// Rows of numbers, all of one length: in the scenario, or as a file.
+// Rows of numbers of equal length: in the scenario, or in a file.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,11 +10,12 @@ namespace gaitlab {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// The rows of a list of lists named `what`; empty with problems where a row is not a list, is longer or shorter than the
-/// first, or a number is wrong.
+/// Rows of a list of lists named `what`; empty with problems if a row is not a list, its length differs from the first row's,
+/// or a number is wrong.
 Rows read_rows(const Node& list, const std::string& what, const Spec& spec, Problems& problems);
 
-/// A text with a row per line, numbers separated by commas or blanks, comments after #: as such a list, each with its place.
+/// Node of a text with one row per line, numbers separated by commas or blanks, comments after #: a list of lists, each with
+/// its place.
 Node grid_node(const std::string& text, const std::string& file);
 
 }  // namespace gaitlab

@@ -21,10 +21,10 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 32;
 
-/// Leaves the parser after a problem that makes the rest unreadable.
+/// Thrown to leave the parser after a problem that makes the rest unreadable.
 struct Stop {};
 
-/// The first tab among the blanks that lines begin with, up to and with line `last` (from 0).
+/// The first tab in the indentation of a line, up to and including line `last` (from 0).
 std::optional<SourceLocation> indenting_tab(const std::string& text, const std::string& file, int last) {
   std::size_t begin = 0;
   for (int line = 0; line <= last && begin < text.size(); ++line) {
@@ -65,7 +65,7 @@ class TreeBuilder final : public YAML::EventHandler {
     node.quoted = tag == "!";
     node.source = text_;
     node.position = static_cast<std::size_t>(std::max(0, mark.pos));
-    // A quoted scalar has the tag "!" of its own; an explicit one starts with '!' in the text.
+    // A quoted scalar implicitly has the tag "!"; an explicit tag starts with '!' in the text.
     const bool explicit_tag = tag != "?" && (tag != "!" || character(mark) == '!');
     check_tag(mark, explicit_tag, tag);
     add(std::move(node));
@@ -81,11 +81,11 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
  private:
-  /// A list or map that is still growing.
+  /// A list or map that is not complete yet.
   struct Open {
     Node node;
     bool has_key = false, duplicate = false;
-    std::unordered_map<std::string, std::size_t> index = {};  ///< of the keys so far: linear look-up would be quadratic
+    std::unordered_map<std::string, std::size_t> index = {};  ///< of the keys so far: linear search would take quadratic time
   };
 
   [[nodiscard]] SourceLocation at(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
@@ -150,11 +150,11 @@ class TreeBuilder final : public YAML::EventHandler {
     }
   }
 
-  /// A duplicate key's value is dropped: the problem is noted, and reading goes on to find others.
+  /// The value of a duplicate key is dropped: the problem is noted, and reading continues to find others.
   void add_item(Node node) {
     Open& top = stack_.back();
     const bool in_map = top.node.kind == Node::Kind::map;
-    // yaml-cpp places a value that is absent where the next text stands.
+    // yaml-cpp places an absent value at the beginning of the next text.
     const bool absent = node.kind == Node::Kind::null && in_map && !top.duplicate;
     if (absent && node.place.line != top.node.keys.back().second.line) node.place = top.node.keys.back().second;
     if (!top.duplicate) top.node.items.push_back(std::move(node));
@@ -175,7 +175,7 @@ std::optional<Node> build(const std::string& text, const std::string& file, Prob
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) throw InputError({file}, "the file is empty; expected a map (KEY: VALUE lines)");
-    // A second call, never a loop: on stray text yaml-cpp reports documents without end.
+    // A second call instead of a loop: on stray text yaml-cpp reports documents without end.
     parser.HandleNextDocument(builder);
     return builder.take();
   } catch (const Stop&) {

@@ -1,4 +1,5 @@
-// yaml-cpp gives the start of a scalar alone (of a block scalar its `|`); the rest is read again from the source.
+// yaml-cpp gives only the start of a scalar (for a block scalar that of its `|`); the other places are found by reading the
+// source again.
 #include "core/settings/node_places.h"
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@
 namespace gaitlab {
 namespace {
 
-/// Bytes of the source from `at` that make the character c of a text; 0 where they do not.
+/// Number of bytes of the source at `at` that represent the character c of a text; 0 if they represent another one.
 std::size_t length_of(const std::string& source, std::size_t at, char quote, char c) {
   if (at >= source.size() || source[at] == '\n') return 0;
   if (quote == '\'' && c == '\'') return source.compare(at, 2, "''") == 0 ? 2 : 0;
@@ -19,7 +20,7 @@ std::size_t length_of(const std::string& source, std::size_t at, char quote, cha
   return source[at] == c ? 1 : 0;
 }
 
-/// In one line, in quotes or without.
+/// Place in a scalar on one line, with or without quotes.
 SourceLocation in_line(const Node& scalar, std::size_t offset) {
   const std::string& source = *scalar.source;
   const char first = source[scalar.position];
@@ -50,7 +51,7 @@ std::size_t first_content(const std::string& text, std::size_t line) {
   return std::string::npos;
 }
 
-/// In a block after `|`: every line of the text is a line of the source, moved to the right by the block's indentation.
+/// Place in a block after `|`: every line of the text is a line of the source, indented.
 SourceLocation in_block(const Node& scalar, std::size_t offset) {
   const std::string& source = *scalar.source;
   const std::size_t end_of_header = source.find('\n', scalar.position);

@@ -1,4 +1,4 @@
-// Where a character of a scalar stands in the file.
+// Location in the file of a character of a scalar.
 #pragma once
 #include <cstddef>
 #include <string_view>
@@ -7,12 +7,11 @@
 
 namespace gaitlab {
 
-/// SourceLocation of the byte `offset` of a scalar's text (its size: just behind the last character) for plain and quoted
-/// scalars in one line and for block scalars (`|`). Where the text cannot be followed (folded over several lines, given by
-/// --set), the scalar's own place.
+/// Place of the byte `offset` of a scalar's text (its size: just behind the last character), for plain and quoted scalars on
+/// one line and for block scalars (`|`). For other scalars (folded over several lines, given by --set) the scalar's place.
 SourceLocation place_in(const Node& scalar, std::size_t offset);
 
-/// A problem there; where the text cannot be followed, the character's number is told.
+/// Adds a problem there; for such other scalars the message contains the character's number.
 void add_in(const Node& scalar, std::size_t offset, std::string_view what, Problems& problems);
 
 }  // namespace gaitlab

@@ -102,10 +102,10 @@ Node& map_item(Node& map, const std::string& key, const SourceLocation& place) {
   return map.items.emplace_back(Node{Node::Kind::null, place});
 }
 
-/// Whether a key can only be one of a value per joint: `m3/active`, a pattern, or `default`.
+/// Whether a key belongs to a value per joint: `m3/active`, a pattern, or `default`.
 bool of_joints(const std::string& key) { return key == "default" || is_pattern(key) || key.find('/') != std::string::npos; }
 
-/// A number as the map that means the same for every joint.
+/// Replaces a number by the equivalent map with the same value for every joint.
 void spread(Node& number) {
   Node map{Node::Kind::map, number.place};
   map.keys.emplace_back("default", number.place);
@@ -164,7 +164,7 @@ std::string described(const std::string& key, const Node& value) {
   return out.empty() ? clipped(key) : out;
 }
 
-/// Takes out what `gone` says of each key and value; returns their names.
+/// Removes the keys and values for which `gone` is true; returns their names.
 template <class Gone>
 std::string take_out(Node& map, const std::string& prefix, Gone gone) {
   std::string dropped;
@@ -191,7 +191,7 @@ std::string drop_from(Node& section, bool cpg, const std::vector<std::string>& k
     const bool empty_model = cpg && key == "model" && value.kind == Node::Kind::map && value.items.empty();
     return !empty_model && !is_set(value) && std::find(known.begin(), known.end(), key) == known.end();
   });
-  // A model that lost all its keys goes silently: they are named already.
+  // A model that lost all its keys is removed without mention: the keys are named already.
   take_out(section, "",
            [&](const std::string& key, const Node& value) { return cpg && key == "model" && value.items.empty(); });
   return dropped + (dropped.empty() || others.empty() ? "" : ", ") + others;

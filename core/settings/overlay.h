@@ -13,16 +13,16 @@ struct Retyped {
   std::string section, from, to;
 };
 
-/// Applies the texts in order (types first, so that the order of the options does not matter). A changed node's place is the
-/// option itself. Malformed texts go to `problems`.
+/// Applies the texts in order (types first, so that the order of the options does not matter). The place of a changed node is
+/// the option. Malformed texts are added to `problems`.
 std::vector<Retyped> apply_sets(Node& root, const std::vector<std::string>& sets, Problems& problems);
 
-/// Takes a source of `actuator` that --set gives no word of out where --set gives other keys of that section: the source does
-/// not say these. Returns a line for the user; empty: there is nothing to take out.
+/// Removes the `source` of `actuator` if --set changes other keys of that section and not the source: the source does not state
+/// the new values. Returns a message for the user; empty: nothing was removed.
 std::string drop_source(Node& root, const std::vector<std::string>& sets);
 
-/// What of a retyped section the new type does not know is taken out, unless it was itself given by --set: keys of the old
-/// type, and all of the old CPG's `model`. Returns a line for the user per section that lost something.
+/// Removes keys of a retyped section that the new type does not have, unless --set gave them: keys of the old type, and all of
+/// the old CPG's `model`. Returns a message for the user per section that lost keys.
 std::vector<std::string> drop_old_keys(Node& root, const std::vector<Retyped>& retyped, const Catalog& catalog);
 
 }  // namespace gaitlab

@@ -6,14 +6,15 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/math/periods.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
 namespace {
 
-constexpr double kTolerance = 1e-9;  // relative, of a ratio to its nearest whole number
+constexpr double kTolerance = 1e-9;  // relative, of a ratio to the nearest whole number
 
-/// The largest period of which both are whole multiples, by Euclid's algorithm; 0 where they have none above b * 1e-7.
+/// Largest period of which both are whole multiples, by Euclid's algorithm; 0 if there is none above b * 1e-7.
 double common_divisor(double a, double b) {
   const double smallest = std::min(a, b) * 1e-7;
   while (b > smallest) {
@@ -25,7 +26,7 @@ double common_divisor(double a, double b) {
   return 0;
 }
 
-/// To 12 digits, far within the tolerance: 0.015 is offered rather than 0.015000000000000001.
+/// Rounds to 12 digits, far within the tolerance: messages offer 0.015 rather than 0.015000000000000001.
 double rounded(double value) {
   const std::string text = fmt::format("{:.12g}", value);
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -44,11 +45,11 @@ std::size_t digits(double value) {
   return count;
 }
 
-/// The candidate divisor/k nearest to `start` in the direction of `towards` (+1 or -1 for k) that is a short decimal; without
-/// one near enough, the nearest of all.
+/// The candidate divisor/k nearest to `start` in the direction of `towards` (+1 or -1 for k) that is a short decimal; without a
+/// near short one, the nearest of all.
 double fitting(const std::vector<double>& periods, double divisor, double first, double towards) {
   const auto fits = [&](double step) {
-    return std::all_of(periods.begin(), periods.end(), [&](double period) { return whole_multiple(period, step) > 0; });
+    return std::all_of(periods.begin(), periods.end(), [&](double period) { return math::whole_steps(period, step) > 0; });
   };
   const double last = towards > 0 ? first * 2 : std::max(1.0, std::floor(first / 2));
   double nearest = 0;
@@ -73,12 +74,6 @@ double longest_step(double control_period) {
   return control_period / std::max(1.0, std::ceil(control_period / kLongestStep - kTolerance));
 }
 
-double whole_multiple(double period, double step) {
-  const double ratio = period / step;
-  const double whole = std::round(ratio);
-  return whole >= 1 && std::isfinite(ratio) && std::abs(ratio - whole) <= kTolerance * ratio ? whole : 0;
-}
-
 std::vector<double> fitting_steps(const std::vector<double>& periods, double step) {
   double divisor = periods.front();
   for (const double period : periods) divisor = divisor > 0 ? common_divisor(divisor, period) : 0;
@@ -98,7 +93,7 @@ std::vector<double> fitting_periods(double period, double step) {
   for (const double count : {std::floor(period / step), std::ceil(period / step)}) {
     if (count >= 1) out.push_back(rounded(count * step));
   }
-  out.erase(std::remove_if(out.begin(), out.end(), [&](double p) { return whole_multiple(p, step) == 0; }), out.end());
+  out.erase(std::remove_if(out.begin(), out.end(), [&](double p) { return math::whole_steps(p, step) == 0; }), out.end());
   return out;
 }
 
@@ -108,7 +103,7 @@ void check_periods(const std::vector<Period>& periods, const Period& step, const
   all.reserve(periods.size());
   for (const Period& period : periods) all.push_back(period.value);
   for (const Period& period : periods) {
-    if (whole_multiple(period.value, step.value) > 0) continue;
+    if (math::whole_steps(period.value, step.value) > 0) continue;
     std::string text =
         fmt::format("{} {} s is not a whole multiple of the {} {} s ({} steps)", period.name, number_text(period.value),
                     step.name, number_text(step.value), fmt::format("{:.12g}", period.value / step.value));

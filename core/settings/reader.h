@@ -1,4 +1,4 @@
-// Fills Settings structs from a map of a YAML text: types, ranges and names checked, every finding with its place.
+// Reader of Settings structs from a YAML map: checks types, ranges and names, and reports every problem with its location.
 #pragma once
 #include <initializer_list>
 #include <string>
@@ -9,34 +9,34 @@
 
 namespace gaitlab {
 
-/// Names of the robot's joints; nullptr where the robot could not be built (what depends on them is then not checked).
+/// Names of the robot's joints; nullptr if the robot could not be built (values that depend on them are then not checked).
 using JointNames = const std::vector<std::string>*;
 
-/// One map. Visit the fields, then call finish(): it reports the keys that no field asked for.
-/// A field that is absent or wrong keeps its value.
+/// Reader of one map. Visit the fields, then call finish(), which reports the keys that were not read. A field that is absent
+/// or wrong keeps its value.
 class Reader final : public Fields {
  public:
-  /// `node` should be a map: anything else is a problem of `name`. The node and the problems must outlive the reader.
-  /// `folder`: where the paths of files start.
+  /// `node` should be a map; for anything else a problem named `name` is added. The node and the problems must outlive the
+  /// reader. `folder`: base of relative file paths.
   Reader(const Node& node, const std::string& name, Problems& problems, JointNames joints, std::string folder = {});
-  /// A map that is absent: every field keeps its default. `place`: its parent's.
+  /// Reader of an absent map: every field keeps its default. `place`: place of the parent.
   Reader(const SourceLocation& place, Problems& problems, JointNames joints, std::string folder = {});
 
   void visit(const Field& field) override;
   void problem_at(const char* key, std::string_view name, std::size_t offset, std::string_view what) override;
 
-  /// The value of a key, or nullptr; the key counts as known from now on.
+  /// Value of a key, or nullptr; the key then counts as known.
   const Node* take(const char* key);
   [[nodiscard]] bool has(const char* key) const { return map_->find(key) != nullptr; }
-  /// A format version, of which this program reads 1; false with a problem where it is another one.
+  /// Reads a format version; false with a problem for any version except 1.
   bool version(const char* key) { return version(key, 1) != 0; }
-  /// The same, of versions 1 to `newest`: the version, 1 where none is given, 0 with a problem.
+  /// Reads a format version from 1 to `newest`: 1 if none is given, 0 with a problem.
   std::int64_t version(const char* key, std::int64_t newest);
-  /// From now on only these keys are read; the fields of others keep their values.
+  /// Restricts reading to these keys; other fields keep their values.
   void only(std::vector<std::string> keys) { only_ = std::move(keys); }
-  /// Reports the keys that are missing.
+  /// Reports missing keys.
   void require(std::initializer_list<const char*> keys);
-  /// Reports every key that was not asked for.
+  /// Reports every key that was not read.
   void finish();
 
  private:
@@ -63,23 +63,23 @@ class Reader final : public Fields {
   bool read_one(const Node& node, const std::string& what, const Spec& spec, double& value);
   void read_each(const Node& node, const std::string& key, const Spec& spec, std::span<double> value);
   void read_each_joint(const Node& node, const char* key, const field::EachJoint& field);
-  /// Of a field without a default: reports the first joint that has no value.
+  /// For a field without a default: reports the first joint without a value.
   void require_each(const char* key, const Node* node, const PerJoint& value);
   void read_joint_list(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
-  /// Whether every joint has a value there, by name, pattern or default.
+  /// Whether every joint gets a value, by name, pattern or default.
   bool read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value);
   void read_named(const Node& node, const std::string& what, NamedValues kind, Named& value);
   void read_named_numbers(const Node& node, const std::string& what, PerJoint& value);
   /// Number of a joint by its name, or -1 with a problem.
   std::int64_t joint_number(const std::string& name, const SourceLocation& place);
 
-  Node empty_;  ///< stands in for a map that is absent or no map
+  Node empty_;  ///< replaces an absent map, or a value that is not a map
   const Node* map_;
   Problems& problems_;
   JointNames joints_;
   std::string folder_;
   std::vector<std::string> known_, only_;
-  bool tolerant_ = false;  ///< which keys are known is itself unknown
+  bool tolerant_ = false;  ///< the set of known keys is uncertain
 };
 
 }  // namespace gaitlab

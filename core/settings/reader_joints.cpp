@@ -58,13 +58,13 @@ namespace {
 
 using Key = std::pair<std::string, SourceLocation>;
 
-/// What a map says of a joint.
+/// Entry of a map for a joint.
 struct Said {
   const Key* key = nullptr;  ///< nullptr: nothing
   double number = 0;
 };
 
-/// Two patterns that disagree on a joint; `more`: on how many others.
+/// Reports two patterns with different values for a joint; `more`: number of further such joints.
 void report_clash(const std::string& joint, std::size_t more, const Said& first, const Key& key, double number,
                   Problems& problems) {
   problems
@@ -84,7 +84,7 @@ bool Reader::read_joint_map(const Node& node, const std::string& key, const Spec
   if (node.keys.size() > (common != nullptr ? 1U : 0U) && read.each.empty() && joints_ != nullptr) {
     read.each.assign(joints_->size(), read.common);
   }
-  std::vector<Said> said(joints_ == nullptr ? 0 : joints_->size());  // by name; then by pattern, where no name did
+  std::vector<Said> said(joints_ == nullptr ? 0 : joints_->size());  // by name; else by pattern
   std::vector<std::pair<const Key*, double>> patterns;
   for (std::size_t i = 0; i < node.keys.size(); ++i) {
     const auto& [name, place] = node.keys[i];
@@ -131,7 +131,7 @@ std::int64_t Reader::joint_number(const std::string& name, const SourceLocation&
 void Reader::on(const char* key, const field::Joint& field) {
   const Node* node = take(key);
   if (node == nullptr) {
-    // A plugin's default joint may be one that this robot has not; -1 means none.
+    // The default joint of a plugin may not exist in this robot; -1: none.
     const bool beyond = joints_ != nullptr && field.value >= 0 && static_cast<std::size_t>(field.value) >= joints_->size();
     if (beyond && !tolerant_) problems_.add(map_->place, "missing key " + in_quotes(key));
     return;

@@ -9,7 +9,7 @@ namespace gaitlab {
 
 using Json = nlohmann::ordered_json;
 
-/// A map with these keys and no other.
+/// Schema of a map with exactly these keys.
 Json object_schema(Json properties);
 
 /// Visit fields, then take properties().

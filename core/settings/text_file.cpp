@@ -17,7 +17,8 @@ namespace {
   throw InputError(asked_at, fmt::format("file '{}' {}", path, what));
 }
 
-/// Bytes of the UTF-8 character that starts at `at`; 0 where there is none (overlong forms and surrogates included).
+/// Number of bytes of the UTF-8 character that starts at `at`; 0 if there is no valid character (also for overlong forms and
+/// surrogates).
 std::size_t utf8_length(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const unsigned first = byte(at);
@@ -33,7 +34,7 @@ std::size_t utf8_length(const std::string& text, std::size_t at) {
   return overlong || outside ? 0 : length;
 }
 
-/// What is wrong with the character at `at`, or empty.
+/// Error of the character at `at`, or empty.
 std::string bad_character(const std::string& text, std::size_t at) {
   const auto c = static_cast<unsigned char>(text[at]);
   if (c == '\t' || c == '\n') return {};

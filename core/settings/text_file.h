@@ -1,4 +1,4 @@
-// A text file as a whole: the one place that opens what a user names.
+// Text files named by the user: the only code that opens them.
 #pragma once
 #include <string>
 
@@ -7,7 +7,7 @@
 namespace gaitlab {
 
 /// Reads a regular file of at most kMostScenario bytes. Throws InputError at `asked_at`, the place that names the file, or at
-/// the file itself where asked_at is empty.
+/// the file itself if asked_at is empty.
 std::string read_text(const std::string& path, const SourceLocation& asked_at = {});
 
 /// A file that another text names, as a scenario names its modules.
@@ -19,7 +19,7 @@ struct NamedFile {
 };
 
 /// Checks that messages may quote a file that a text in `folder` names: the file is within `folder`, links followed, or comes
-/// with the program. A text from elsewhere may name any file of this machine, and other people read the log of a CI.
+/// with the program. A scenario from elsewhere may name any file of this machine, and the log of a CI may be public.
 bool may_quote(const std::string& path, const std::string& folder);
 /// End of a message on another file.
 inline constexpr const char* kNotShown = "its text is not shown, because it lies outside the folder of the file that names it";
@@ -28,10 +28,11 @@ inline constexpr const char* kNotShown = "its text is not shown, because it lies
 /// become one problem without a word of the file: `is not a module file; ...`.
 void add_found(const Problems& found, const NamedFile& file, Problems& problems);
 
-/// `path` as seen from `folder` (an absolute path stays).
+/// `path` relative to `folder` (an absolute path is unchanged).
 std::string path_from(const std::string& folder, const std::string& path);
 
-/// Throws InputError at the first byte that no text has: invalid UTF-8, NUL or another control character, a CR without LF.
+/// Throws InputError at the first byte that does not belong in a text: invalid UTF-8, NUL or another control character, a CR
+/// without LF.
 void check_text(const std::string& text, const std::string& file);
 
 }  // namespace gaitlab

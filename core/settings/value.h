@@ -7,7 +7,7 @@
 
 namespace gaitlab {
 
-/// A value, or what is wrong with it as the rest of a sentence: `is 'fast'; expected a number in s`.
+/// A value, or an error as the rest of a sentence: `is 'fast'; expected a number in s`.
 template <class T>
 struct Reading {
   T value = {};

@@ -70,7 +70,7 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
     };
     std::string line = take();
     const bool code = line.starts_with("    ");
-    const std::size_t own = code ? line.find_first_not_of(' ') : 0;  // blanks before its first word
+    const std::size_t own = code ? line.find_first_not_of(' ') : 0;  // blanks before the first word
     while (indent + line.size() > width) {
       std::size_t at = line.rfind(' ', width - indent);
       if (at == std::string::npos || at < line.find_first_not_of(' ')) at = line.find(' ', line.find_first_not_of(' '));
@@ -80,7 +80,7 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
       if (code) {
         line.insert(0, own + 8, ' ');
       } else if (begin < text.size() && text[begin] != ' ' && text[begin] != '\n') {
-        line += " " + take();  // what is left goes on in the paragraph
+        line += " " + take();  // the rest continues in the paragraph
       }
     }
     out += (line.empty() ? "" : std::string(indent, ' ')) + line + "\n";
@@ -115,7 +115,7 @@ void add_all(const InputError& error, Problems& problems) {
 }
 
 bool is_name(const std::string& text, const std::string& also) {
-  const auto within = [](char c, char from, char to) { return c >= from && c <= to; };  // std::isalnum asks the locale
+  const auto within = [](char c, char from, char to) { return c >= from && c <= to; };  // std::isalnum depends on the locale
   const auto fits = [&](char c) {
     return within(c, 'a', 'z') || within(c, 'A', 'Z') || within(c, '0', '9') || also.find(c) != std::string::npos;
   };

@@ -1,4 +1,4 @@
-// Writes Settings structs as maps, every default in full: the resolved scenario.
+// Writer of Settings structs as maps, with every default in full: the resolved scenario.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,12 +9,12 @@
 namespace gaitlab {
 
 Node scalar_node(std::string text, bool quoted = false);
-/// A text: quoted where a reader could take it for something else.
+/// Node of a text: quoted if a reader could take it for something else.
 Node text_node(const std::string& text);
-/// A list in one line.
+/// Node of a list on one line.
 Node numbers_node(std::span<const double> values);
 
-/// One map, filled by visiting fields.
+/// Writer of one map, filled by visiting fields.
 class Writer final : public Fields {
  public:
   /// Joints are written by name.

@@ -12,7 +12,7 @@ bool is_null_text(const std::string& text) {
   return text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL";
 }
 
-/// Whether a reader takes the bare text for this very scalar. In one line between brackets more characters have a meaning.
+/// Whether a reader takes the bare text for this scalar. In a list or map on one line more characters have a meaning.
 bool plain_safe(const std::string& text, bool in_flow) {
   if (is_null_text(text) || text.front() == ' ' || text.back() == ' ' || text.back() == ':') return false;
   if (std::string("?:,[]{}#&*!|>'\"%@`").find(text.front()) != std::string::npos) return false;
@@ -50,7 +50,7 @@ std::string scalar(const std::string& text, bool quoted, bool in_flow) {
   return !quoted && plain_safe(text, in_flow) ? text : double_quoted(text);
 }
 
-/// A key is read like a scalar in brackets, as far as safety goes: a colon must not end it early.
+/// A key is quoted like a scalar in brackets: a colon must not end it early.
 std::string key_text(const std::string& key) { return scalar(key, false, true); }
 
 std::string flow(const Node& node) {
@@ -76,7 +76,7 @@ bool is_block(const Node& node) {
   return (node.kind == Node::Kind::list || node.kind == Node::Kind::map) && !node.flow && !node.items.empty();
 }
 
-/// Several lines that a block after `|` holds as they are; a first line that begins with a space would need more than that.
+/// Whether a block after `|` can hold the lines unchanged; a first line that begins with a space cannot.
 bool fits_block(const Node& node) {
   const std::string& text = node.text;
   if (node.kind != Node::Kind::scalar || !node.quoted || text.find('\n') == std::string::npos) return false;

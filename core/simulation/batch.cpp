@@ -11,9 +11,9 @@ namespace gaitlab {
 
 namespace {
 
-using LaneGroup = std::vector<std::size_t>;  ///< indices of rollouts that wait
+using LaneGroup = std::vector<std::size_t>;  ///< indices of waiting rollouts
 
-/// How many lanes to take for so many rollouts that are left: all that the widest gives, or the fewest that hold the rest.
+/// Number of lanes for `left` remaining rollouts: the smallest width that holds all of them, else the largest, at most `most`.
 std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::size_t most) {
   std::size_t best = widths.front();
   for (const std::size_t lanes : widths) {
@@ -24,7 +24,7 @@ std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::si
   return best;
 }
 
-/// What waits to be run, and the packs that threads take of it.
+/// Queue of rollouts that wait to run; threads take packs from it.
 class Waiting {
  public:
   Waiting(const BatchStream& stream, const BatchSettings& settings, std::size_t look_ahead)
@@ -54,7 +54,7 @@ class Waiting {
   }
 
  private:
-  /// The last ones are divided among the threads.
+  /// Size of a pack for which all threads have work: the last rollouts are divided among them.
   [[nodiscard]] std::size_t fair(std::size_t left) const {
     const auto threads = static_cast<std::size_t>(std::max(1, settings_.threads));
     return more_ ? left : (left + threads - 1) / threads;
@@ -68,10 +68,10 @@ class Waiting {
   bool more_ = true;
 };
 
-/// One by itself; false: stopped.
-bool run_alone(RolloutEnd& end, const BatchStream& stream, Loads loads, const std::atomic<bool>& stop) {
+/// Runs one rollout alone; false: stopped.
+bool run_alone(RolloutEnd& end, const BatchStream& stream, Records records, const std::atomic<bool>& stop) {
   try {
-    Simulation simulation({&end.rollout.scenario, 1}, loads);
+    Simulation simulation({&end.rollout.scenario, 1}, records);
     if (stream.watch) simulation.watch([&](std::size_t, const Recording& so_far) { return stream.watch(end.rollout, so_far); });
     std::optional<Outcome> thrown;
     try {
@@ -87,16 +87,16 @@ bool run_alone(RolloutEnd& end, const BatchStream& stream, Loads loads, const st
   return true;
 }
 
-/// All of a pack; false: stopped.
-bool run_pack(std::vector<RolloutEnd>& pack, const BatchStream& stream, const BatchSettings& settings, Loads loads,
+/// Runs a whole pack; false: stopped.
+bool run_pack(std::vector<RolloutEnd>& pack, const BatchStream& stream, const BatchSettings& settings, Records records,
               const std::atomic<bool>& stop) {
   if (pack.size() > 1) {
     try {
       std::vector<Scenario> lanes;
       for (const RolloutEnd& one : pack) lanes.push_back(one.rollout.scenario);
-      // One that stands twice fills a lane that nobody needs.
+      // Unused lanes repeat the last rollout.
       lanes.resize(width(lanes.front().physics.engine->lanes, lanes.size(), settings.lanes), lanes.back());
-      Simulation simulation(lanes, loads);
+      Simulation simulation(lanes, records);
       if (stream.watch) {
         simulation.watch([&](std::size_t lane, const Recording& so_far) {
           return stream.watch(pack[std::min(lane, pack.size() - 1)].rollout, so_far);
@@ -105,16 +105,16 @@ bool run_pack(std::vector<RolloutEnd>& pack, const BatchStream& stream, const Ba
       if (!simulation.run({}, &stop)) return false;
       for (std::size_t l = 0; l < pack.size(); ++l) pack[l].recording = simulation.take_recording(l);
       return true;
-    } catch (const RunError&) {  // one lane's, or of what all share: each tells for itself
+    } catch (const RunError&) {  // an error of one lane or of what all share: run_alone reports it for each rollout
     } catch (const InputError&) {
     }
   }
-  return std::ranges::all_of(pack, [&](RolloutEnd& one) { return run_alone(one, stream, loads, stop); });
+  return std::ranges::all_of(pack, [&](RolloutEnd& one) { return run_alone(one, stream, records, stop); });
 }
 
 }  // namespace
 
-bool run_pulled(const BatchStream& stream, const BatchSettings& settings, Loads loads, std::atomic<bool>& stop,
+bool run_pulled(const BatchStream& stream, const BatchSettings& settings, Records records, std::atomic<bool>& stop,
                 std::size_t look_ahead) {
   Waiting waiting(stream, settings, look_ahead);
   std::atomic<bool> whole = true;
@@ -125,7 +125,7 @@ bool run_pulled(const BatchStream& stream, const BatchSettings& settings, Loads 
         std::vector<RolloutEnd> pack;
         for (Rollout& one : waiting.take()) pack.push_back({std::move(one)});
         if (pack.empty()) return;
-        if (!run_pack(pack, stream, settings, loads, stop)) break;
+        if (!run_pack(pack, stream, settings, records, stop)) break;
         stream.end(std::move(pack));
       }
       whole = false;
@@ -137,11 +137,9 @@ bool run_pulled(const BatchStream& stream, const BatchSettings& settings, Loads 
   return whole;
 }
 
-void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings,
-               const std::function<void(std::size_t, Recording&&)>& end) {
-  std::vector<std::vector<Problem>> refused(rollouts.size());
+bool run_all(std::span<const Scenario> rollouts, const BatchSettings& settings, Records records, std::atomic<bool>& stop,
+             const std::function<void(std::size_t, RolloutEnd&&)>& end) {
   std::size_t next = 0;
-  std::atomic<bool> stop = false;
   const BatchStream stream{.next = [&]() -> std::optional<Rollout> {
                              if (next == rollouts.size()) return {};
                              const std::size_t number = next++;
@@ -150,14 +148,24 @@ void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings
                            .end =
                                [&](std::vector<RolloutEnd>&& pack) {
                                  for (RolloutEnd& one : pack) {
-                                   if (one.refused.empty()) {
-                                     end(one.rollout.number, std::move(one.recording));
-                                   } else {
-                                     refused[one.rollout.number] = std::move(one.refused);
-                                   }
+                                   const std::size_t number = one.rollout.number;
+                                   end(number, std::move(one));
                                  }
                                }};
-  run_pulled(stream, settings, Loads::left_out, stop, rollouts.size());
+  return run_pulled(stream, settings, records, stop, rollouts.size());
+}
+
+void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings,
+               const std::function<void(std::size_t, Recording&&)>& end) {
+  std::vector<std::vector<Problem>> refused(rollouts.size());
+  std::atomic<bool> stop = false;
+  run_all(rollouts, settings, Loads::left_out, stop, [&](std::size_t number, RolloutEnd&& one) {
+    if (one.refused.empty()) {
+      end(number, std::move(one.recording));
+    } else {
+      refused[number] = std::move(one.refused);
+    }
+  });
   for (std::vector<Problem>& problems : refused) {
     if (!problems.empty()) throw InputError(std::move(problems));
   }

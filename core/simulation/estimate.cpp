@@ -1,8 +1,9 @@
-// The rollouts beside a run, from which the error of its torques is estimated: how they are made, stepped and compared.
+// Companion rollouts of a run, for the estimate of its torque error: their scenarios, steps and comparison.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "core/math/periods.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/simulation/lane.h"
 #include "core/simulation/simulation.h"
@@ -11,18 +12,18 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kEventShare = 0.01;  // of a torque's peak, of integrators without an accuracy
-constexpr double kChaotic = 1e-9;     // of gravity
-/// What multiplies a difference of torque, by Companion.
+constexpr double kEventShare = 0.01;  // event threshold, as a share of a torque's peak, for integrators without an accuracy
+constexpr double kChaotic = 1e-9;     // relative change of gravity
+/// Factors on a torque difference, by Companion.
 constexpr std::array<double, kDifferences> kFactors{StepError::kOfFiner, StepError::kOfCoarser, 1, 1000};
 
-/// Steps of h in as many control periods as last for `seconds`.
+/// Number of steps of h in the whole control periods that `seconds` needs.
 std::int64_t whole_periods(double seconds, double h, std::int64_t control_every) {
   const double periods = seconds / (h * static_cast<double>(control_every));
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(periods - 1e-9))) * control_every;
 }
 
-/// Of a run with an accuracy.
+/// Companions of a run with an accuracy.
 std::vector<Scenario> companions(const Scenario& s) {
   std::vector<Scenario> all(kCompanions, s);
   all[static_cast<std::size_t>(Companion::twin)].physics.accuracy *= StepError::kFiner;
@@ -46,17 +47,18 @@ std::vector<Scenario> Simulation::side_by_side(std::span<const Scenario> lanes, 
   return all;
 }
 
-/// What fits a whole run is compared every kApart or less; windows are of a fixed step.
+/// Comparison times: over the whole run every kApart or less if the integrator has an accuracy, in windows if the step is
+/// fixed.
 TwinWindows Simulation::twin_windows() const {
   const Physics& physics = scenarios_[0].physics;
-  const std::int64_t control_every = std::llround(scenarios_[0].control_period / h_);
+  const std::int64_t control_every = math::steps_in(scenarios_[0].control_period, h_);
   TwinWindows how;
   for (std::int64_t n = 1; n <= control_every; ++n) {
     if (control_every % n == 0 && static_cast<double>(n) * h_ <= StepError::kApart * (1 + 1e-9)) how.compare = n;
   }
   if (physics.adapts()) return how;
   const double ratio = 1 << physics.integrator->order;
-  // An explicit step of twice the length may be too long for the robot.
+  // With an explicit method twice the step may be unstable.
   const bool longer = control_every % 2 == 0 && !(standing_.rate > 0);
   how.steps = longer ? 2 : -2;
   how.factor = (longer ? 1 : ratio) * StepError::kSafety / (ratio - 1);
@@ -66,8 +68,9 @@ TwinWindows Simulation::twin_windows() const {
   return how;
 }
 
-/// The twin of windows has as many lanes as the run. Rollouts beside a run that has an accuracy are lanes of its own pack, or,
-/// on a processor without such lanes, simulations of one lane each: the bits are the same.
+/// Companions that are separate simulations. With a fixed step: one twin with as many lanes as the run, compared in windows.
+/// With an accuracy the companions are lanes of the run's pack or, on a processor without such lanes, simulations of one lane
+/// each; the bits are the same.
 std::vector<std::unique_ptr<Simulation>> Simulation::rollouts_apart() const {
   std::vector<std::unique_ptr<Simulation>> all;
   const auto add = [&](std::span<const Scenario> lanes) {
@@ -85,12 +88,13 @@ std::vector<std::unique_ptr<Simulation>> Simulation::rollouts_apart() const {
   return all;
 }
 
-/// Where there are motors, and a state that can be copied. Several runs with an accuracy side by side are not estimated: each
-/// needs lanes of its own.
+/// Sets up the estimate if there are motors and the state can be copied. Several runs with an accuracy side by side are not
+/// estimated: each would need a pack of lanes for itself.
 void Simulation::make_estimate() {
   const Physics& physics = scenarios_[0].physics;
   const bool wanted = std::ranges::any_of(scenarios_, [](const Scenario& s) { return s.physics.estimate == Estimate::full; });
-  const bool possible = physics.adapts() ? recorded_ == 1 : physics.integrator->order > 0 && plant_->state_is_complete();
+  const bool possible =
+      physics.adapts() ? recorded_ == 1 : physics.integrator->order > 0 && scenarios_[0].contact.model().complete_state;
   if (!wanted || !possible || actuator_ == nullptr || layout_.joints == 0) return;
   how_ = twin_windows();
   apart_ = rollouts_apart();
@@ -100,7 +104,7 @@ void Simulation::make_estimate() {
   const StateLayout layout{layout_.joints, recorded_};
   step_error_ = std::make_unique<StepError>(layout, accuracy);
 
-  // One array for all that changes: this, the sums, the rollouts apart.
+  // One array for all changing numbers: this simulation's, the sums', the separate companions'.
   const std::size_t own = own_.size();
   const std::size_t sums = StepError::size(layout);
   std::size_t size = own + sums;
@@ -117,16 +121,16 @@ void Simulation::make_estimate() {
   numbers_ = std::move(numbers);
 }
 
-/// Before a step: at the start of a window the twin goes on from here.
+/// Before a step: at the start of a window the twin takes over this state.
 void Simulation::begin_window() {
   if (!how_.begins(step_number())) return;
   Simulation& twin = *apart_.front();
   std::ranges::copy(own_, twin.own_.begin());
-  twin.state_[0] = static_cast<double>(std::llround(time() / twin.h_));
+  twin.state_[0] = static_cast<double>(math::steps_in(time(), twin.h_));
   for (std::size_t l = 0; l < lanes_.size(); ++l) twin.lanes_[l]->closed = lanes_[l]->closed;
 }
 
-/// Motor torques of all lanes now.
+/// Present motor torques of all lanes.
 In Simulation::torques_now() {
   actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
   return torque_;
@@ -161,8 +165,7 @@ void Simulation::estimate_in_window(bool asked, double t) {
   step_error_->compare(Companion::twin, apart_.front()->torques_now(), how_.factor, weight, t);
 }
 
-/// step() of a rollout beside a run: nothing is recorded, and a lane that leaves the numbers, or whose plugin throws, waits at
-/// its start.
+/// step() of a companion: records nothing; a lane that diverges or whose plugin throws stops and stays at its initial state.
 void Simulation::step_companion(int times) try {
   for (int i = 0; i < times; ++i) {
     if (any(&Simulation::control_tick)) {
@@ -173,7 +176,7 @@ void Simulation::step_companion(int times) try {
     state_[0] += 1;
     check();
   }
-} catch (const PluginError& error) {  // the run goes on
+} catch (const PluginError& error) {  // the run continues
   for (const auto& lane : lanes_) fail(*lane, stopped(error));
 }
 

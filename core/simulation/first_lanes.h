@@ -8,11 +8,11 @@
 
 namespace gaitlab {
 
-/// Copies of them, each in a place that the caller names; the arrays themselves where all lanes are wanted. The methods
+/// Copies of these entries, in a slot that the caller names, or the arrays themselves if all lanes are wanted. The methods
 /// allocate nothing.
 class FirstLanes {
  public:
-  enum Place { torque, speed, angle, setpoint, voltage, current, saturation, power_in, copper, gear, places };
+  enum Place { torque, speed, angle, setpoint, voltage, current, saturation, power_in, copper, gear, available, places };
 
   FirstLanes(const StateLayout& layout, std::size_t lanes) : layout_(layout), lanes_(lanes) {
     for (auto& copy : copies_) copy.assign(layout.joints * lanes, 0.0);
@@ -20,7 +20,7 @@ class FirstLanes {
   [[nodiscard]] bool all() const { return lanes_ == layout_.lanes; }
   In of(In values, Place place) { return all() ? values : In(copy(values, 0, copies_[place])); }
   Out of(Out values, Place place) { return all() ? values : copy(values, 0, copies_[place]); }
-  /// As many lanes from `lane` on.
+  /// Entries of the same number of lanes, from `lane` on.
   In from(In values, std::size_t lane) { return copy(values, lane, copies_[torque]); }
 
  private:

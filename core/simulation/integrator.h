@@ -3,14 +3,15 @@
 #include <array>
 #include <vector>
 
+#include "core/math/runge_kutta.h"
 #include "core/model/kinematics.h"
 
 namespace gaitlab {
 
 /// semi_implicit: v+ = v + h a(q, v), q+ = q (+) h v+ (order 1, symplectic for conservative forces); rk4: the classical
-/// Runge-Kutta method (order 4), the orientation as a quaternion q' = (0, omega) q / 2 normalised after the step. Both
-/// explicit: for stiff damping of rate lambda they need h lambda <= 2 and 2.8; the lab keeps h lambda <= 1. `accelerate(state,
-/// weight, out)` is called once with weight 1, or four times with 1/6, 1/3, 1/3, 1/6. No allocation in step.
+/// Runge-Kutta method (order 4), the orientation as a quaternion q' = (0, omega) q / 2 normalised after the step. Both are
+/// explicit: for damping of rate lambda they are stable up to h lambda = 2 and 2.8; gaitlab requires h lambda <= 1.
+/// `accelerate(state, weight, out)` is called once with weight 1, or four times with 1/6, 1/3, 1/3, 1/6. No allocation in step.
 class ExplicitIntegrator {
  public:
   enum Method { semi_implicit, rk4 };
@@ -48,10 +49,10 @@ class ExplicitIntegrator {
     for (std::size_t j = 0; j < s.q.size(); ++j) s.qd[j] += h * a.joints[j];
   }
 
-  /// q' = (0, omega) q / 2, as numbers to be added up.
+  /// q' = (0, omega) q / 2, as coefficients to be summed.
   static Quat spin(const Vec3& omega, const Quat& q) { return Quat(0, 0.5 * omega.x(), 0.5 * omega.y(), 0.5 * omega.z()) * q; }
 
-  /// s = start + h * (velocities of `at`, a): at's orientation may be off the unit sphere, as RK4 needs it.
+  /// s = start + h * (velocities of `at`, a). The orientation of `at` need not have unit length: an RK4 stage has not.
   void from_start(RobotState& s, const RobotState& at, const Acceleration& a, double h) const {
     s.position = start_.position + h * at.velocity;
     s.orientation.coeffs() = start_.orientation.coeffs() + h * spin(at.angular_velocity, at.orientation).coeffs();
@@ -77,12 +78,12 @@ class ExplicitIntegrator {
 
   template <class Accelerate>
   void runge_kutta(RobotState& s, double h, Accelerate&& accelerate) {
-    constexpr std::array<double, 4> kWeight{1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
-    constexpr std::array<double, 4> kReach{0.5, 0.5, 1.0, 0.0};
+    constexpr auto kWeight = math::RungeKutta::kWeight;
+    constexpr auto kReach = math::RungeKutta::kReach;
     start_ = s;
     clear(rate_);
     for (std::size_t i = 0; i < 4; ++i) {
-      // The dynamics see a unit quaternion; the stage itself keeps its length, or the order is lost.
+      // The dynamics use a unit quaternion; the stage keeps its own length, without which the method would lose its order.
       const Quat raw = s.orientation;
       s.orientation.normalize();
       accelerate(s, kWeight[i], a_);

@@ -1,26 +1,27 @@
-// One rollout within a simulation: what is scalar of it.
+// One rollout within a simulation: everything that is not an array over lanes.
 #pragma once
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "core/math/periods.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/simulation/cpg_integrator.h"
 #include "core/simulation/lane_clock.h"
-#include "core/simulation/load_meter.h"
+#include "core/simulation/recorder.h"
 #include "core/simulation/simulation.h"
 
 namespace gaitlab {
 
-/// Its CPG, controller, sensors, trace row.
+/// CPG, controller, sensors and trace row of a rollout.
 struct Simulation::Lane {
-  Lane(const Scenario& s, std::size_t lane_index)
-      : Lane(s, lane_index, info(*s.robot), contact_elements(*s.robot, s.contact.on)) {}
-  Lane(const Scenario& s, std::size_t lane_index, const RobotInfo& info, std::vector<ContactElement> elements)
+  Lane(const Scenario& s, std::size_t lane_index, bool rows)
+      : Lane(s, lane_index, rows, info(*s.robot), contact_elements(*s.robot, s.contact.on)) {}
+  Lane(const Scenario& s, std::size_t lane_index, bool rows, const RobotInfo& info, std::vector<ContactElement> elements)
       : scenario(s),
         robot(*s.robot),
         index(lane_index),
-        clock(s),
+        clock(s, rows),
         contacts(std::move(elements)),
         cpg(make_cpg(s.cpg, info)),
         controller(make_controller(s.controller, info)),
@@ -38,7 +39,7 @@ struct Simulation::Lane {
 
   /// CPG states from t to t + Ts, inputs held.
   void integrate_cpg(double t) {
-    integrator.advance(*cpg, cpg_state, t, whole(scenario.control_period, scenario.cpg_step), scenario.cpg_step,
+    integrator.advance(*cpg, cpg_state, t, math::steps_in(scenario.control_period, scenario.cpg_step), scenario.cpg_step,
                        [&](double at) { return measured(at); });
   }
 
@@ -46,7 +47,7 @@ struct Simulation::Lane {
   const Robot& robot;
   std::size_t index;
   LaneClock clock;
-  bool closed = false;  ///< its record is complete
+  bool closed = false;  ///< its recording is complete
   Outcome outcome;
   std::vector<ContactElement> contacts;
   std::vector<std::size_t> passive = {};  ///< joints without a motor
@@ -54,14 +55,10 @@ struct Simulation::Lane {
   std::unique_ptr<Controller> controller;
   Out cpg_state, controller_state, ledger;                                       // parts of the one state array
   double energy_at_start = 0;                                                    // J
-  std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // one lane, contiguous, for the plugins
+  std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // one lane, contiguous, as plugins take them
   Sample sample;
   CpgIntegrator integrator;
-  std::unique_ptr<Probes> probes;
-  std::unique_ptr<LoadMeter> loads;  ///< nullptr: nobody asked
-  Recording recording;
-  std::int64_t ticks_per_row = 1;  ///< control ticks per row of Recording::ticks
-  bool loads_due = false;          ///< that row has none of Recording::loads yet
+  std::unique_ptr<Recorder> recorder;  ///< nullptr: it goes beside a run
 };
 
 }  // namespace gaitlab

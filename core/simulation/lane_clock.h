@@ -1,28 +1,30 @@
-// When a rollout commands, records and ends, in steps of the simulation.
+// Schedule of a rollout: control ticks, trace rows and its end, in steps of the simulation.
 #pragma once
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "core/math/periods.h"
 #include "core/scenario/scenario.h"
 
 namespace gaitlab {
 
-/// Control ticks are at whole steps. Rows and the end are, too, where the step is given; where the integrator chooses its steps
-/// they may lie within one. Times: s.
+/// Control ticks are at whole steps. With a given step rows and the end are at whole steps also; if the integrator chooses its
+/// steps, they may lie within one. Times: s.
 class LaneClock {
  public:
-  explicit LaneClock(const Scenario& s)
+  /// rows = false: only the end is recorded.
+  explicit LaneClock(const Scenario& s, bool rows = true)
       : step_(s.physics.step),
         duration_(s.duration / step_),
-        period_(s.trace.period / step_),
-        control_every_(std::llround(s.control_period / step_)) {
+        period_(rows ? s.trace.period / step_ : std::numeric_limits<double>::infinity()),
+        control_every_(math::steps_in(s.control_period, step_)) {
     if (s.physics.adaptive_step) return;
-    duration_ = std::round(duration_);  // which the scenario's check has made exact to 1e-9
+    duration_ = std::round(duration_);  // the scenario's check has made it exact to 1e-9
     period_ = std::round(period_);
   }
 
-  /// Steps until the end, a last one that is cut included.
+  /// Number of steps until the end, a shortened last one included.
   [[nodiscard]] std::int64_t steps() const { return static_cast<std::int64_t>(std::ceil(duration_ - kSame)); }
   [[nodiscard]] bool commands(std::int64_t step) const { return step < steps() && step % control_every_ == 0; }
   /// Whether the rollout ends with this step, just reached.
@@ -32,8 +34,8 @@ class LaneClock {
     if (at > duration_ + kSame) return false;
     return ends(step) || std::abs(std::round(at / period_) * period_ - at) <= kSame;
   }
-  /// The next row, or the end, after `after` seconds of the step that starts now and before its end; infinity: there is none.
-  /// To a picosecond: rows of one time are the same bits, of whatever period they are a multiple.
+  /// Time of the next row or of the end, later than `after` seconds into the step that starts now and before its end; infinity:
+  /// none. Rounded to a picosecond: rows at one time have the same bits for every period of which it is a multiple.
   [[nodiscard]] double row_within(std::int64_t step, double after) const {
     const double from = static_cast<double>(step) + after / step_;
     const double row = (std::floor(from / period_ + kSame) + 1) * period_;
@@ -42,16 +44,16 @@ class LaneClock {
     if (within > 1 - kSame || at > duration_ + kSame) return std::numeric_limits<double>::infinity();
     return std::round(at * step_ * kPicoseconds) / kPicoseconds - static_cast<double>(step) * step_;
   }
-  /// Whether the rollout ends `within` seconds of the step that starts now.
+  /// Whether the rollout ends `within` seconds into the step that starts now.
   [[nodiscard]] bool ends_within(std::int64_t step, double within) const {
     return std::abs(static_cast<double>(step) + within / step_ - duration_) <= kSame;
   }
 
  private:
-  static constexpr double kSame = 1e-7;         ///< steps: rounding of a run of 1e8 of them stays below
-  static constexpr double kPicoseconds = 1e12;  ///< in a second
+  static constexpr double kSame = 1e-7;         ///< steps: above the rounding error of 1e8 steps
+  static constexpr double kPicoseconds = 1e12;  ///< per second
 
-  double step_, duration_, period_;  ///< s; then in steps
+  double step_, duration_, period_;  ///< s at first, then steps
   std::int64_t control_every_;
 };
 

@@ -13,34 +13,49 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kLoaded = 0.005;  // of the weight: less is the flicker of a foot that leaves the ground
+constexpr double kLoaded = 0.005;  // of the weight: smaller loads are the flicker of a foot that lifts off
 
-enum FootColumn : std::size_t { kFootForce, kFootPoint = 3, kFootSlid = 6, kFootColumns };
+enum FootColumn : std::size_t {
+  kFootForce,
+  kFootPoint = 3,
+  kFootSlid = 6,
+  kFootColumns
+};  // Loads::judged has the column slid alone
 
 double level(const Vec3& v) { return std::sqrt(v.x() * v.x() + v.y() * v.y()); }
 
-/// Seven digits are more than the law of contact knows, and half the bytes of a trace file.
+bool states_what_docks_hold(const Robot& robot) {
+  const auto states = [](const Connector& c) { return c.tension > 0 || c.shear > 0 || c.bending > 0 || c.torsion > 0; };
+  for (std::size_t m = 1; m < robot.modules.size(); ++m) {
+    if (std::ranges::any_of(connectors_at(robot, m), states)) return true;
+  }
+  return false;
+}
+
+/// Rounds to single precision: seven digits exceed the accuracy of the contact law, and halve the bytes of a trace file.
 double single(double value) { return static_cast<double>(static_cast<float>(value)); }
 
 }  // namespace
 
-LoadMeter::LoadMeter(const Scenario& scenario, const std::vector<ContactElement>& elements)
+LoadMeter::LoadMeter(const Scenario& scenario, const std::vector<ContactElement>& elements, Loads wanted)
     : robot_(*scenario.robot),
       elements_(elements),
       sample_(robot_, elements.size(), 0),
       weight_(robot_.mass * scenario.physics.gravity.norm()),
-      plane_(scenario.ground.kind == Ground::Kind::plane),
+      stability_(wanted == Loads::recorded && scenario.ground.is_plane()),
+      forces_(wanted == Loads::recorded),
       before_(robot_),
       touched_(elements.size()) {
   sample_.gravity = scenario.physics.gravity;
   support_.reserve(elements.size());
-  for (std::size_t m = 1; m < robot_.modules.size() && !scenario.contact.solver(); ++m) {
+  for (std::size_t m = 1; m < robot_.modules.size() && scenario.contact.model().element_forces; ++m) {
     const Module& module = robot_.modules[m];
     const Module& parent = robot_.modules[static_cast<std::size_t>(module.parent)];
     const FaceType& face = *find_face(robot_.types[parent.type], module.dock.parent_face);
     const Body& body = robot_.bodies[parent.first_body + face.body];
     docks_.push_back({m, body.link, body.in_link.R * face.normal});
   }
+  if (wanted == Loads::judged && !states_what_docks_hold(robot_)) docks_.clear();
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const auto same = [&](const Foot& foot) { return foot.body == elements[e].body; };
     auto foot = std::ranges::find_if(feet_, same);
@@ -57,7 +72,7 @@ void LoadMeter::add_columns(const Scenario& scenario) {
   add("t", "s", "time");
   add("path", "m", "horizontal way of the centre of mass from t = 0, from row to row");
   add("slip", "m", "way that contact points slid under load, times the load over the weight, from t = 0");
-  if (plane_) add("stability", "m", "how far the centre of mass is within the support polygon; outside negative");
+  if (stability_) add("stability", "m", "how far the centre of mass is within the support polygon; outside negative");
   for (const DockFace& dock : docks_) {
     const auto of_dock = [&](const char* quantity, const char* unit, const char* definition) {
       add(fmt::format("dock.{}.{}", dock.module, quantity), unit, definition + fmt::format(" at m{}/dock", dock.module));
@@ -73,11 +88,16 @@ void LoadMeter::add_columns(const Scenario& scenario) {
     const auto of_foot = [&](const char* quantity, const char* unit, const char* definition) {
       add(fmt::format("foot.{}.{}", body, quantity), unit, definition + body);
     };
-    for (const char* const axis : {"fx", "fy", "fz"}) of_foot(axis, "N", "force of the ground, world axes, on ");
-    for (const char* const axis : {"x", "y", "z"}) of_foot(axis, "m", "where the normal forces act, world axes, on ");
+    if (forces_) {
+      for (const char* const axis : {"fx", "fy", "fz"}) of_foot(axis, "N", "force of the ground, world axes, on ");
+      for (const char* const axis : {"x", "y", "z"}) of_foot(axis, "m", "where the normal forces act, world axes, on ");
+    }
     of_foot("slid", "m", "way slid under load, from t = 0, of ");
   }
 }
+
+/// Number of columns per foot.
+std::size_t LoadMeter::foot_width() const { return forces_ ? std::size_t{kFootColumns} : 1; }
 
 double LoadMeter::slide(std::size_t e) const {
   const ContactSample& now = sample_.contacts[e];
@@ -91,7 +111,7 @@ void LoadMeter::measure(Foot& foot, Out row) {
   Vec3 force = Vec3::Zero();
   Vec3 point = Vec3::Zero();
   double load = 0;
-  double loads = 0;  // of both ticks
+  double loads = 0;  // sum of both ticks' loads
   double way = 0;
   for (const std::size_t e : foot.elements) {
     const ContactSample& contact = sample_.contacts[e];
@@ -114,11 +134,12 @@ void LoadMeter::measure(Foot& foot, Out row) {
   if (load > 0) foot.point = point / load;
   foot.load = load;
   foot.idle = foot.idle && !(load > 0);
+  row.back() = single(foot.slid);
+  if (!forces_) return;
   for (Eigen::Index i = 0; i < 3; ++i) {
     row[kFootForce + static_cast<std::size_t>(i)] = single(force[i]);
     row[kFootPoint + static_cast<std::size_t>(i)] = single(foot.point[i]);
   }
-  row[kFootSlid] = single(foot.slid);
 }
 
 double LoadMeter::margin() {
@@ -131,13 +152,13 @@ double LoadMeter::margin() {
 
 void LoadMeter::measure(Out row) {
   const Kinematics& k = sample_.kinematics;
-  for (std::size_t i = 0; i < feet_.size(); ++i) measure(feet_[i], row.subspan(foot_columns_ + i * kFootColumns));
+  for (std::size_t i = 0; i < feet_.size(); ++i) measure(feet_[i], row.subspan(foot_columns_ + i * foot_width(), foot_width()));
   if (!first_) path_ += level(sample_.sums.com - com_before_);
   std::size_t at = 0;
   row[at++] = sample_.t;
   row[at++] = single(path_);
   row[at++] = single(slip_);
-  if (plane_) row[at++] = single(margin());
+  if (stability_) row[at++] = single(margin());
   for (const DockFace& dock : docks_) {
     const DockLoad load = dock_load(sample_.reactions.dock(dock.module), k.R[dock.link] * dock.normal);
     for (const double value : {load.tension, load.shear, load.bending, load.torsion}) row[at++] = single(value);
@@ -156,7 +177,7 @@ void LoadMeter::measure(Out row) {
 void LoadMeter::drop_idle_feet(Trace& loads) const {
   std::vector<std::size_t> kept;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
-    if (c < foot_columns_ || !feet_[(c - foot_columns_) / kFootColumns].idle) kept.push_back(c);
+    if (c < foot_columns_ || !feet_[(c - foot_columns_) / foot_width()].idle) kept.push_back(c);
   }
   Trace left;
   for (const std::size_t c : kept) left.columns.push_back(columns_[c]);

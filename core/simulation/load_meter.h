@@ -1,33 +1,38 @@
-// What docks and feet bear, how far feet slide and how safely the robot stands, at control ticks.
+// Loads of docks and feet, slip distances of feet and stability margin, at control ticks.
 #pragma once
 #include <vector>
 
-#include "core/simulation/probes.h"
+#include "core/recording/recording.h"
+#include "core/scenario/scenario.h"
+#include "core/simulation/records.h"
+#include "core/simulation/sample.h"
 
 namespace gaitlab {
 
 /// Fills the rows of Recording::loads, one after the other. Definitions: docs/conventions.md, "Loads".
 class LoadMeter {
  public:
-  LoadMeter(const Scenario& scenario, const std::vector<ContactElement>& elements);
+  /// `wanted` is not left_out.
+  LoadMeter(const Scenario& scenario, const std::vector<ContactElement>& elements, Loads wanted);
 
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
-  /// The moment to be measured. To be filled in: t, state, kinematics, sums, contacts; where want_reactions(), the reactions.
+  /// Sample to be measured. The caller fills t, state, kinematics, sums and contacts, and the reactions if want_reactions().
   Sample& sample() { return sample_; }
-  /// Docks are loaded by what is known of the engine's contact forces: of contact.law bullet too little is.
+  /// Whether the sample needs reactions: there are columns of docks. With contact.law bullet there are none, because not all
+  /// contact forces are known.
   [[nodiscard]] bool want_reactions() const { return !docks_.empty(); }
-  /// A row from the sample; ways go on from the row before.
+  /// Computes a row from the sample; path lengths continue from the row before.
   void measure(Out row);
-  /// Takes the feet that never carried a load out of the rows.
+  /// Removes the columns of feet that never carried a load.
   void drop_idle_feet(Trace& loads) const;
 
  private:
-  /// The parent's face that module `module` is docked to.
+  /// Face of the parent to which module `module` is docked.
   struct DockFace {
     std::size_t module = 0, link = 0;
     Vec3 normal = Vec3::Zero();  ///< link frame
   };
-  /// A body with contact elements, and what is known of it.
+  /// A body with contact elements, and its load and slip so far.
   struct Foot {
     std::size_t body = 0;
     std::vector<std::size_t> elements;
@@ -43,20 +48,23 @@ class LoadMeter {
   };
 
   void add_columns(const Scenario& scenario);
-  /// m: how far the point of the element that touched before, or else now, has moved over the ground.
+  /// Distance by which the element's contact point has moved over the ground since the last tick, m: the point that touched
+  /// then, or else the one that touches now.
   [[nodiscard]] double slide(std::size_t element) const;
+  [[nodiscard]] std::size_t foot_width() const;
   void measure(Foot& foot, Out row);
   [[nodiscard]] double margin();
 
   const Robot& robot_;
   const std::vector<ContactElement>& elements_;
   Sample sample_;
-  double weight_ = 0;  ///< N
-  bool plane_ = false;
+  double weight_ = 0;       ///< N
+  bool stability_ = false;  ///< there is a column of the stability margin
+  bool forces_ = false;     ///< there are columns of the feet's forces and points of action
   std::vector<DockFace> docks_;
   std::vector<Foot> feet_;
   std::vector<Column> columns_;
-  std::size_t foot_columns_ = 0;  ///< where those of the feet begin
+  std::size_t foot_columns_ = 0;  ///< index of the first column of the feet
   bool first_ = true;
   Kinematics before_;
   std::vector<Before> touched_;

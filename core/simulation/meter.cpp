@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/recording/motor_limit.h"
-
 namespace gaitlab {
 
 namespace {
@@ -20,14 +18,20 @@ double* at(Sums& sums, double F::*member) {
 
 }  // namespace
 
-Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()), time_(lanes.size()) {
+Meter::Meter(std::span<const Scenario> lanes)
+    : lanes_(lanes.size()),
+      entries_(lanes.size() * lanes[0].robot->joints.size()),
+      pass_(__builtin_cpu_supports("avx2") != 0 ? add_pass_avx2 : add_pass),
+      time_(lanes.size()) {
   for (std::size_t j = 0; j < lanes[0].robot->joints.size(); ++j) {
     for (const Scenario& lane : lanes) {
       lo_.push_back(lane.robot->joints.at(j).lo);
       hi_.push_back(lane.robot->joints.at(j).hi);
-      driven_.push_back(lane.robot->joints.at(j).driven());
+      driven_.push_back(lane.robot->joints.at(j).driven() ? 1 : 0);
     }
   }
+  const std::size_t blocks = (entries_ + kMeterBlock - 1) / kMeterBlock;
+  for (auto* values : {&lo_, &hi_, &driven_}) values->resize(blocks * kMeterBlock);
   for (auto& sums : sums_) sums.assign(lo_.size(), 0.0);
   for (auto* values : {&recent_peak_, &recent_error_, &recent_limit_, &recent_speed_, &recent_envelope_, &recent_voltage_,
                        &recent_current_, &weight_, &share_, &seen_})
@@ -36,84 +40,51 @@ Meter::Meter(std::span<const Scenario> lanes) : lanes_(lanes.size()), time_(lane
 
 void Meter::add(double time, const StepEffort::Part& part, In setpoint, const Actuator::Electrical& report, In available,
                 In measured) {
-  const std::size_t n = lo_.size();
-  const In angle = part.angle;
-  const In speed = part.speed;
-  const In torque = part.torque;
-  bool some = false;  // whose motion the part is
+  MeterPass pass{.time = time, .instant = part.instant};
   for (std::size_t l = 0; l < lanes_; ++l) {
     const double sum = part.instant ? 0 : measured[l] * part.sum[l];
     const double share = part.instant ? 0 : measured[l] * part.share[l];
     const double seen = part.instant ? measured[l] : share > 0 ? 1 : 0;
-    some = some || seen > 0;
+    pass.some = pass.some || seen > 0;
     time_[l] += sum;
-    for (std::size_t i = l; i < n; i += lanes_) {
+    for (std::size_t i = l; i < entries_; i += lanes_) {
       weight_[i] = sum;
       share_[i] = share;
       seen_[i] = seen;
     }
   }
-  const auto peak = [&](double F::*member, auto value) {
-    double* const to = at(sums_, member);
-    if (!some) return;
-    for (std::size_t i = 0; i < n; ++i) to[i] = std::max(to[i], seen_[i] * value(i));
-  };
-  const auto sum = [&](double F::*member, auto value) {
-    if (part.instant) return;
-    double* const to = at(sums_, member);
-    for (std::size_t i = 0; i < n; ++i) to[i] += weight_[i] * value(i);
-  };
-  const auto share = [&](double F::*member, auto value) {
-    if (part.instant || !some) return;
-    double* const to = at(sums_, member);
-    for (std::size_t i = 0; i < n; ++i) to[i] += share_[i] * value(i);
-  };
-  const auto error = [&](std::size_t i) { return driven_[i] ? setpoint[i] - angle[i] : 0.0; };
-  const auto excess = [&](std::size_t i) { return std::max(std::max(angle[i] - hi_[i], lo_[i] - angle[i]), 0.0); };
-  const auto shaft = [&](std::size_t i) { return torque[i] * speed[i]; };
-  const auto first = [&](double F::*member, double F::*of, auto value) {  // before the peak itself, which decides
-    const double* const largest = at(sums_, of);
-    double* const when = at(sums_, member);
-    for (std::size_t i = 0; some && i < n; ++i) when[i] = seen_[i] * value(i) > kLarger * largest[i] ? time : when[i];
-  };
-  const auto magnitude = [&](std::size_t i) { return std::abs(torque[i]); };
-  const auto apart = [&](std::size_t i) { return std::abs(error(i)); };
-  first(&F::torque_peak_time, &F::torque_peak, magnitude);
-  peak(&F::torque_peak, magnitude);
-  for (std::size_t i = 0; some && i < n; ++i) {
-    const double torque_now = seen_[i] * magnitude(i);
-    recent_limit_[i] = torque_now > recent_peak_[i] ? report.saturation[i] : recent_limit_[i];
-    recent_peak_[i] = std::max(recent_peak_[i], torque_now);
-    recent_error_[i] = std::max(recent_error_[i], seen_[i] * apart(i));
-    recent_speed_[i] = std::max(recent_speed_[i], seen_[i] * std::abs(speed[i]));
-    const double used = torque_now < available[i] ? torque_now / available[i] : torque_now > 0 ? 1.0 : 0.0;
-    recent_envelope_[i] = std::max(recent_envelope_[i], used);
-    recent_voltage_[i] = std::max(recent_voltage_[i], seen_[i] * std::abs(report.voltage[i]));
-    recent_current_[i] = std::max(recent_current_[i], seen_[i] * std::abs(report.current[i]));
+  const std::array<const double*, kInputs> inputs{part.angle.data(),        part.speed.data(),      part.torque.data(),
+                                                  setpoint.data(),          report.voltage.data(),  report.current.data(),
+                                                  report.saturation.data(), report.power_in.data(), report.copper.data(),
+                                                  report.gear.data(),       available.data()};
+  const std::size_t whole = entries_ - entries_ % kMeterBlock;
+  pass.entries = whole;
+  add(pass, inputs, 0);
+  if (whole == entries_) return;
+  std::array<const double*, kInputs> rest{};
+  for (std::size_t k = 0; k < kInputs; ++k) {
+    std::copy(inputs[k] + whole, inputs[k] + entries_, rest_[k].begin());
+    rest[k] = rest_[k].data();
   }
-  share(&F::torque_rms, [&](std::size_t i) { return torque[i] * torque[i]; });
-  peak(&F::speed_peak, [&](std::size_t i) { return std::abs(speed[i]); });
-  peak(&F::current_peak, [&](std::size_t i) { return std::abs(report.current[i]); });
-  share(&F::current_rms, [&](std::size_t i) { return report.current[i] * report.current[i]; });
-  sum(&F::error_rms, [&](std::size_t i) { return error(i) * error(i); });
-  first(&F::error_peak_time, &F::error_peak, apart);
-  peak(&F::error_peak, apart);
-  if (time == 0) peak(&F::start_jump, apart);
-  const auto limited = [&](MotorLimit limit) {
-    return [&report, at = saturation_of(limit)](std::size_t i) { return report.saturation[i] == at ? 1.0 : 0.0; };
-  };
-  share(&F::saturated_voltage, limited(MotorLimit::voltage));
-  share(&F::saturated_current, limited(MotorLimit::current));
-  share(&F::range_share, [&](std::size_t i) { return excess(i) > 0 ? 1.0 : 0.0; });
-  peak(&F::range_worst, excess);
-  share(&F::setpoint_outside,
-        [&](std::size_t i) { return driven_[i] && (setpoint[i] > hi_[i] || setpoint[i] < lo_[i]) ? 1.0 : 0.0; });
-  sum(&F::electrical, [&](std::size_t i) { return report.power_in[i]; });
-  sum(&F::copper, [&](std::size_t i) { return report.copper[i]; });
-  sum(&F::gear, [&](std::size_t i) { return report.gear[i]; });
-  share(&F::created, [&](std::size_t i) { return std::max(-report.gear[i], 0.0); });
-  sum(&F::shaft, shaft);
-  share(&F::shaft_positive, [&](std::size_t i) { return std::max(shaft(i), 0.0); });
+  pass.entries = kMeterBlock;
+  add(pass, rest, whole);
+}
+
+/// Runs the pass over entries from `from` on, with inputs of these entries.
+void Meter::add(MeterPass pass, const std::array<const double*, kInputs>& inputs, std::size_t from) {
+  const auto [angle, speed, torque, setpoint, voltage, current, saturation, power_in, copper, gear, available] = inputs;
+  pass.in = {angle, speed, torque, setpoint, voltage, current, saturation, power_in, copper, gear, available};
+  const auto at = [from](auto& values) { return values.data() + from; };
+  pass.lo = at(lo_);
+  pass.hi = at(hi_);
+  pass.driven = at(driven_);
+  pass.weight = at(weight_);
+  pass.share = at(share_);
+  pass.seen = at(seen_);
+  for (std::size_t k = 0; k < sums_.size(); ++k) pass.sums[k] = at(sums_[k]);
+  pass.recent = {at(recent_peak_),     at(recent_error_),   at(recent_limit_),  at(recent_speed_),
+                 at(recent_envelope_), at(recent_voltage_), at(recent_current_)};
+  pass_(pass);
 }
 
 JointStatistics Meter::statistics(std::size_t joint, std::size_t lane) const {
@@ -133,7 +104,7 @@ void Meter::tick(std::size_t lane, Out row) {
   const double* const current = at(sums_, &F::saturated_current);
   const double* const amperes = at(sums_, &F::current_rms);
   std::size_t to = 0;
-  for (std::size_t i = lane; i < lo_.size(); i += lanes_) {
+  for (std::size_t i = lane; i < entries_; i += lanes_) {
     for (const double value : {recent_peak_[i], recent_error_[i], recent_limit_[i], square[i], voltage[i], current[i],
                                recent_speed_[i], recent_envelope_[i], amperes[i], recent_voltage_[i], recent_current_[i]})
       row[to++] = value;

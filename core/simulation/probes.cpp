@@ -14,59 +14,9 @@ namespace gaitlab {
 namespace {
 
 const std::string kReaction = "reaction.";
-constexpr std::size_t kMostPatterns = 1000;  // each is tried on every column: more are a program's list, and take seconds
+constexpr std::size_t kMostPatterns = 1000;  // each is tried on every column: more come from a generated list and take seconds
 
 }  // namespace
-
-Sample::Sample(const Robot& robot, std::size_t contacts_count, std::size_t cpg_states)
-    : kinematics(robot),
-      orientation(robot.links.size(), Quat::Identity()),
-      contacts(contacts_count),
-      cpg(cpg_states),
-      reactions(robot) {
-  for (auto* values : {&state.q, &state.qd, &setpoint, &command, &voltage, &current, &saturation, &torque, &stop_torque,
-                       &passive_torque, &acceleration_.joints, &applied_, &tally.torque_error, &tally.torque_peak}) {
-    values->assign(robot.joints.size(), 0.0);
-  }
-  ground_.reserve(contacts_count);
-}
-
-void Sample::forward_kinematics(const Robot& robot) {
-  kinematics.update(robot, state);
-  orientation[0] = state.orientation;
-  for (std::size_t i = 1; i < robot.links.size(); ++i) {
-    orientation[i] =
-        orientation[static_cast<std::size_t>(robot.links[i].parent)] * Quat(robot.links[i].in_parent.R) * kinematics.turns[i];
-  }
-  sums = gaitlab::sums(robot, kinematics, gravity);
-}
-
-void Sample::set_boxes(const Ground& ground) {
-  for (const Box& box : ground.boxes) {
-    Quat turned(box.R);
-    if (turned.w() < 0) turned.coeffs() *= -1;
-    boxes.push_back({box.center, turned});
-  }
-}
-
-void Sample::place_boxes(const Plant& plant) {
-  for (BoxMotion& box : boxes) before_.push_back(box.orientation);
-  plant.boxes(boxes);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (boxes[i].orientation.dot(before_[i]) < 0) boxes[i].orientation.coeffs() *= -1;
-  }
-  before_.clear();
-}
-
-void Sample::compute_reactions(const std::vector<ContactElement>& elements, Plant& plant, std::size_t lane) {
-  for (std::size_t j = 0; j < applied_.size(); ++j) applied_[j] = torque[j] + stop_torque[j] + passive_torque[j];
-  ground_.clear();
-  for (std::size_t c = 0; c < elements.size(); ++c) {
-    if (contacts[c].fn > 0) ground_.push_back({elements[c].body, contacts[c].point, contacts[c].force});
-  }
-  plant.accelerate(lane, state, applied_, ground_, acceleration_);
-  reactions.update(kinematics, acceleration_, gravity, ground_);
-}
 
 Probes::Probes(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg,
                std::string_view command_unit, const Sample& sample)
@@ -130,7 +80,7 @@ void Probes::add_vector(const std::string& name, const std::string& unit, const 
                         const std::function<Vec3(const Sample&)>& read) {
   constexpr const char* kAxis[] = {"x", "y", "z"};
   for (Eigen::Index i = 0; i < 3; ++i) {
-    // `base.v` makes `base.vx`, `base` makes `base.x`.
+    // `base.v` gives `base.vx`, `base` gives `base.x`.
     const bool joined = name.find('.') != std::string::npos && !name.ends_with('.');
     const std::string full = joined ? name + kAxis[i] : (name.ends_with('.') ? name : name + ".") + kAxis[i];
     add(full, unit, definition, [read, i](const Sample& s) { return read(s)[i]; });
@@ -188,11 +138,10 @@ void Probes::add_contacts(const std::vector<ContactElement>& contacts) {
 }
 
 void Probes::add_loads(const Robot& robot, const std::vector<ContactElement>& contacts) {
+  std::vector<std::vector<std::size_t>> elements_of(robot.modules.size());
+  for (std::size_t c = 0; c < contacts.size(); ++c) elements_of[robot.bodies[contacts[c].body].module].push_back(c);
   for (std::size_t m = 0; m < robot.modules.size(); ++m) {
-    std::vector<std::size_t> elements;
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      if (robot.bodies[contacts[c].body].module == m) elements.push_back(c);
-    }
+    const std::vector<std::size_t>& elements = elements_of[m];
     if (elements.empty()) continue;
     add(fmt::format("load.{}", m), "N", fmt::format("normal force on all contact elements of module {}", m),
         [elements](const Sample& s) {
@@ -220,8 +169,8 @@ void Probes::add_bodies(const Robot& robot, const Sample& first) {
 }
 
 void Probes::add_boxes(const Ground& ground) {
-  for (std::size_t b = 0; b < ground.boxes.size(); ++b) {
-    if (!(ground.boxes[b].mass > 0)) continue;  // it is where the scenario says
+  for (std::size_t b = 0; b < ground.boxes().size(); ++b) {
+    if (!(ground.boxes()[b].mass > 0)) continue;  // it is where the scenario says
     const std::string name = fmt::format("box.{}.", b);
     const std::string of = fmt::format(" of ground.boxes[{}]", b);
     add_vector(name, "m", "middle" + of + ", world axes", [b](const Sample& s) { return s.boxes[b].position; });
@@ -281,12 +230,15 @@ void Probes::add_reactions(const Robot& robot) {
   }
 }
 
-void Probes::select(const Scenario& scenario) {
-  std::vector<bool> wanted(columns_.size(), false);
+namespace {
+
+/// The columns that the scenario's patterns match, and t.
+std::vector<bool> matched(const Scenario& scenario, const std::vector<Column>& columns) {
+  std::vector<bool> wanted(columns.size(), false);
   wanted[0] = true;
   Problems problems;
   std::vector<std::string> names;
-  for (const Column& column : columns_) names.push_back(column.name);
+  for (const Column& column : columns) names.push_back(column.name);
   if (scenario.trace.columns.size() > kMostPatterns) {
     throw InputError(scenario.place("trace.columns"),
                      fmt::format("has {} names and patterns; expected at most {}: with * and ? one stands for many columns",
@@ -294,13 +246,14 @@ void Probes::select(const Scenario& scenario) {
   }
   for (const std::string& pattern : scenario.trace.columns) {
     bool found = false;
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (!glob(pattern, columns_[i].name)) continue;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (!glob(pattern, columns[i].name)) continue;
       wanted[i] = found = true;
     }
-    const bool of_no_joint = scenario.robot->joints.empty() && pattern.starts_with("joint.");  // as by default
+    const bool of_no_joint =
+        scenario.robot->joints.empty() && pattern.starts_with("joint.");  // as the default patterns have it
     if (found || of_no_joint) continue;
-    constexpr std::size_t kMostOffers = 200;  // as many are shown
+    constexpr std::size_t kMostOffers = 200;  // largest number of names shown
     const std::string near = problems.size() < kMostOffers ? nearest(pattern, names) : "";
     problems.add(scenario.place("trace.columns"),
                  fmt::format("{} matches no column{}", in_quotes(pattern),
@@ -309,6 +262,13 @@ void Probes::select(const Scenario& scenario) {
                                           : "; did you mean '" + near + "'?"));
   }
   problems.raise();
+  return wanted;
+}
+
+}  // namespace
+
+void Probes::select(const Scenario& scenario) {
+  const std::vector<bool> wanted = matched(scenario, columns_);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (!wanted[i]) {
@@ -331,7 +291,7 @@ void Probes::select(const Scenario& scenario) {
   want_reactions_ = want(kReaction);
   want_places_ = want_reactions_ || want("body.") || want("energy.") || want("momentum.") || want("angular_momentum.");
   sources_.resize(kept);
-  if (!want_reactions_ || !scenario.contact.solver()) return;
+  if (!want_reactions_ || scenario.contact.model().element_forces) return;
   throw InputError(scenario.place("trace.columns"),
                    "reactions follow from contact forces, and contact.law: bullet has impulses, not all of them at contact "
                    "elements; remove the columns reaction.*, or take contact.law: penalty");

@@ -13,12 +13,10 @@ namespace gaitlab {
 
 namespace {
 
-// Beyond this no joint is a joint any more; a run stops here rather than at the overflow a few steps later.
+// Largest plausible joint speed: beyond it a run has diverged, and ends here rather than at the overflow a few steps later.
 constexpr double kLargestSpeed = 1e5;  // rad/s
 
 }  // namespace
-
-std::int64_t whole(double period, double step) { return std::llround(period / step); }
 
 SimulationError::SimulationError(Ended how, std::int64_t at_step, double at_time, std::string at, const std::string& what)
     : RunError(what), ended(how), step(at_step), time(at_time), where(std::move(at)) {}
@@ -70,16 +68,15 @@ bool Simulation::run(const std::function<void(double)>& progress, const std::ato
 
 void Simulation::ask_watch() {
   constexpr double kEvery = 1;     // s
-  constexpr double kSlack = 1e-9;  // s: of steps that add up to a second but for rounding
+  constexpr double kSlack = 1e-9;  // s: rounding error of steps that add up to a second
   if (done() || time() < asked_ + kEvery - kSlack) return;
   asked_ += kEvery;
   for (const auto& lane : lanes_) {
     if (lane->closed || !recorded(*lane)) continue;
     // Until the lane is closed these hold nothing.
-    lane->recording.simulated = time();
-    lane->recording.joints.clear();
-    for (std::size_t j = 0; j < layout_.joints; ++j) lane->recording.joints.push_back(meter_.statistics(j, lane->index));
-    std::string reason = watch_(lane->index, lane->recording);
+    lane->recorder->recording.simulated = time();
+    take_statistics(*lane);
+    std::string reason = watch_(lane->index, lane->recorder->recording);
     if (reason.empty()) continue;
     lane->outcome = {Ended::stopped, std::move(reason)};
     end(*lane);
@@ -91,7 +88,7 @@ SimulationError Simulation::stopped(const PluginError& error) const {
           fmt::format("stopped at step {}, t = {:.6g} s: {}", step_number(), time(), error.what())};
 }
 
-/// What the lane's own code may throw ends the lane; where it is alone, the run.
+/// Runs code of a lane; an exception ends that lane or, if the lane is alone, the run.
 template <class Work>
 void Simulation::guard(Lane& lane, Work work) try {
   work();
@@ -118,32 +115,38 @@ void Simulation::end(Lane& lane) {
   if (lanes_.size() > 1) place_at_start(lane);
 }
 
-/// The actuator law at these speeds under the commands in force.
+/// Evaluates the actuator law at these speeds under the commands in force.
 void Simulation::evaluate_motors(In speeds) {
   if (actuator_ == nullptr) return;
   const Actuator::Electrical into{voltage_, current_, saturation_, power_in_, copper_, gear_};
-  if (!plant_->evaluate_motors(command_, speeds, into)) actuator_->electrical(command_, speeds, into);
+  MotorLaws* const laws = plant_->motor_laws();
+  if (laws == nullptr || !laws->evaluate_motors(command_, speeds, into)) actuator_->electrical(command_, speeds, into);
 }
 
-/// The torque that lanes which are recorded have at these speeds in the direction of these torques, N m; infinity: the
-/// actuator states no limit.
-void Simulation::evaluate_available(In speeds, In torques) {
-  if (actuator_ == nullptr) return;
+/// Torque available to the recorded lanes in a part of a step, in the direction of their torques, N m; infinity: the actuator
+/// states no limit.
+In Simulation::evaluate_available(const StepEffort::Part& part) {
+  if (actuator_ == nullptr) return In(available_).first(largest_.size());
+  if (MotorLaws* const laws = plant_->motor_laws();
+      laws != nullptr && laws->evaluate_available(part.speed, part.torque, available_))
+    return first_.of(In(available_), FirstLanes::available);
+  const In torques = first_.of(part.torque, FirstLanes::torque);
   const Actuator& actuator = own_actuator_ ? *own_actuator_ : *actuator_;
   const In limit = actuator.command_limit();
   for (std::size_t i = 0; i < largest_.size(); ++i)
     largest_[i] = std::isfinite(limit[i]) ? std::copysign(limit[i], torques[i]) : 0;
-  actuator.effort(largest_, speeds, available_, slope_);
+  const Out available = Out(available_).first(largest_.size());
+  actuator.effort(largest_, first_.of(part.speed, FirstLanes::speed), available, slope_);
   for (std::size_t i = 0; i < largest_.size(); ++i) {
-    available_[i] =
-        std::isfinite(limit[i]) ? std::copysign(1.0, torques[i]) * available_[i] : std::numeric_limits<double>::infinity();
+    available[i] =
+        std::isfinite(limit[i]) ? std::copysign(1.0, torques[i]) * available[i] : std::numeric_limits<double>::infinity();
   }
+  return available;
 }
 
 void Simulation::sense() {
   const std::size_t lanes = lanes_.size();
-  // The left limit, as in a row: what is measured depends on the state and the command in force, not on how the last step was
-  // taken.
+  // The left limit, as in a row: the sensors depend on the state and the command in force, not on how the last step was taken.
   if (actuator_ != nullptr) {
     actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
   }
@@ -168,7 +171,7 @@ void Simulation::sense() {
 void Simulation::command() {
   for (const auto& lane : lanes_) {
     if (!control_tick(*lane)) continue;
-    if (recorded(*lane) && lane->recording.control_ticks % lane->ticks_per_row == 0) record_tick(*lane);
+    if (recorded(*lane) && lane->recorder->tick_due()) record_tick(*lane);
     guard(*lane, [&] { command(*lane); });
   }
   if (role_ == Role::companion) return;
@@ -181,7 +184,7 @@ void Simulation::command(Lane& lane) {
   const Measured measured = lane.measured(time());
   if (lane.cpg != nullptr) {
     lane.cpg->event(measured, lane.cpg_state);
-    std::fill(lane.setpoint.begin(), lane.setpoint.end(), NAN);  // one that is not written is found below
+    std::fill(lane.setpoint.begin(), lane.setpoint.end(), NAN);  // entries that the CPG does not write are found below
     lane.cpg->output(time(), lane.cpg_state, lane.setpoint);
   } else {
     for (std::size_t j = 0; j < lane.setpoint.size(); ++j) lane.setpoint[j] = lane.scenario.initial.angles[j];
@@ -203,7 +206,7 @@ void Simulation::command(Lane& lane) {
 void Simulation::watch_stability() {
   for (const auto& lane : lanes_) {
     if (!recorded(*lane) || !control_tick(*lane)) continue;
-    Recording& recording = lane->recording;
+    Recording& recording = lane->recorder->recording;
     const Stability now = plant_->stability(lane->index, command_, false);
     ++recording.control_ticks;
     if (h_ * now.rate > 1) ++recording.control_ticks_above_1;
@@ -214,14 +217,15 @@ void Simulation::watch_stability() {
   }
 }
 
-/// A step of the plant, into the ledger, which is part of the state, and into the figures of the lanes that `measured` is told.
+/// Advances the plant by a step and adds it to the ledger, which is part of the state, and to the statistics of the `measured`
+/// lanes.
 void Simulation::advance(double h, const std::function<bool(const Lane&)>& measured) {
   plant_->advance(command_, h);
   const StepEffort applied = plant_->applied();
   const std::size_t lanes = lanes_.size();
   for (std::size_t l = 0; l < recorded_; ++l) measured_[l] = measured(*lanes_[l]) ? 1 : 0;
   for (const StepEffort::Part& of_all : applied.parts) {
-    if (lanes != recorded_ && !(of_all.instant || of_all.sum[0] != 0 || of_all.share[0] > 0)) continue;  // of others alone
+    if (lanes != recorded_ && !(of_all.instant || of_all.sum[0] != 0 || of_all.share[0] > 0)) continue;  // of companions alone
     evaluate_motors(of_all.speed);
     StepEffort::Part part = of_all;
     part.torque = first_.of(of_all.torque, FirstLanes::torque);
@@ -231,8 +235,9 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
         first_.of(Out(voltage_), FirstLanes::voltage),       first_.of(Out(current_), FirstLanes::current),
         first_.of(Out(saturation_), FirstLanes::saturation), first_.of(Out(power_in_), FirstLanes::power_in),
         first_.of(Out(copper_), FirstLanes::copper),         first_.of(Out(gear_), FirstLanes::gear)};
-    evaluate_available(part.speed, part.torque);
-    meter_.add(time(), part, first_.of(setpoint_, FirstLanes::setpoint), electrical, available_, measured_);
+    const bool peaks = part.instant || std::ranges::any_of(part.share, [](double share) { return share > 0; });
+    meter_.add(time(), part, first_.of(setpoint_, FirstLanes::setpoint), electrical,
+               peaks ? evaluate_available(of_all) : available_, measured_);
     if (part.instant) continue;
     for (std::size_t l = 0; l < recorded_; ++l) {
       const Out sums = lanes_[l]->ledger;
@@ -262,7 +267,7 @@ void Simulation::check(Lane& lane) {
   if (!fine(lane)) fail(lane, diverged(lane));
 }
 
-/// Whether every number of its state is one, and not beyond all bounds.
+/// Whether all numbers of a lane's state are finite and within bounds.
 bool Simulation::fine(const Lane& lane) const {
   bool fine = true;
   for (std::size_t i = lane.index; i < plant_state_.size(); i += lanes_.size()) {
@@ -294,9 +299,11 @@ SimulationError Simulation::diverged(const Lane& lane) const {
 }
 
 Out Simulation::state() {
-  if (plant_->state_is_complete()) return state_;
-  throw InputError(scenarios_[0].place("contact.law"),
-                   "contact.law: bullet gives no snapshot: its contact points and boxes are no part of the state");
+  const ContactModel& contact = scenarios_[0].contact.model();
+  if (contact.complete_state) return state_;
+  throw InputError(
+      scenarios_[0].place("contact.law"),
+      fmt::format("contact.law: {} gives no snapshot: its contact points and boxes are no part of the state", contact.text));
 }
 
 const Outcome& Simulation::outcome(std::size_t lane) const { return lanes_[lane]->outcome; }

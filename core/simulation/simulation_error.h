@@ -1,4 +1,4 @@
-// How a run fails.
+// Error of a run that fails.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace gaitlab {
 
-/// Thrown when the state diverges (not finite, or above 1e5) or a plugin throws: step, time and joint or plugin are in what().
+/// Thrown when the state diverges (not finite, or above 1e5) or a plugin throws; what() contains step, time and joint or
+/// plugin.
 class SimulationError : public RunError {
  public:
   SimulationError(Ended ended, std::int64_t step, double time, std::string where, const std::string& what);

@@ -10,7 +10,7 @@ namespace gaitlab {
 
 void static_contact_slopes(const LaneSettings& s, const Kinematics& k, std::vector<ContactSlope>& out) {
   out.clear();
-  if (s.ground.kind == Ground::Kind::none) return;
+  if (!s.ground.exists()) return;
   std::vector<SupportElement> elements;
   std::vector<Ground::Touch> touches;
   for (std::size_t e = 0; e < s.contacts.size(); ++e) {
@@ -24,7 +24,8 @@ void static_contact_slopes(const LaneSettings& s, const Kinematics& k, std::vect
   }
   if (out.empty()) return;
   const double load = s.robot->mass * s.gravity.norm() / static_cast<double>(out.size());
-  const double sink = load / s.law.kn;  // k = 1; for other exponents an estimate, monitored from the first tick on
+  const double sink =
+      load / s.law.kn;  // for k = 1; an estimate for other exponents, whose rate is monitored from the first tick on
   for (ContactSlope& contact : out) {
     const double friction = contact.tangential;
     contact.along_normal = s.law(sink, 0.0, 0.0, friction).normal_slope;
@@ -50,7 +51,7 @@ void RateMonitor::stop_at(const Robot& robot, const RobotState& state) {
   }
 }
 
-/// At rest dry friction is steepest.
+/// Dry friction has its largest slope at rest.
 void RateMonitor::hinge_at(const Robot& robot, const RobotState& state, bool standing, double step) {
   for (std::size_t j = 0; j < hinge.size(); ++j) {
     if (robot.joints[j].driven()) continue;
@@ -115,7 +116,7 @@ Stability RateMonitor::attribute(const Kinematics& k, In x, double rate) const {
 }
 
 Stability RateMonitor::largest(const Robot& robot, const Kinematics& k, InverseMass& inverse_mass, int iterations) {
-  // Any vector that is at right angles to no mode; joints alternate and differ so that no symmetry hides one.
+  // A start vector that is orthogonal to no mode; joints alternate and differ so that no symmetry hides one.
   for (std::size_t i = 0; i < x_.size(); ++i) {
     x_[i] = (i % 2 == 0 ? 1.0 : -1.0) * (1.0 + 0.1 * static_cast<double>((7 * i) % 11));
   }
@@ -131,7 +132,7 @@ Stability RateMonitor::largest(const Robot& robot, const Kinematics& k, InverseM
       kxx += kx_[i] * x_[i];
       norm += y_[i] * y_[i];
     }
-    if (!(kxx > 0) || !(norm > 0)) return {};  // nothing damps
+    if (!(kxx > 0) || !(norm > 0)) return {};  // no damping
     rate = kxy / kxx;
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = y_[i] / std::sqrt(norm);
   }

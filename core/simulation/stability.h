@@ -1,4 +1,4 @@
-// The largest damping rate of a robot: what limits an explicit step.
+// The largest damping rate of a robot, which limits an explicit step.
 #pragma once
 #include <vector>
 
@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// Generalised vectors: velocity of the base frame's origin 3, angular velocity 3 (world axes), joint speeds.
-/// Accelerations that unit impulses cause: y = M^-1 f; base entries stay 0 where the base cannot move.
+/// Computes accelerations caused by unit impulses: y = M^-1 f. Generalised vectors: velocity of the base frame's origin 3,
+/// angular velocity 3 (world axes), joint speeds; base entries stay 0 if the base cannot move.
 class InverseMass {
  public:
   virtual void apply(In force, Out acceleration) = 0;
@@ -16,8 +16,8 @@ class InverseMass {
   ~InverseMass() = default;
 };
 
-/// Slope of one contact force against the velocity of its point: G = tangential T + normal n n^T, N s/m; where `slip` is
-/// not 0 (sliding), the tangential part acts at right angles to it alone.
+/// Slope of one contact force against the velocity of its point: G = tangential T + normal n n^T, N s/m. If `slip` is not 0
+/// (sliding), the tangential part acts only at right angles to it.
 struct ContactSlope {
   std::size_t element = 0, link = 0;
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ(), slip = Vec3::Zero();  ///< slip: unit vector, 0 while sticking
@@ -30,25 +30,26 @@ struct ContactSlope {
   }
 };
 
-/// Slopes of a robot that stands: its weight in equal parts on its support (support.h), at the penetration that carries it.
-/// Replaces `out`; empty where there is no ground.
+/// Contact slopes of a standing robot: its weight in equal parts on its support (support.h), at the penetration that carries
+/// it. Replaces `out`; empty if there is no ground.
 void static_contact_slopes(const LaneSettings& settings, const Kinematics& kinematics, std::vector<ContactSlope>& out);
 
-/// Power iteration on A = M^-1 (B + sum J^T G J), Rayleigh quotient in the norm of (B + sum J^T G J): from below, and right to
-/// second order in the vector's error. Cold start, fixed number of iterations: the same state gives the same answer.
+/// Power iteration on A = M^-1 (B + sum J^T G J) with the Rayleigh quotient in the norm of (B + sum J^T G J): a lower bound,
+/// with an error of second order in the vector's error. Cold start and a fixed number of iterations: the same state gives the
+/// same result.
 class RateMonitor {
  public:
   explicit RateMonitor(const Robot& robot);
 
-  /// Fill before each call; sized by the joints, and cleared of contacts.
+  /// Inputs, to be filled before each call: sized by the joints, and without contacts.
   std::vector<double> motor, stop;     ///< damping slopes, N m s/rad
-  std::vector<double> hinge;           ///< the same of passive hinges, and what a step's length makes of their stiffness
-  std::vector<ContactSlope> contacts;  ///< capacity is reserved by the caller
+  std::vector<double> hinge;           ///< N m s/rad: damping slopes of passive hinges, and stiffness times the step
+  std::vector<ContactSlope> contacts;  ///< capacity reserved by the caller
 
-  /// The rate that limits the step, of an engine that has filled `motor` (standing: with the slopes at rest, for a robot that
-  /// stands does not turn its motors, and at speed they may be saturated, their slope 0). `touching` fills `contacts` at the
-  /// present state; a robot that stands has those that carry it, whatever touches at the start. A spring of stiffness K counts
-  /// as a damper of step K, so that step^2 K / inertia is kept below 1 with it.
+  /// The rate that limits the step. The caller has filled `motor`; for a standing robot with the slopes at rest, because at
+  /// speed the motors may be saturated, with slope 0. `touching` fills `contacts` at the present state; a standing robot has
+  /// the contacts that carry it, whichever touch at the start. A spring of stiffness K counts as a damper of step K, which
+  /// keeps step^2 K / inertia below 1 also.
   template <class Touching>
   [[nodiscard]] Stability rule(const LaneSettings& lane, Base base, const Kinematics& kinematics, const RobotState& state,
                                bool standing, double step, InverseMass& inverse_mass, Touching touching) {
@@ -64,7 +65,7 @@ class RateMonitor {
   }
   [[nodiscard]] Stability largest(const Robot& robot, const Kinematics& kinematics, InverseMass& inverse_mass, int iterations);
 
-  /// The rate is right to second order in the vector's error: 20 give 1 % and better.
+  /// 20 iterations give 1 % and better: the rate's error is of second order in the vector's error.
   static constexpr int kMonitorIterations = 20;
   static constexpr int kStartIterations = 200;  ///< once, before the run
 

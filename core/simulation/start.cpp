@@ -8,12 +8,12 @@ namespace gaitlab {
 namespace {
 
 constexpr double kTouches = 1e-12;  // m
-constexpr int kMostDrops = 1000;    // each by the gap: past an edge that is all but upright it closes slowly
+constexpr int kMostDrops = 1000;    // each by the gap: past an almost vertical edge it closes slowly
 
-/// How far the robot can sink before its lowest element touches; negative: how far it has to rise.
+/// Distance by which the robot can sink before its lowest element touches; negative: it has to rise.
 double height_above(const Scenario& s, const Kinematics& k, const std::vector<ContactElement>& elements) {
   const double lowest = lowest_point(*s.robot, k, elements);
-  if (s.ground.kind == Ground::Kind::plane || elements.empty()) return lowest;
+  if (s.ground.is_plane() || elements.empty()) return lowest;
   // From above everything, so that it comes to stand on a box, and not beneath one.
   double sunk = lowest - s.ground.highest();
   for (int drop = 0; drop < kMostDrops; ++drop) {
@@ -40,7 +40,7 @@ RobotState start_of(const Scenario& s, bool lowered) {
     start.q.push_back(s.initial.angles[j]);
     start.qd.push_back(s.initial.speeds[j]);
   }
-  if (lowered && s.ground.kind != Ground::Kind::none) {
+  if (lowered && s.ground.exists()) {
     Kinematics kinematics(robot);
     kinematics.update(robot, start);
     start.position.z() -= height_above(s, kinematics, contact_elements(robot, s.contact.on));

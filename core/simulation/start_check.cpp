@@ -9,12 +9,12 @@ namespace gaitlab {
 
 namespace {
 
-// Of a joint's inertia with those beyond it held, what is left with them free. Where nothing is left it comes out as rounding,
-// 1e-16 times the sizes along the chain.
+// Largest ratio that counts as zero: a joint's inertia with the joints beyond it free, over the inertia with them held.
+// Rounding leaves 1e-16 times the sizes along the chain.
 constexpr double kNothing = 1e-12;
-// How much of a joint's hold reaches its parent. Held for good, a long chain would count as one rod, whose inertia grows with
-// the third power of its length, and that of the joint would seem to be nothing (a chain of 7000 modules); held by half, what
-// is far beyond counts little, and two joints in line with others between them are still seen.
+// Share of a joint's held inertia that its parent receives. With 1 a long chain would count as one rod, whose inertia grows
+// with the third power of its length, against which the joint's own would seem to be zero (a chain of 7000 modules). With 0.5
+// distant links count little, and two joints in line with others between them are still found.
 constexpr double kHold = 0.5;
 
 using Spatial = Eigen::Matrix<double, 6, 6>;
@@ -34,7 +34,7 @@ Spatial inertia_of(const Link& link, const Mat3& R) {
   return i;
 }
 
-/// An inertia about a point, about another one from which that point is seen at r.
+/// An inertia about a point, moved to another point from which the first is at r.
 Spatial moved(const Spatial& inertia, const Vec3& r) {
   Spatial x = Spatial::Identity();  // motion here -> motion there
   x.bottomLeftCorner<3, 3>() = -cross(r);
@@ -49,8 +49,8 @@ std::unique_ptr<Plant> make_plant(const Scenario& scenario, const PlantSettings&
   throw InputError(scenario.place("physics.engine"), error.what());
 }
 
-// The pivots of the mass matrix, eliminated from the tips inwards, are what the articulated-body recursion divides by:
-// R. Featherstone, Rigid Body Dynamics Algorithms (Springer, 2008), 7.3.
+// The pivots of the mass matrix, eliminated from the tips inwards, are the divisors of the articulated-body recursion: R.
+// Featherstone, Rigid Body Dynamics Algorithms (Springer, 2008), 7.3.
 void check_inertia(const Scenario& scenario, const Kinematics& k, In rotors, std::size_t lanes, std::size_t lane,
                    const SourceLocation& place) {
   const Robot& robot = *scenario.robot;

@@ -1,4 +1,4 @@
-// Where the numbers of a plant's state are, and what a step leaves beside them.
+// Layout of the state of a plant, and the quantities that a step leaves beside it.
 #pragma once
 #include <cstddef>
 
@@ -8,7 +8,7 @@ namespace gaitlab {
 
 struct RobotState;
 
-/// Where the numbers of a rollout's state are. Entry e of lane l is at e * lanes + l; SI, world axes.
+/// Indices of the numbers of a rollout's state. Entry e of lane l is at e * lanes + l; SI, world axes.
 struct StateLayout {
   std::size_t joints = 0, lanes = 1;
   static constexpr std::size_t kPosition = 0;          ///< origin of the base frame, 3
@@ -25,23 +25,23 @@ struct StateLayout {
   void write(const RobotState& in, std::size_t lane, Out state) const;
 };
 
-/// What the last step applied, for the ledger and not for the trace.
+/// Torques and works of the last step, for the ledger and the statistics, not for the trace.
 struct StepEffort {
-  /// Motors and joints at one moment within the step, and how the moment counts.
+  /// Motors and joints at one moment within the step, with the moment's weights.
   struct Part {
     In torque;             ///< of the motors, N m (joint * lanes + lane)
-    In speed;              ///< at which they gave it, rad/s: where their power is to be asked
+    In speed;              ///< speed of each joint at that torque, rad/s: power is computed with it
     In angle;              ///< rad
-    In sum;                ///< a lane: weight in integrals, s; negative where an extrapolation takes it off
-    In share;              ///< a lane: weight in shares of time, s; 0: only a help of the integration, or `instant`
-    bool instant = false;  ///< has no duration: the step's start under its command, for peaks alone
+    In sum;                ///< per lane: weight in integrals, s; negative if an extrapolation subtracts it
+    In share;              ///< per lane: weight in shares of time, s; 0: only an auxiliary of the integration, or `instant`
+    bool instant = false;  ///< without duration: the step's start under its command, for peaks alone
   };
   std::span<const Part> parts;
-  In contact, friction, stops;  ///< a lane: J that the robot gave the ground along its normal, along it, and the hinge stops
-  In hinges;                    ///< a lane: J that dampers and friction of passive hinges took
+  In contact, friction, stops;  ///< per lane: J that the robot gave the ground along its normal, along it, and the hinge stops
+  In hinges;                    ///< per lane: J taken by dampers and friction of passive hinges
 };
 
-/// StepEffort of a plant of one lane that takes its step in one.
+/// StepEffort of a plant with one lane whose steps have one part.
 class OnePart {
  public:
   void set(In torque, In speed, In angle, double h) {

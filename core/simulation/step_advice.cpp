@@ -2,31 +2,40 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "core/math/periods.h"
+#include "core/simulation/simulation.h"
 
 namespace gaitlab {
 
-namespace {
-
-bool divides(double step, double period) {
-  const double ratio = period / step;
-  return std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio;
-}
-
-}  // namespace
-
 double usable_step(const Scenario& s, double limit) {
   constexpr double kSeries[] = {5, 2.5, 2, 1.25, 1};
-  double decade = 1;
-  while (decade > 1e-9) {
+  for (double scale = 1; scale < 1e9; scale *= 10) {
     for (const double mantissa : kSeries) {
-      const double step = mantissa * decade;
-      if (step <= limit && divides(step, s.control_period) && divides(step, s.trace.period) && divides(step, s.duration))
-        return step;
+      const double step = mantissa / scale;  // the number that its text is
+      const auto divides = [&](double period) { return math::whole_steps(period, step) > 0; };
+      if (step <= limit && divides(s.control_period) && divides(s.trace.period) && divides(s.duration)) return step;
     }
-    decade /= 10;
   }
   return 0;
+}
+
+double stable_step(const Scenario& scenario, double longest) {
+  constexpr double kRoom = 0.8;
+  constexpr double kContactRoom = 0.45;
+  constexpr double kFine = 1e-6;  // of the control period: no robot is refused at such a step
+  Scenario probe = scenario;
+  probe.physics.step = scenario.control_period * kFine;
+  probe.physics.estimate = Estimate::off;
+  probe.duration = probe.trace.period = scenario.control_period;
+  probe.trace.columns.clear();
+  const Stability standing = Simulation({&probe, 1}).standing();
+  const double room = standing.source == Stability::Source::contact ? kContactRoom : kRoom;
+  const double limit = standing.rate > 0 ? std::min(longest, room / standing.rate) : longest;
+  const double step = usable_step(scenario, limit);
+  return step > limit / 100 ? step : 0;
 }
 
 std::string source_of(const Stability& stability, const Robot& robot, const std::vector<ContactElement>& contacts) {

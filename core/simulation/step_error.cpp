@@ -11,7 +11,7 @@ StepError::StepError(const StateLayout& layout, std::vector<double> accuracy)
 
 std::size_t StepError::size(const StateLayout& layout) {
   const std::size_t of_joints = layout.joints * layout.lanes;
-  return layout.lanes + of_joints + kDifferences * (1 + 2 * layout.lanes + of_joints);
+  return layout.lanes + of_joints + kDifferences * (1 + 5 * of_joints);
 }
 
 void StepError::bind(Out numbers) {
@@ -19,7 +19,10 @@ void StepError::bind(Out numbers) {
   const auto cut = [&](std::size_t size) { return numbers.subspan(std::exchange(at, at + size), size); };
   sloped_ = cut(layout_.lanes);
   peaks_ = cut(torque_.size());
-  for (Difference& one : apart_) one = {cut(1), cut(layout_.lanes), cut(layout_.lanes), cut(torque_.size())};
+  for (Difference& one : apart_) {
+    const std::size_t size = torque_.size();
+    one = {cut(1), cut(size), cut(size), cut(size), cut(size), cut(size)};
+  }
 }
 
 void StepError::see(In torque, In slope) {
@@ -39,31 +42,31 @@ void StepError::compare(Companion which, In torque, double factor, double weight
   }
   apart.count[0] += weight;
   for (std::size_t lane = 0; lane < layout_.lanes; ++lane) {
-    if (!(apart.time[lane] > 0)) look_for_event(apart, torque, lane, factor, t);
+    const double least = least_peak(lane);
+    for (std::size_t i = lane; i < torque_.size(); i += layout_.lanes)
+      look_for_event(apart, i, factor * std::abs(torque_[i] - torque[i]), least, t);
   }
 }
 
-/// Of the lane's largest torque: less is no peak.
+/// Least peak that counts, as a share of the lane's largest torque.
 double StepError::least_peak(std::size_t lane) const {
   double largest = 0;
   for (std::size_t i = lane; i < peaks_.size(); i += layout_.lanes) largest = std::max(largest, peaks_[i]);
   return kLeastPeak * largest;
 }
 
-void StepError::look_for_event(const Difference& apart, In torque, std::size_t lane, double factor, double t) {
-  const double least = least_peak(lane);
-  double worst = accuracy_[lane];
-  for (std::size_t j = 0; j < layout_.joints && least > 0; ++j) {
-    const std::size_t i = j * layout_.lanes + lane;
-    const double share = factor * std::abs(torque_[i] - torque[i]) / std::max(peaks_[i], least);
-    if (share <= worst) continue;
-    worst = share;
-    apart.time[lane] = 1 + t;
-    apart.joint[lane] = static_cast<double>(j);
+void StepError::look_for_event(const Difference& apart, std::size_t i, double difference, double least, double t) {
+  if (difference > apart.largest[i]) {
+    apart.largest[i] = difference;
+    apart.largest_time[i] = t;
   }
+  const double event = least_event(i, least);
+  if (!(apart.event[i] <= event && apart.largest[i] > event)) return;
+  apart.event[i] = apart.largest[i];
+  apart.event_time[i] = apart.largest_time[i];
 }
 
-/// RMS of factor x difference of a joint so far, N m; 0 before the first comparison.
+/// RMS so far of factor x difference of a joint, N m; 0 before the first comparison.
 double StepError::rms(Companion which, std::size_t joint, std::size_t lane) const {
   const Difference& apart = of(which);
   return apart.count[0] > 0 ? std::sqrt(apart.squares[joint * layout_.lanes + lane] / apart.count[0]) : 0;
@@ -71,9 +74,18 @@ double StepError::rms(Companion which, std::size_t joint, std::size_t lane) cons
 
 Parting StepError::parting(Companion which, std::size_t lane) const {
   const double least = least_peak(lane);
-  Parting made{of(which).time[lane] - 1, static_cast<std::size_t>(of(which).joint[lane])};
-  for (std::size_t j = 0; j < layout_.joints && least > 0; ++j)
-    made.share = std::max(made.share, rms(which, j, lane) / std::max(peaks_[j * layout_.lanes + lane], least));
+  const Difference& apart = of(which);
+  Parting made;
+  for (std::size_t j = 0; j < layout_.joints && least > 0; ++j) {
+    const std::size_t i = j * layout_.lanes + lane;
+    made.share = std::max(made.share, rms(which, j, lane) / std::max(peaks_[i], least));
+    const bool lasting = apart.event[i] > least_event(i, least);
+    if (!lasting && !(apart.largest[i] > least_event(i, least))) continue;
+    const double time = lasting ? apart.event_time[i] : apart.largest_time[i];
+    if (made.time >= 0 && time >= made.time) continue;
+    made.time = time;
+    made.joint = j;
+  }
   return made;
 }
 
@@ -82,7 +94,8 @@ void StepError::put(std::size_t lane, StepTally& tally) const {
   if (!tally.estimated) return;
   const Parting finer = parting(Companion::twin, lane);
   const Parting coarser = parting(Companion::coarse, lane);
-  tally.event = finer.share >= coarser.share ? finer : coarser;
+  const bool first = coarser.time < 0 || (finer.time >= 0 && finer.time <= coarser.time);
+  tally.event = first ? finer : coarser;
   tally.chaotic = parting(Companion::chaotic, lane);
   tally.ill = parting(Companion::ill, lane);
   for (std::size_t j = 0; j < layout_.joints; ++j) {

@@ -1,7 +1,8 @@
 #include "report/analysis/collisions.h"
 
 #include <algorithm>
-#include <map>
+#include <limits>
+#include <numbers>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -14,12 +15,13 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kTouching = 1e-9;  // m: faces that touch overlap by rounding
+constexpr double kTouching = 1e-9;  // m: smaller overlaps of touching faces are rounding
 
-/// One shape of a body, in its link's frame, and a ball around it.
+/// One shape of a body, in its link's frame, with its bounding ball.
 struct Piece {
   std::size_t body = 0, link = 0;
   Convex local;
+  Extent extent{local};
   Vec3 centre = Vec3::Zero();  ///< m, link frame
   double reach = 0;            ///< m
 };
@@ -39,98 +41,196 @@ std::vector<Piece> pieces_of(const Robot& robot) {
   return pieces;
 }
 
-using Pair = std::pair<std::size_t, std::size_t>;  // Robot::bodies, the lower one first
+using Pair = std::pair<std::size_t, std::size_t>;  // indices in Robot::bodies, the smaller one first
 
-/// Whether two bodies can meet: no hinge joins them, and they are of two links.
+/// True if two bodies can collide: no hinge joins them, and they belong to different links.
 class Meetings {
  public:
-  explicit Meetings(const Robot& robot) : bodies_(robot.bodies.size()), can_(bodies_ * bodies_, 1) {
-    for (std::size_t a = 0; a < bodies_; ++a) {
-      for (std::size_t b = 0; b < bodies_; ++b) {
-        if (robot.bodies[a].link == robot.bodies[b].link) can_[a * bodies_ + b] = 0;
-      }
-    }
+  explicit Meetings(const Robot& robot) : robot_(robot), parents_(robot.bodies.size(), robot.bodies.size()) {
     for (const Module& module : robot.modules) {
-      for (const HingeType& hinge : robot.types[module.type].hinges) {
-        const std::size_t a = module.first_body + hinge.parent;
-        const std::size_t b = module.first_body + hinge.child;
-        can_[a * bodies_ + b] = can_[b * bodies_ + a] = 0;
-      }
+      for (const HingeType& hinge : robot.types[module.type].hinges)
+        parents_[module.first_body + hinge.child] = module.first_body + hinge.parent;
     }
   }
-  bool operator()(std::size_t a, std::size_t b) const { return can_[a * bodies_ + b] != 0; }
+  bool operator()(std::size_t a, std::size_t b) const {
+    return robot_.bodies[a].link != robot_.bodies[b].link && parents_[a] != b && parents_[b] != a;
+  }
 
  private:
-  std::size_t bodies_;
-  std::vector<char> can_;
+  const Robot& robot_;
+  std::vector<std::size_t> parents_;  ///< parent of each body by its hinge; the number of bodies: none
 };
 
-/// All pieces in one row, moved where they are asked for.
+/// A pair of pieces that are near one another.
+struct Near {
+  std::size_t a = 0, b = 0;  ///< the smaller index first
+  /// m: they are apart as long as the sum of their paths is below this.
+  double apart_until = 0;
+  Vec3 axis = Vec3::Zero();  ///< the last separating axis; 0: none so far
+  Pose then = {};            ///< pose of the second in the frame of the first when the gap was measured
+  double gap = 0;            ///< m
+};
+
+/// Poses of all pieces in one row after the other, computed on demand: only for pieces that may have met since they were last
+/// found apart. A point of a piece moves at most as far as the centre of its ball, plus the turn of its link allows.
 class Row {
  public:
-  explicit Row(const std::vector<Piece>& pieces) : pieces_(pieces), balls_(pieces.size()), moved_(pieces.size(), false) {
-    for (const Piece& piece : pieces) there_.push_back(piece.local);
+  explicit Row(const std::vector<Piece>& pieces)
+      : pieces_(pieces), balls_(pieces.size()), moved_(pieces.size(), false), way_(pieces.size(), 0.0) {
+    for (const Piece& piece : pieces) {
+      there_.push_back(piece.local);
+      margin_ += piece.reach / static_cast<double>(pieces.size());
+    }
     for (std::size_t i = 0; i < pieces.size(); ++i) order_.push_back(i);
   }
 
   void set(const Kinematics& k) {
+    const bool first = k_ == nullptr;
+    if (first) before_ = k.R;
     k_ = &k;
     moved_.assign(pieces_.size(), false);
-    for (std::size_t i = 0; i < pieces_.size(); ++i) balls_[i] = k.point(pieces_[i].link, pieces_[i].centre);
+    // Bound of |R - R'|: the path of a point at 1 m from the centre by the turn.
+    const auto turned = [&](std::size_t link) { return (k.R[link] - before_[link]).norm() / std::numbers::sqrt2; };
+    double turn = 0;
+    double farthest = 0;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const Piece& piece = pieces_[i];
+      const Vec3 ball = k.point(piece.link, piece.centre);
+      if (i == 0 || piece.link != pieces_[i - 1].link) turn = turned(piece.link);
+      const double way = first ? 0 : (ball - balls_[i]).norm() + turn * piece.reach;
+      way_[i] += way;
+      farthest = std::max(farthest, way);
+      balls_[i] = ball;
+    }
+    before_ = k.R;
+    since_found_ += farthest;
   }
   const Convex& piece(std::size_t i) {
-    const std::size_t link = pieces_[i].link;
-    if (!moved_[i]) move(pieces_[i].local, {k_->R[link], k_->p[link]}, there_[i]);
+    if (!moved_[i]) move(pieces_[i].local, place(i), there_[i]);
     moved_[i] = true;
     return there_[i];
   }
-  /// m, as penetration(). The axis that showed two apart shows it at the next tick, too, nearly always.
-  double depth(std::size_t a, std::size_t b, double ignored) {
-    const auto last = apart_.find({a, b});
-    const auto place = [&](std::size_t i) { return Pose{k_->R[pieces_[i].link], k_->p[pieces_[i].link]}; };
-    if (last != apart_.end() && are_apart(pieces_[a].local, place(a), pieces_[b].local, place(b), last->second, ignored)) {
-      return 0;
-    }
-    Vec3 apart;
-    const double depth = penetration(piece(a), piece(b), ignored, apart);
-    if (!(depth > 0)) apart_[{a, b}] = apart;
-    return depth;
-  }
+  /// Upper bound of the path of all points of the piece since the first row, m.
+  [[nodiscard]] double way(std::size_t i) const { return way_[i]; }
   [[nodiscard]] double lowest(std::size_t i) const { return balls_[i].z() - pieces_[i].reach; }
+  /// Height of the piece's lowest point, m.
+  [[nodiscard]] double bottom(std::size_t i) const {
+    const Pose there = place(i);
+    return there.p.z() + pieces_[i].extent.along(there.R.transpose() * Vec3::UnitZ()).first;
+  }
 
-  /// Pairs of pieces that can meet and whose balls do, by a sweep along x.
+  /// Visits pairs of pieces that collide, in the order of a sweep along x; meet(a, b, depth): m, as penetration(), above 0.
   template <class Meet>
-  void pairs(const Meetings& can, Meet meet) {
-    const auto left = [&](std::size_t i) { return balls_[i].x() - pieces_[i].reach; };
-    std::ranges::sort(order_, {}, [&](std::size_t i) { return std::pair(left(i), i); });
-    for (auto a = order_.begin(); a != order_.end(); ++a) {
-      const double right = balls_[*a].x() + pieces_[*a].reach;
-      for (auto b = std::next(a); b != order_.end() && left(*b) < right; ++b) {
-        if (!can(pieces_[*a].body, pieces_[*b].body)) continue;
-        const double reach = pieces_[*a].reach + pieces_[*b].reach;
-        if ((balls_[*a] - balls_[*b]).squaredNorm() < reach * reach) meet(*a, *b);
-      }
+  void pairs(const Meetings& can, double ignored, Meet meet) {
+    if (2 * since_found_ > margin_ - kRounding) find_near(can);
+    met_.clear();
+    for (Near& pair : near_) {
+      if (together(pair) < pair.apart_until) continue;
+      const double gap = (balls_[pair.a] - balls_[pair.b]).norm() - pieces_[pair.a].reach - pieces_[pair.b].reach;
+      pair.apart_until = together(pair) + gap - kRounding;
+      if (gap >= 0 || still_apart(pair)) continue;
+      const Key a(left(pair.a), pair.a);
+      const Key b(left(pair.b), pair.b);
+      const double depth = this->depth(std::min(a, b).second, std::max(a, b).second, ignored, pair);
+      if (depth > 0) met_.push_back({std::min(a, b), std::max(a, b), depth});
     }
+    std::ranges::sort(met_);
+    for (const auto& [a, b, depth] : met_) meet(a.second, b.second, depth);
   }
 
  private:
+  using Key = std::pair<double, std::size_t>;
+
+  [[nodiscard]] Pose place(std::size_t i) const { return {k_->R[pieces_[i].link], k_->p[pieces_[i].link]}; }
+  [[nodiscard]] double left(std::size_t i) const { return balls_[i].x() - pieces_[i].reach; }
+  [[nodiscard]] double together(const Near& pair) const { return way_[pair.a] + way_[pair.b]; }
+
+  /// Finds pairs whose balls are less than the margin apart, by a sweep along x.
+  void find_near(const Meetings& can) {
+    since_found_ = 0;
+    std::ranges::sort(order_, {}, [&](std::size_t i) { return Key(left(i), i); });
+    std::vector<Near> found;
+    for (auto a = order_.begin(); a != order_.end(); ++a) {
+      const double right = balls_[*a].x() + pieces_[*a].reach + margin_;
+      for (auto b = std::next(a); b != order_.end() && left(*b) < right; ++b) {
+        if (!can(pieces_[*a].body, pieces_[*b].body)) continue;
+        const double reach = pieces_[*a].reach + pieces_[*b].reach + margin_;
+        if ((balls_[*a] - balls_[*b]).squaredNorm() < reach * reach) found.push_back({std::min(*a, *b), std::max(*a, *b)});
+      }
+    }
+    const auto place_of = [](const Near& pair) { return Pair(pair.a, pair.b); };
+    std::ranges::sort(found, {}, place_of);
+    for (Near& pair : found) {
+      const auto known = std::ranges::lower_bound(near_, place_of(pair), {}, place_of);
+      if (known != near_.end() && place_of(*known) == place_of(pair)) pair = *known;
+    }
+    near_ = std::move(found);
+  }
+
+  /// Pose of the second piece in the frame of the first.
+  [[nodiscard]] Pose seen(const Near& pair) const {
+    const std::size_t from = pieces_[pair.a].link;
+    return {k_->R[from].transpose() * k_->R[pieces_[pair.b].link], k_->R[from].transpose() * (balls_[pair.b] - k_->p[from])};
+  }
+
+  /// Whether the two have moved relative to one another by less than the gap between them. Two pieces of one leg move far
+  /// together.
+  bool still_apart(Near& pair) const {
+    if (!(pair.gap > 0)) return false;
+    const Pose now = seen(pair);
+    const double turn = (now.R - pair.then.R).norm() / std::numbers::sqrt2;
+    const double left = pair.gap - (now.p - pair.then.p).norm() - turn * pieces_[pair.b].reach;
+    if (!(left > 0)) return false;
+    pair.apart_until = together(pair) + left - kRounding;
+    return true;
+  }
+
+  /// Penetration of two pieces. The axis that separated two pieces mostly separates them at the next tick also.
+  double depth(std::size_t a, std::size_t b, double ignored, Near& pair) {
+    const auto overlap = [&] { return overlap_along(pieces_[a].extent, place(a), pieces_[b].extent, place(b), pair.axis); };
+    double found = 0;
+    double along = pair.axis.isZero() ? ignored : overlap();
+    if (along > ignored - kRounding) {
+      Vec3 apart;
+      found = penetration(piece(a), piece(b), ignored, apart);
+      pair.axis = found > 0 ? Vec3(Vec3::Zero()) : apart;
+      along = found > 0 ? found : overlap();
+    }
+    pair.gap = ignored - along - kRounding;
+    pair.then = seen(pair);
+    pair.apart_until = together(pair) + pair.gap;
+    return found;
+  }
+
+  static constexpr double kRounding = 1e-10;  ///< m, far above the rounding error
+
   const std::vector<Piece>& pieces_;
   const Kinematics* k_ = nullptr;
+  std::vector<Mat3> before_ = {};  ///< axes of the links in the previous row
   std::vector<Vec3> balls_;
   std::vector<Convex> there_ = {};
   std::vector<bool> moved_;
+  std::vector<double> way_;  ///< m
   std::vector<std::size_t> order_ = {};
-  std::map<std::pair<std::size_t, std::size_t>, Vec3> apart_ = {};  ///< of two pieces, the last axis that showed it
+  double margin_ = 0;                                             ///< m: largest distance of near balls
+  double since_found_ = std::numeric_limits<double>::infinity();  ///< m: upper bound of any piece's path since find_near
+  std::vector<Near> near_ = {};
+  struct Met {
+    Key a, b;
+    double depth;  ///< m
+    auto operator<=>(const Met&) const = default;
+  };
+  std::vector<Met> met_ = {};
 };
 
-/// m: way out of the ground from the deepest vertex; 0: none is in it.
+/// Distance from the deepest vertex out of the ground, m; 0: no vertex is in the ground.
 double depth_of(const Convex& piece, const Ground& ground) {
   double depth = 0;
   for (const Vec3& vertex : piece.vertices) depth = std::max(depth, ground.query(vertex, piece.radius).penetration);
   return depth;
 }
 
-/// What was found so far.
+/// Collisions and sunk bodies found so far.
 class Search {
  public:
   Search(const Scenario& scenario, const std::vector<Piece>& pieces)
@@ -138,13 +238,13 @@ class Search {
         can_(*scenario.robot),
         limits_(scenario.limits),
         ground_(scenario.ground),
-        highest_(scenario.ground.highest()) {}
+        highest_(scenario.ground.highest()),
+        above_until_(pieces.size(), 0.0) {}
 
   void collide(Row& row, double time) {
     double deepest = 0;
     const bool first = met_.empty();
-    row.pairs(can_, [&](std::size_t a, std::size_t b) {
-      const double depth = row.depth(a, b, limits_.meeting());
+    row.pairs(can_, limits_.meeting(), [&](std::size_t a, std::size_t b, double depth) {
       if (!(depth > kTouching)) return;
       const Pair pair = std::minmax(pieces_[a].body, pieces_[b].body);
       met_.insert(pair);
@@ -161,7 +261,12 @@ class Search {
   }
   void sink(Row& row, double time) {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      if (row.lowest(i) > highest_ - limits_.sink) continue;
+      if (row.way(i) < above_until_[i]) continue;
+      double room = row.lowest(i) - (highest_ - limits_.sink);
+      // On boxes and fields the way out can change by more than the piece moves.
+      if (room <= 0 && ground_.is_plane()) room = row.bottom(i) + limits_.sink;
+      above_until_[i] = row.way(i) + room - kTouching;
+      if (room > kTouching) continue;
       const double depth = depth_of(row.piece(i), ground_);
       if (depth <= limits_.sink) continue;
       buried_.insert(pieces_[i].body);
@@ -187,7 +292,8 @@ class Search {
   Meetings can_;
   const Limits& limits_;
   const Ground& ground_;
-  double highest_;  ///< m
+  double highest_;                   ///< m
+  std::vector<double> above_until_;  ///< m: a piece with a shorter path is not deeper than Limits::sink
   std::set<Pair> met_ = {};
   std::set<std::size_t> buried_ = {};
   Collision collision_ = {};
@@ -199,7 +305,7 @@ class Search {
 Overlaps overlaps(const Scenario& scenario, const Recording& r) {
   const Robot& robot = *scenario.robot;
   const States states = States::at_ticks(r, robot);
-  if (scenario.contact.solver() || states.size() == 0) return {};
+  if (scenario.contact.model().keeps_bodies_apart || states.size() == 0) return {};
   const std::vector<Piece> pieces = pieces_of(robot);
   std::set<std::size_t> shaped;
   for (const Piece& piece : pieces) shaped.insert(piece.body);
@@ -207,18 +313,18 @@ Overlaps overlaps(const Scenario& scenario, const Recording& r) {
   Kinematics k(robot);
   Row there(pieces);
   for (std::size_t row = 0; row < states.size(); ++row) {
-    k.update(robot, states(row));
+    k.place(robot, states(row));
     there.set(k);
     search.collide(there, states.time(row));
-    if (scenario.ground.kind != Ground::Kind::none) search.sink(there, states.time(row));
+    if (scenario.ground.exists()) search.sink(there, states.time(row));
   }
   return {shaped.size(), search.collision(), search.sunk()};
 }
 
 double depth_in_ground(const Scenario& scenario, const RobotState& state) {
-  if (scenario.ground.kind == Ground::Kind::none) return 0;
+  if (!scenario.ground.exists()) return 0;
   Kinematics k(*scenario.robot);
-  k.update(*scenario.robot, state);
+  k.place(*scenario.robot, state);
   double depth = 0;
   for (const Piece& piece : pieces_of(*scenario.robot))
     depth = std::max(depth, depth_of(moved(piece.local, {k.R[piece.link], k.p[piece.link]}), scenario.ground));

@@ -11,7 +11,7 @@ namespace gaitlab::report {
 namespace {
 
 constexpr int kRoundSegments = 24;  // of a full circle: a half cylinder has 12
-constexpr double kNoAxis = 1e-9;    // length of a product of edges that are parallel
+constexpr double kNoAxis = 1e-9;    // length of a product of parallel edges
 
 Convex block(const Vec3& size) {
   Convex made;
@@ -23,7 +23,7 @@ Convex block(const Vec3& size) {
   return made;
 }
 
-/// Axis y; the half one goes through +x.
+/// Prism with axis y; the half one is on the side of +x.
 Convex prism(double radius, double length, bool half) {
   Convex made;
   const int sides = half ? kRoundSegments / 2 : kRoundSegments;
@@ -35,7 +35,7 @@ Convex prism(double radius, double length, bool half) {
   }
   made.normals = made.directions = {Vec3::UnitY()};
   if (half) round.push_back(round.front());
-  // Of a full circle the second half is parallel to the first.
+  // In a full circle the edges of the second half are parallel to the first.
   const std::size_t edges = half ? round.size() - 1 : kRoundSegments / 2;
   for (std::size_t k = 0; k < edges; ++k) {
     made.directions.push_back((round[k + 1] - round[k]).normalized());
@@ -44,7 +44,7 @@ Convex prism(double radius, double length, bool half) {
   return made;
 }
 
-/// Of a convex's points along a unit axis.
+/// Least and largest coordinate of a convex's points along a unit axis.
 std::pair<double, double> range(const Convex& of, const Vec3& axis) {
   double lo = std::numeric_limits<double>::infinity();
   double hi = -lo;
@@ -56,12 +56,12 @@ std::pair<double, double> range(const Convex& of, const Vec3& axis) {
   return {lo - of.radius, hi + of.radius};
 }
 
-/// Smallest overlap so far; 0 from the first axis on that separates, or nearly.
+/// Smallest overlap so far; 0 once an axis separates, or nearly separates.
 class Overlap {
  public:
   Overlap(const Convex& a, const Convex& b, double ignored) : a_(a), b_(b), ignored_(ignored) {}
 
-  /// False: no axis is needed any more.
+  /// Tests an axis; false: no further axis is needed.
   bool along(const Vec3& direction) {
     const double length = direction.norm();
     if (length < kNoAxis) return true;
@@ -72,7 +72,7 @@ class Overlap {
     return least_ > ignored_;
   }
   [[nodiscard]] double depth() const { return least_ > ignored_ ? least_ : 0; }
-  [[nodiscard]] const Vec3& axis() const { return axis_; }  ///< the last
+  [[nodiscard]] const Vec3& axis() const { return axis_; }  ///< the axis tested last
 
  private:
   const Convex& a_;
@@ -84,7 +84,7 @@ class Overlap {
 bool apart_from_sphere(Overlap& overlap, const Convex& sphere, const Convex& other) {
   for (const Vec3& vertex : other.vertices) {
     Vec3 way = vertex - sphere.vertices.front();
-    if (way.norm() < kNoAxis) way = Vec3::UnitX();  // one around the other: any way is as long
+    if (way.norm() < kNoAxis) way = Vec3::UnitX();  // the centre is at the vertex: all directions are equally long
     if (!overlap.along(way)) return true;
     for (const Vec3& edge : other.directions) {
       if (!overlap.along(way - edge * edge.dot(way))) return true;
@@ -93,7 +93,7 @@ bool apart_from_sphere(Overlap& overlap, const Convex& sphere, const Convex& oth
   return false;
 }
 
-/// False from the first axis on that shows them apart.
+/// False at the first separating axis.
 bool overlap_everywhere(Overlap& overlap, const Convex& a, const Convex& b) {
   for (const Convex* of : {&a, &b}) {
     for (const Vec3& normal : of->normals) {
@@ -147,11 +147,32 @@ double penetration(const Convex& a, const Convex& b, double ignored, Vec3& apart
   return 0;
 }
 
-bool are_apart(const Convex& a, const Pose& a_place, const Convex& b, const Pose& b_place, const Vec3& axis, double ignored) {
-  const auto [a_lo, a_hi] = range(a, a_place.R.transpose() * axis);
-  const auto [b_lo, b_hi] = range(b, b_place.R.transpose() * axis);
+Extent::Extent(const Convex& of) : radius_(of.radius) {
+  const std::vector<Vec3>& v = of.vertices;
+  const Vec3 drawn = v.size() % 2 == 0 && !v.empty() ? Vec3(v[1] - v[0]) : Vec3(Vec3::Zero());
+  bool all = v.size() % 2 == 0;
+  for (std::size_t k = 0; k + 1 < v.size() && all; k += 2) all = (v[k + 1] - v[k] - drawn).norm() < kNoAxis * drawn.norm();
+  for (std::size_t k = 0; k < v.size(); k += all ? 2 : 1) middles_.push_back(all ? Vec3(v[k] + 0.5 * drawn) : v[k]);
+  if (all) half_ = 0.5 * drawn;
+}
+
+std::pair<double, double> Extent::along(const Vec3& axis) const {
+  double lo = std::numeric_limits<double>::infinity();
+  double hi = -lo;
+  for (const Vec3& middle : middles_) {
+    const double at = axis.dot(middle);
+    lo = std::min(lo, at);
+    hi = std::max(hi, at);
+  }
+  const double more = radius_ + std::abs(axis.dot(half_));
+  return {lo - more, hi + more};
+}
+
+double overlap_along(const Extent& a, const Pose& a_place, const Extent& b, const Pose& b_place, const Vec3& axis) {
+  const auto [a_lo, a_hi] = a.along(a_place.R.transpose() * axis);
+  const auto [b_lo, b_hi] = b.along(b_place.R.transpose() * axis);
   const double way = axis.dot(b_place.p - a_place.p);
-  return std::min(a_hi - b_lo - way, b_hi - a_lo + way) <= ignored;
+  return std::min(a_hi - b_lo - way, b_hi - a_lo + way);
 }
 
 }  // namespace gaitlab::report

@@ -9,7 +9,7 @@ namespace gaitlab::report {
 
 namespace {
 
-/// The height of one pose after the other.
+/// Computes the height of one pose after another.
 class Altimeter {
  public:
   Altimeter(const Scenario& scenario, Ground ground)
@@ -19,8 +19,9 @@ class Altimeter {
         k_(*scenario.robot) {}
 
   double operator()(const RobotState& state) {
-    k_.update(*scenario_.robot, state);
-    const Vec3 com = sums(*scenario_.robot, k_, scenario_.physics.gravity).com;
+    k_.place(*scenario_.robot, state);
+    const Vec3 com = centre_of_mass(*scenario_.robot, k_);
+    if (ground_.is_plane()) return com.z();
     const double give = scenario_.limits.sink;  // what is deeper does not stand there: the check `in_ground`
     if (elements_.empty()) return com.z() - ground_.surface_below(com, give);
     double below = 0;
@@ -35,18 +36,16 @@ class Altimeter {
   Kinematics k_;
 };
 
-/// Boxes that move are where the scenario puts them at the start alone, and later nobody recorded where.
-Ground what_stays(const Scenario& scenario) {
-  Ground ground = scenario.ground;
-  if (scenario.contact.moves_boxes()) std::erase_if(ground.boxes, [](const Box& box) { return box.mass > 0; });
-  return ground;
+/// Boxes that move are at the scenario's places at the start alone, and their later places are not recorded.
+Ground fixed_ground(const Scenario& scenario) {
+  return scenario.contact.model().moves_boxes ? scenario.ground.without_moving_boxes() : scenario.ground;
 }
 
 }  // namespace
 
 std::vector<double> heights(const Scenario& scenario, const Recording& r) {
   const States states = States::at_ticks(r, *scenario.robot);
-  Altimeter height(scenario, what_stays(scenario));
+  Altimeter height(scenario, fixed_ground(scenario));
   std::vector<double> all;
   for (std::size_t row = 0; row < states.size(); ++row) all.push_back(height(states(row)));
   return all;
@@ -55,7 +54,7 @@ std::vector<double> heights(const Scenario& scenario, const Recording& r) {
 double standing_height(const Scenario& scenario) { return Altimeter(scenario, scenario.ground)(lowered_start(scenario)); }
 
 std::optional<Fall> fall(const Scenario& scenario, const Recording& r) {
-  if (scenario.base != Base::floating || scenario.ground.kind == Ground::Kind::none) return {};
+  if (scenario.base != Base::floating || !scenario.ground.exists()) return {};
   const double standing = standing_height(scenario);
   const std::vector<double> height = heights(scenario, r);
   if (height.empty() || !(standing > 0)) return {};

@@ -1,4 +1,4 @@
-// Height of the robot above the ground below it, how low it came and whether it fell.
+// Height of the robot above the ground below it, its least height and whether it fell.
 #pragma once
 #include <optional>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace gaitlab::report {
 
-/// Heights are of the centre of mass above the ground: above the mean height of what carries the contact elements of contact.on
-/// (Ground::surface_below), or the centre of mass where there are none.
+/// Fall of a robot. Heights are of the centre of mass above the mean height of the surfaces that carry the contact elements of
+/// contact.on (Ground::surface_below), or the surface below the centre of mass if there are none.
 struct Fall {
   double standing = 0;              ///< m, of the start pose, lowered onto the ground
   double lowest = 0;                ///< m, of all ticks
@@ -18,13 +18,13 @@ struct Fall {
   [[nodiscard]] double share() const { return lowest / standing; }
 };
 
-/// m, at control ticks (States::at_ticks); empty: the folder has no poses.
+/// Heights at control ticks (States::at_ticks), m; empty: the folder has no poses.
 std::vector<double> heights(const Scenario& scenario, const Recording& record);
 
-/// m, of the start pose, lowered onto the ground.
+/// Height of the start pose, lowered onto the ground, m.
 double standing_height(const Scenario& scenario);
 
-/// Of a floating base above a ground; none of other runs, without poses, and where the pose stands with its centre of mass not
+/// Fall of a floating base above a ground; none for other runs, without poses, and if the start pose has its centre of mass not
 /// above the ground.
 std::optional<Fall> fall(const Scenario& scenario, const Recording& record);
 

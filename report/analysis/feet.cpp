@@ -19,10 +19,9 @@ struct Pressed {
   Series fn, fx, fy, fz;
 };
 
-/// Where the ground meets an element: its deepest point. Boxes that move are asked nowhere.
+/// Point of an element where the ground acts: its deepest point. Moving boxes do not count.
 Vec3 meeting_point(const Scenario& scenario, const ContactElement& element, const Vec3& centre) {
-  if (scenario.ground.kind == Ground::Kind::none || scenario.contact.moves_boxes())
-    return centre - element.radius * Vec3::UnitZ();
+  if (!scenario.ground.exists() || scenario.contact.model().moves_boxes) return centre - element.radius * Vec3::UnitZ();
   return scenario.ground.query(centre, element.radius).point;
 }
 
@@ -56,7 +55,7 @@ Foot unloaded(const Robot& robot, std::size_t body) {
   return foot;
 }
 
-/// Of a body that `loads` knows.
+/// Foot of a body whose columns are in `loads`.
 Foot loaded(const Robot& robot, std::size_t body, const Trace& loads) {
   Foot foot = unloaded(robot, body);
   const auto take = [&](const char* quantity, std::vector<double>& into) {

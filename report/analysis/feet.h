@@ -1,4 +1,4 @@
-// The feet of a run: which bodies carried the robot, with what force, and where it acted.
+// Feet of a run: the bodies that carried the robot, with the forces on them and their points of action.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,17 +8,17 @@
 
 namespace gaitlab::report {
 
-/// A number for each row of the trace.
+/// A foot, with a number for each row of the trace.
 struct Foot {
   std::string name;  ///< of the body
   std::size_t module = 0, body = 0;
-  std::vector<double> fx, fy, fz;  ///< N, of the ground on the robot, world axes
-  std::vector<double> x, y, z;     ///< m, world: where the normal forces act; without any, the point before
+  std::vector<double> fx, fy, fz;  ///< N, force of the ground on the robot, world axes
+  std::vector<double> x, y, z;     ///< m, world: point of action of the normal forces; without any, the previous point
 };
 
-/// Bodies with contact elements that ever carry load, by their numbers: from the columns contact.*, or else from `loads`
-/// (loads_at_rows). Without either modules with contact elements, each by the first of its bodies that has any: then fz alone
-/// is known, from load.*, as if the ground were level.
+/// Bodies with contact elements that carry load at some time, by number: from the columns contact.*, or else from `loads`
+/// (loads_at_rows). Without either: modules with contact elements, each represented by its first body with any, with fz alone,
+/// from load.*, as on level ground.
 std::vector<Foot> feet(const Scenario& scenario, const Recording& record, const Trace& loads);
 
 }  // namespace gaitlab::report

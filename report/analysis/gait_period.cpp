@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/math/periods.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
 #include "core/simulation/cpg_integrator.h"
@@ -18,13 +19,13 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kFarEnough = 120;          // s: two periods of a slow gait, and its start
-constexpr double kLongerThanTheRun = 5;     // times
-constexpr std::int64_t kMostTicks = 20000;  // of the CPG alone: some 0.1 s
-constexpr std::int64_t kMostRows = 4000;    // of the search for a period
+constexpr double kFarEnough = 120;          // s: two periods of a slow gait, after its start
+constexpr double kLongerThanTheRun = 5;     // factor on the run's duration
+constexpr std::int64_t kMostTicks = 20000;  // simulated ticks of the CPG alone: some 0.1 s
+constexpr std::int64_t kMostRows = 4000;    // in the search for a period
 constexpr double kSameSetPoint = 1e-5;      // rad: poses are single precision
 
-/// Hz: the least frequency above 0 of a driven joint; 0: the settings have none.
+/// Least frequency above 0 of a driven joint, Hz; 0: the settings have none.
 double least_frequency(const Scenario& s) {
   double least = 0;
   const SettingsNumbers settings(s.cpg);
@@ -59,12 +60,12 @@ std::vector<double> set_points_alone(const Scenario& s, std::int64_t ticks) {
     for (std::size_t j = 0; j < joints; ++j) {
       if (s.robot->joints[j].driven()) all.push_back(setpoint[j]);
     }
-    integrator.advance(*cpg, state, t, whole(s.control_period, s.cpg_step), s.cpg_step, measured);
+    integrator.advance(*cpg, state, t, math::steps_in(s.control_period, s.cpg_step), s.cpg_step, measured);
   }
   return all;
 }
 
-/// True where feedback changed no recorded set point. The set point of a row was in force just before it.
+/// Whether feedback changed no recorded set point. The set point of a row was in force just before it.
 bool recorded_so(const Scenario& s, const Recording& r, const std::vector<double>& alone, const std::vector<Series>& recorded) {
   const Series t = motion(r).t;
   for (std::size_t row = 1; row < t.size(); ++row) {
@@ -77,8 +78,8 @@ bool recorded_so(const Scenario& s, const Recording& r, const std::vector<double
   return true;
 }
 
-/// The cycle of the CPG without its robot, over longer than the run; none where feedback changes the set points, or nobody can
-/// tell.
+/// The cycle of the CPG without its robot, over longer than the run; none if feedback changes the set points, or if that is not
+/// known.
 std::optional<MotionCycle> cycle_alone(const Scenario& s, const Recording& r) try {
   const std::vector<Series> recorded = set_points(s, r);
   const double seconds = std::max(kFarEnough, kLongerThanTheRun * r.simulated);
@@ -86,7 +87,7 @@ std::optional<MotionCycle> cycle_alone(const Scenario& s, const Recording& r) tr
   if (recorded.empty() || static_cast<double>(ticks) * s.control_period < kLongerThanTheRun * r.simulated) return {};
   const std::vector<double> alone = set_points_alone(s, ticks);
   if (!recorded_so(s, r, alone, recorded)) return {};
-  // Quick gaits need every tick, slow ones all the time.
+  // Fast gaits need every tick, slow ones the whole duration.
   for (const std::int64_t every : {std::int64_t{1}, (ticks + kMostRows - 1) / kMostRows}) {
     std::vector<double> rows;
     for (std::int64_t k = std::max<std::int64_t>(0, ticks - kMostRows * every); k < ticks; k += every) {

@@ -12,9 +12,9 @@ struct Harmonic {
   double amplitude = 0, phase = 0;
 };
 
-/// The least-squares fit of mean + harmonic to the rows of the last whole periods of the limit cycle: a mean is not an error of
-/// the harmonic, though the rows do not divide the period. `time`: s, rising, as long as the series. None without a limit
-/// cycle.
+/// Least-squares fit of mean + harmonic to the rows of the last whole periods of the limit cycle; with the mean in the fit, it
+/// does not disturb the harmonic even though the rows do not divide the period. `time`: s, rising, as long as the series. None
+/// without a limit cycle.
 std::vector<Harmonic> first_harmonics(const MotionCycle& cycle, const Series& time, const std::vector<Series>& signals);
 
 }  // namespace gaitlab::report

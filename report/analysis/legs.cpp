@@ -20,7 +20,7 @@ std::string place_on_side(std::size_t rank, std::size_t count) {
 }  // namespace
 
 std::vector<Leg> legs_that_walk(const Scenario& s) {
-  if (s.ground.kind == Ground::Kind::none || s.contact.on == ContactSet::none) return {};
+  if (!s.ground.exists() || s.contact.on == ContactSet::none) return {};
   std::vector<Leg> legs = find_legs(info(*s.robot));
   if (legs.size() < 4) legs.clear();
   return legs;

@@ -1,4 +1,4 @@
-// The legs of a robot that walks on them, and the names of its feet.
+// Legs of a walking robot, and the names of its feet.
 #pragma once
 #include <span>
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace gaitlab::report {
 
-/// The legs of a robot that walks on them: find_legs gives four or more, contacts and a ground are on; else none.
+/// Legs of a robot that walks: find_legs gives four or more, and contacts and a ground are on; else none.
 std::vector<Leg> legs_that_walk(const Scenario& scenario);
 
-/// A name for each leg: its first module, its place on its side counted from the front (front, middle, rear; with more than
-/// three front, 2nd, 3rd ... rear) and the side. `legs` as find_legs orders them.
+/// Names of the legs: first module, place on its side counted from the front (front, middle, rear; with more than three front,
+/// 2nd, 3rd ... rear) and side. `legs` in the order of find_legs.
 std::vector<std::string> leg_names(const std::vector<Leg>& legs);
 
-/// A name for each foot, given by the number of its body: that of its leg, of a leg with several feet that of the body behind
-/// it, and without a leg that of the body.
+/// Names of feet, given by the numbers of their bodies: the leg's name, for a leg with several feet followed by the body's, and
+/// without a leg the body's.
 std::vector<std::string> foot_names(const Scenario& scenario, std::span<const std::size_t> bodies);
 
 }  // namespace gaitlab::report

@@ -34,7 +34,7 @@ std::vector<double> rest_torques(const Scenario& scenario) {
 
 namespace {
 
-/// Several sources as one text, those that are chosen first; an empty one is that of figures without a source.
+/// Joins several sources into one text, chosen ones first; an empty source means values without a source.
 std::string together(std::vector<std::string> sources) {
   for (std::string& one : sources) {
     if (one.empty()) one = kNoSource;
@@ -43,7 +43,7 @@ std::string together(std::vector<std::string> sources) {
   return fmt::format("{}", fmt::join(sources, "; "));
 }
 
-/// Keys of the figures of the scenario's actuator that are not those of its module types.
+/// Keys of the scenario's actuator values that differ from those of its module types.
 std::vector<std::string> changed_figures(const Scenario& scenario, const TypePresets& types) {
   const Entry& entry = *scenario.actuator.entry;
   const PluginSelection preset{&entry, default_settings(entry)};
@@ -60,7 +60,7 @@ std::vector<std::string> changed_figures(const Scenario& scenario, const TypePre
   return keys;
 }
 
-/// A source in a few words: its first clause, or that it is chosen.
+/// Short form of a source: its first clause, or that it is chosen.
 std::string in_few_words(const std::string& source) {
   constexpr std::size_t kLongest = 60;
   if (source.empty() || source.starts_with(kNoSource)) {
@@ -74,7 +74,7 @@ std::string in_few_words(const std::string& source) {
   return blank == std::string::npos ? clause : clause.substr(0, clause.find_last_not_of(" ,:", blank) + 1) + " ...";
 }
 
-/// Those that are chosen alone, where any is.
+/// Only the chosen sources, if there are any.
 std::string in_few_words(const std::vector<std::string>& sources) {
   std::vector<std::string> words;
   const bool any_chosen = std::ranges::any_of(sources, chosen);
@@ -97,7 +97,7 @@ std::string motor_source(const Scenario& scenario) {
   const std::string keys = fmt::format("{} of the scenario", fmt::join(changed, ", "));
   const std::string& own = scenario.actuator_source;
   const std::string given = own.empty() ? fmt::format("{} for {}", kNoSource, keys) : fmt::format("{}: {}", keys, own);
-  if (stated.empty()) return given;  // the scenario gives them all
+  if (stated.empty()) return given;  // the scenario gives all values
   return !chosen(given) && chosen(stated) ? stated + "; " + given : fmt::format("{}; the rest: {}", given, stated);
 }
 

@@ -1,13 +1,12 @@
-// Plugin libraries in texts of a result: a folder is not part of a run.
+// Removal of folders from file paths in texts of a result: a folder is not part of a run.
 #pragma once
 #include <string>
-#include <vector>
 
-#include "core/scenario/plugin_files.h"
+#include "core/scenario/scenario.h"
 
 namespace gaitlab::report {
 
-/// The text with every path of a plugin library cut down to the name of its file.
-std::string without_folders(std::string text, const std::vector<PluginFile>& plugins);
+/// The text with every path of a plugin library, and of a file of heights, reduced to the file name.
+std::string without_folders(std::string text, const Scenario& scenario);
 
 }  // namespace gaitlab::report

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 
-/// Linear between rows; at the ends theirs.
+/// Value at a time: linear between rows, constant beyond the ends.
 double at_time(const Series& time, const Series& value, double t) {
   std::size_t next = 0;
   while (next + 1 < time.size() && time[next] < t) ++next;
@@ -42,7 +42,7 @@ Posture posture(const Scenario& scenario, const Recording& r, const Judged& judg
     borne += load;
     found.height_min = rows == 0 ? m.z[row] : std::min(found.height_min, m.z[row]);
     found.height_max = rows == 0 ? m.z[row] : std::max(found.height_max, m.z[row]);
-    // Of the turned z axis, the part along world z.
+    // World z component of the turned z axis.
     upright = std::min(upright, 1 - 2 * (m.qx[row] * m.qx[row] + m.qy[row] * m.qy[row]));
     ++rows;
   }

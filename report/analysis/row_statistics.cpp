@@ -16,9 +16,9 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kOnTick = 1e-6;  // of a control period: a row that near to a control tick is at it
+constexpr double kOnTick = 1e-6;  // of a control period: a row at that distance from a control tick counts as at it
 
-/// Columns of a joint in the trace from which a column of ticks follows.
+/// Columns of a joint in the trace that a column of ticks requires.
 std::initializer_list<const char*> needs(TickColumn column) {
   static constexpr std::initializer_list<const char*> kTorque{"torque"}, kError{"setpoint", "angle"},
       kLimit{"torque", "saturation"}, kSaturation{"saturation"}, kSpeed{"speed"}, kEnvelope{"torque", "speed"},
@@ -45,15 +45,15 @@ std::initializer_list<const char*> needs(TickColumn column) {
   }
 }
 
-/// What the motors of all joints do in one moment.
+/// State of the motors of all joints at one moment.
 struct Moment {
   explicit Moment(std::size_t joints)
       : torque(joints), speed(joints), error(joints), voltage(joints), current(joints), saturation(joints), used(joints) {}
   std::vector<double> torque, speed, error, voltage, current;  ///< N m, rad/s, rad, V, A
-  std::vector<double> saturation, used;                        ///< see saturation_of; share of the torque that there is
+  std::vector<double> saturation, used;                        ///< see saturation_of; share of the available torque
 };
 
-/// The trace, moment by moment.
+/// Moments of the trace.
 class Moments {
  public:
   Moments(const Scenario& scenario, const Recording& record)
@@ -91,7 +91,7 @@ class Moments {
     return now;
   }
 
-  /// Where the stretch behind the row begins: under the command that the next row has, if that holds for the whole stretch.
+  /// Start of the interval after the row: under the command of the next row, if that holds for the whole interval.
   [[nodiscard]] Moment begun(std::size_t row) const {
     Moment now = at(row);
     if (!one_command(row)) return now;
@@ -113,17 +113,17 @@ class Moments {
   }
 
  private:
-  /// 0 where only a joint without a motor does not have it.
+  /// 0 if the column is missing for a joint without a motor.
   static double value(const std::vector<Series>& of, std::size_t joint, std::size_t row) {
     return of.empty() ? kNotKnown : of[joint].empty() ? 0.0 : of[joint][row];
   }
 
-  /// Whether no control tick lies within the stretch behind the row.
+  /// Whether the interval after the row contains no control tick.
   [[nodiscard]] bool one_command(std::size_t row) const {
     return t_[row + 1] / period_ - kOnTick <= std::floor(t_[row] / period_ + kOnTick) + 1;
   }
 
-  /// The share of what the actuator has at that speed, in the direction of the torque.
+  /// Computes the share of the torque available at that speed, in the direction of the torque.
   void use(Moment& now) const {
     now.used.assign(joints_, kNotKnown);
     if (torque_.empty() || speed_.empty()) return;
@@ -144,8 +144,8 @@ class Moments {
   std::vector<Series> command_, setpoint_, angle_, torque_, speed_, voltage_, current_, saturation_;
 };
 
-/// A joint's part of the row of ticks behind a stretch of h seconds, from the one moment to the other; `before`: its part in
-/// the row before, from which integrals go on.
+/// Fills a joint's part of the row of ticks after an interval of h seconds between two moments; `before`: its part in the
+/// previous row, from which integrals continue.
 void fill_row(const Moment& from, const Moment& to, std::size_t j, double h, In before, Out row) {
   const auto peak = [&](std::vector<double> Moment::*of) { return std::max(std::abs((from.*of)[j]), std::abs((to.*of)[j])); };
   const auto integral = [&](auto value) { return h / 2 * (value(from) + value(to)); };
@@ -197,7 +197,7 @@ void fill_ticks_from_rows(const Scenario& scenario, Recording& record) try {
   }
   record.ticks = std::move(ticks);
   record.ticks_of_rows = true;
-} catch (const PluginError&) {  // an actuator that throws may have ended the run, which says so; nothing is known of it
+} catch (const PluginError&) {  // an actuator that throws may have ended the run, which reports it; the values are not known
 }
 
 std::string lacking(const Recording& record, const Robot& robot, TickColumn column) {

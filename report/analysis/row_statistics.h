@@ -1,4 +1,5 @@
-// What the rows of a trace tell of all steps, where a folder holds nothing else: a format before 2, or a CSV file alone.
+// Statistics estimated from the rows of a trace, for folders without statistics of all steps: formats before 2, or a CSV file
+// alone.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,24 +9,24 @@
 
 namespace gaitlab::report {
 
-/// Fills Recording::ticks from the rows, one of ticks for each, and marks them as such (Recording::ticks_of_rows). A peak
-/// between two rows is not seen; integrals and shares are by trapezoids. At the start of each stretch between two rows that
-/// holds one command stands what the actuator gives under that command, which a row itself does not hold: there torques are
-/// largest. Not a number: a quantity whose columns the trace does not have of every joint with a motor; zeros: of a joint
-/// without one. Does nothing where statistics of all steps are there, or no rows.
+/// Fills Recording::ticks from the rows of the trace, one row each, and marks them (Recording::ticks_of_rows). A peak between
+/// two rows is missed; integrals and shares are by trapezoids. The start of each interval that holds one command is evaluated
+/// with the actuator under that command, which a row does not contain: there torques are largest. NaN: a quantity whose columns
+/// are missing for a joint with a motor; 0 for a joint without one. Does nothing if there are statistics of all steps, or no
+/// rows.
 void fill_ticks_from_rows(const Scenario& scenario, Recording& record);
 
-/// The first column of the trace that a column of such ticks needs and that is not there: `joint.3.speed`; empty: none lacks.
+/// The first column of the trace that a column of such ticks requires and that is missing: `joint.3.speed`; empty: none.
 std::string lacking(const Recording& record, const Robot& robot, TickColumn column);
 
-/// `judged from the trace's rows, one per 15 ms: a peak between two rows is not seen`; empty: of all steps.
+/// `judged from the trace's rows, one per 15 ms: a peak between two rows is not seen`; empty: statistics of all steps.
 std::string rows_sentence(const Recording& record);
 
-/// How far a joint went beyond its range.
+/// Excess of a joint beyond its range.
 struct BeyondRange {
   double worst = 0, share = 0;  ///< rad; share of the time
 };
-/// Of every joint, over all steps, or where the recording does not know these over its rows; empty: nothing is known.
+/// Excess of every joint, over all steps or, if the recording lacks their statistics, over its rows; empty: not known.
 std::vector<BeyondRange> beyond_range(const Robot& robot, const Recording& record);
 
 }  // namespace gaitlab::report

@@ -1,4 +1,4 @@
-// The numbers among a plugin's settings, whichever plugin it is.
+// Numbers among the settings of any plugin.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace gaitlab::report {
 
-/// By key: `Kp`, `model.ramp`; those of lists are left out.
+/// Numbers by key: `Kp`, `model.ramp`; those in lists are left out.
 class SettingsNumbers final : public Fields {
  public:
   struct Found {
@@ -19,7 +19,7 @@ class SettingsNumbers final : public Fields {
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 
   [[nodiscard]] const std::vector<Found>& all() const { return found_; }
-  /// nullptr: there is none.
+  /// nullptr: no such number.
   [[nodiscard]] const Found* find(const std::string& key) const;
 
  private:

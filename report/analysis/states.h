@@ -7,18 +7,18 @@
 
 namespace gaitlab::report {
 
-/// Recording::state of many rows: the columns are looked up once. The recording outlives it.
+/// Recording::state for many rows: the columns are searched once. The recording outlives this object.
 class States {
  public:
-  /// At the rows of the trace; has_states(robot) holds.
+  /// States at the rows of the trace; requires has_states(robot).
   States(const Recording& recording, const Robot& robot);
-  /// At control ticks, so that nothing depends on trace.period; of a folder of an older format, which does not have them, at
-  /// the rows of the trace. Without rows: the folder does not have these either.
+  /// States at control ticks, so that results do not depend on trace.period; for a folder of an older format at the rows of the
+  /// trace. Without rows: the folder has neither.
   static States at_ticks(const Recording& recording, const Robot& robot);
 
   [[nodiscard]] std::size_t size() const { return time_.size(); }
   [[nodiscard]] double time(std::size_t row) const { return time_[row]; }
-  /// The angles and the pose of the robot at a row. Its speeds are 0.
+  /// Angles and pose of the robot at a row. Its speeds are 0.
   [[nodiscard]] RobotState operator()(std::size_t row) const;
 
  private:

@@ -69,6 +69,7 @@ Summary summarise(const Scenario& scenario, const Recording& r, double wall_time
   if (r.worst.rate > 0) s.stability_source = source_of(r.worst, *scenario.robot, contacts);
   s.judged = judge(r, s.limit_cycle, s.set_point_period > 0);
   s.posture = posture(scenario, r, s.judged);
+  s.fall = fall(scenario, r);
   return s;
 }
 

@@ -1,5 +1,6 @@
-// What figures are drawn on: shapes and text, whatever the file is.
+// Interface for drawing: shapes and text, independent of the file format.
 #pragma once
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
@@ -8,15 +9,15 @@
 
 namespace gaitlab::report {
 
-/// In a drawing: px, y down. In a side view: m, y stands for the world's z, up.
+/// A point. In a drawing: px, y down. In a side view: m, y is the world's z, up.
 struct Point {
   double x = 0, y = 0;
 };
-using Polygon = std::vector<Point>;  ///< closed: the last point is joined to the first
+using Polygon = std::vector<Point>;  ///< closed: the last point is connected to the first
 
 inline bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
-/// Colours of Okabe and Ito, told apart with every kind of colour vision, and greys.
+/// Colours of Okabe and Ito, which are distinguishable with every kind of colour vision, and greys.
 namespace colour {
 inline constexpr std::string_view kBlue = "#0072B2", kVermillion = "#D55E00", kGreen = "#009E73", kOrange = "#E69F00",
                                   kSky = "#56B4E9", kPurple = "#CC79A7", kYellow = "#F0E442", kBlack = "#000000",
@@ -37,17 +38,17 @@ struct TextStyle {
   Anchor anchor = Anchor::start;
   std::string_view fill = colour::kInk;
   bool bold = false;
-  bool upwards = false;  ///< turned a quarter, to be read from the right
+  bool upwards = false;  ///< turned by a quarter, to be read from the right
 };
 
-/// A sheet of so many px; printed, a px is so many mm.
+/// Size of a sheet in px, and of a printed px in mm.
 struct Paper {
   double width = 0, height = 0;  ///< px
-  double mm = 25.4 / 96;         ///< of a px
+  double mm = 25.4 / 96;         ///< size of a px
 };
 
-/// Points that are not finite are left out, and a polyline is broken there. No clock, no random ids: the same calls, the same
-/// bytes.
+/// Points that are not finite are left out, and a polyline is broken there. No dates, no random ids: the same calls give the
+/// same bytes.
 class Canvas {
  public:
   virtual ~Canvas() = default;
@@ -69,5 +70,12 @@ std::string coordinate(double value);
 
 /// A rough width of `text` in any sans-serif font of `size` px, for layouts.
 double text_width(std::string_view text, double size);
+
+/// The size, px, from `most` down to `least`, at which a text in bold is at most `room` (px) wide.
+double fitting_size(std::string_view text, double most, double least, double room);
+
+/// `#RRGGBB` at a share, from 0 to 1, of a ramp between equally spaced colours (two or more).
+using Rgb = std::array<int, 3>;
+std::string ramp(std::span<const Rgb> colours, double share);
 
 }  // namespace gaitlab::report

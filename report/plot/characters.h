@@ -1,4 +1,4 @@
-// The characters of a UTF-8 text, one after another.
+// Characters of a UTF-8 text, one after another.
 #pragma once
 #include <cstddef>
 #include <string_view>
@@ -6,11 +6,12 @@
 namespace gaitlab::report {
 
 struct Character {
-  std::size_t length = 0;  ///< bytes; 0: no UTF-8, or a control character, a surrogate or a noncharacter, which XML forbids
+  std::size_t length =
+      0;  ///< bytes; 0: invalid UTF-8, or a control character, a surrogate or a noncharacter, which XML forbids
   char32_t code = 0;
 };
 
-/// The one that starts `text`, which is not empty.
+/// The first character of `text`, which is not empty.
 Character first_character(std::string_view text);
 
 }  // namespace gaitlab::report

@@ -1,4 +1,4 @@
-// zlib, in one place.
+// Compression by zlib.
 #pragma once
 #include <string>
 #include <string_view>

@@ -9,7 +9,7 @@ namespace gaitlab::report {
 
 enum class Font { helvetica, bold, symbol };
 
-/// Characters of one font in its encoding: WinAnsi (Windows code page 1252), or Symbol's own.
+/// Characters of one font in its encoding: WinAnsi (Windows code page 1252), or that of Symbol.
 struct TextRun {
   Font font = Font::helvetica;
   std::string bytes = {};
@@ -17,8 +17,8 @@ struct TextRun {
 
 struct SetText {
   std::vector<TextRun> runs = {};
-  double width = 0;                 ///< of a size of 1, by the fonts' metrics
-  std::set<char32_t> missing = {};  ///< characters that neither font has: a `?` each
+  double width = 0;                 ///< for size 1, by the fonts' metrics
+  std::set<char32_t> missing = {};  ///< characters that neither font has, replaced by `?`
 };
 
 /// `text` (UTF-8) as runs. Widths: Adobe's metrics of the 14 standard fonts, as given by the URW fonts of the same widths.

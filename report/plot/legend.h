@@ -1,5 +1,6 @@
-// The legend of a figure: samples of lines with their names.
+// The legend of a figure: symbols with their names.
 #pragma once
+#include <functional>
 #include <span>
 #include <string>
 
@@ -9,20 +10,30 @@ namespace gaitlab::report {
 
 struct LegendEntry {
   std::string name;
-  Style style;
+  std::function<void(Canvas&, Point)> draw;  ///< the symbol around a point
+  double wide = 12;                          ///< px, of the symbol
 };
+LegendEntry line_entry(std::string name, const Style& style, double wide = 30);
+LegendEntry dot_entry(std::string name, const Style& style, double radius);
+LegendEntry box_entry(std::string name, const Style& style);
 
-/// px: lengths of a sample, from its start to its name, and behind a name; and the width of a text of a size.
+/// Gaps before and behind a name, px; and the function for the width of a text.
 struct LegendLook {
-  double sample = 38, name = 46, gap = 24;
+  double before = 8, behind = 24;
   double (*width)(std::string_view, double) = text_width;
 };
 
-inline constexpr double kLegendLine = 24;  ///< px, from line to line
+inline constexpr double kLegendLine = 24;  ///< px, distance of lines
 
 /// Draws the entries from left to right and line by line, the first baseline at `y` (px); without a canvas it only measures.
 /// Returns the last baseline.
 double draw_legend(Canvas* canvas, std::span<const LegendEntry> entries, double left, double right, double y,
                    const LegendLook& look = {});
+
+/// Width of the entries in one line, px.
+double legend_width(std::span<const LegendEntry> entries, const LegendLook& look = {});
+
+/// Draws the entries in one line that ends at `right` (px). Returns its left end.
+double draw_legend_row(Canvas& canvas, std::span<const LegendEntry> entries, double right, double y);
 
 }  // namespace gaitlab::report

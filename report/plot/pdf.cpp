@@ -17,7 +17,7 @@ constexpr double kQuarter = 0.55228474983079;  // 4/3 (sqrt(2) - 1): a quarter o
 
 std::string at(Point p) { return coordinate(p.x) + " " + coordinate(p.y); }
 
-/// `#RRGGBB` as three numbers from 0 to 1.
+/// `#RRGGBB` as three numbers from 0 to 1, in PDF's text.
 std::string rgb(std::string_view colour) {
   std::string text;
   for (std::size_t i = 1; i < 7; i += 2) {
@@ -128,7 +128,7 @@ void Pdf::text(Point where, std::string_view content, const TextStyle& style) {
   missing_.insert(set.missing.begin(), set.missing.end());
   const double back = set.width * style.size * (style.anchor == Anchor::start ? 0 : style.anchor == Anchor::middle ? 0.5 : 1);
   const Point start = style.upwards ? Point{where.x, where.y + back} : Point{where.x - back, where.y};
-  // Letters stand upright although y is down.
+  // Turns letters upright, because y points down.
   page_ += fmt::format("BT {}rg {} {} Tm", rgb(style.fill), style.upwards ? "0 -1 -1 0" : "1 0 0 -1", at(start));
   for (const TextRun& run : set.runs) {
     fonts_.insert(run.font);

@@ -7,9 +7,9 @@
 
 namespace gaitlab::report {
 
-/// The same calls as Svg make the same picture: one matrix from px to pt, and below it the same coordinates. Text is in
-/// Helvetica and Symbol, which are not embedded. No date; the file's /ID is a hash of the page. The page is compressed by zlib:
-/// another version of it may write other bytes of the same content.
+/// PDF writer. The same calls give the same picture as with Svg: one matrix from px to pt, and below it the same coordinates.
+/// Text is in Helvetica and Symbol, which are not embedded. No date; the file's /ID is a hash of the page. The page is
+/// compressed by zlib: another version of zlib may write other bytes with the same content.
 class Pdf final : public Canvas {
  public:
   explicit Pdf(const Paper& paper);
@@ -20,10 +20,10 @@ class Pdf final : public Canvas {
   void polygons(std::span<const Polygon> polygons, const Style& style) override;
   using Canvas::text;
   void text(Point at, std::string_view content, const TextStyle& style) override;
-  /// RunError: no memory for zlib.
+  /// Throws RunError if there is no memory for zlib.
   [[nodiscard]] std::string finish() const override;
 
-  /// Characters that the fonts lack, and `?` stands for.
+  /// Characters that the fonts lack, replaced by `?`.
   [[nodiscard]] const std::set<char32_t>& missing() const { return missing_; }
 
  private:

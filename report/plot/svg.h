@@ -1,4 +1,4 @@
-// A small SVG writer: shapes and text in, a file's text out.
+// SVG writer for shapes and text.
 #pragma once
 #include "report/plot/canvas.h"
 
@@ -7,9 +7,9 @@ namespace gaitlab::report {
 /// Collects shapes on a white ground; coordinates in px with at most two decimals. The file is a valid XML document.
 class Svg final : public Canvas {
  public:
-  /// For the screen: px, in any sans-serif font.
+  /// Drawing for the screen: px, in any sans-serif font.
   Svg(double width, double height);
-  /// For print: its size in mm, in Helvetica or a font of the same widths.
+  /// Drawing for print: its size in mm, in Helvetica or a font of the same widths.
   explicit Svg(const Paper& paper);
   void line(Point a, Point b, const Style& style) override;
   void rectangle(Point corner, double width, double height, const Style& style) override;
@@ -24,7 +24,7 @@ class Svg final : public Canvas {
   std::string head_, body_;
 };
 
-/// `text` for XML content and attributes.
+/// `text` escaped for XML content and attributes.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace gaitlab::report

@@ -1,4 +1,4 @@
-// A check of the verdict: a limit, and the number of the run that is held against it.
+// A check of the verdict: a limit, and the number of the run that is compared with it.
 #pragma once
 #include <limits>
 #include <span>
@@ -14,17 +14,18 @@ namespace report {
 
 enum class CheckStatus { pass, warn, fail, too_close, not_judged };
 enum class CheckGroup { run, motor, motion, structure, ground, trust };
-/// The stretch of a run that a check is of. A failure in the whole run cannot be undone by more time.
+/// The part of a run to which a check applies. A longer run cannot undo a failure in the whole run.
 enum class CheckSpan { window, whole_run };
-/// The kind of part that a check names as the worst.
+/// Kind of the part that a check names as the worst.
 enum class Part { none, joint, body, dock, foot };
 
-/// A number of the run and the limit beyond which a check fails, or warns where it never fails; both in `unit`.
+/// A number of the run, with the limit beyond which a check fails, or warns if it never fails; both in `unit`.
 struct Criterion {
   double value, limit;
-  std::string unit = {};  ///< "" of shares
-  bool least = false;     ///< the limit is the least that is allowed
-  /// (limit - value) / |limit|, of a least one with the opposite sign; of a limit of 0 without the division. 0 or more: kept.
+  std::string unit = {};  ///< "" for shares
+  bool least = false;     ///< the limit is a lower limit
+  /// (limit - value) / |limit|, with the opposite sign for a lower limit; for a limit of 0 without the division. 0 or more:
+  /// kept.
   [[nodiscard]] double margin() const { return margin(limit); }
   [[nodiscard]] double margin(double other_limit) const;
 };
@@ -60,7 +61,7 @@ struct EnumNames<report::Part> {
 
 namespace report {
 
-/// A limit, and the number of the run that is held against it. NaN: the number is not known.
+/// Result of a check: a limit, and the number of the run that is compared with it. NaN: the number is not known.
 struct Check {
   std::string id;                      ///< `voltage`
   CheckGroup group = CheckGroup::run;  ///< trust: accuracy of the run itself
@@ -68,35 +69,36 @@ struct Check {
   CheckStatus status = CheckStatus::not_judged;
   CheckSpan span = CheckSpan::window;
   bool can_fail = true;  ///< false: it only warns
-  bool least = false;    ///< the limit is the least that is allowed
-  double value, limit;   ///< of the worst part: of the criterion that decides
-  std::string unit;      ///< "" of shares
-  /// Of the criterion that decides. Orders the checks, and is a quantity of studies.
+  bool least = false;    ///< the limit is a lower limit
+  double value, limit;   ///< of the worst part, by the criterion that decides
+  std::string unit;      ///< "" for shares
+  /// Margin of the criterion that decides. Orders the checks, and is a quantity of studies.
   double margin = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Criterion> criteria = {};  ///< those of a check that has several, the main one first
-  double error = 0;                      ///< share by which the value may be off; 0: not estimated
-  Part part = Part::none;                ///< of `worst`
+  std::vector<Criterion> criteria = {};  ///< for a check with several criteria: all, the main one first
+  double error = 0;                      ///< relative error of the value; 0: not estimated
+  Part part = Part::none;                ///< kind of `worst`
   std::string worst = {};                ///< the part with the least margin: `m3/passive`, `m5`
-  std::size_t parts = 0;                 ///< how many are beyond the limit
-  double from, to;                       ///< s: when the worst one was
-  double first;                          ///< s: when any part was beyond the limit first
-  std::string first_part = {};           ///< the part that was; empty: none, or not known
-  std::string definition;                ///< what is held against what
-  std::string source = {};               ///< of the limit
-  std::string text = {};                 ///< a sentence for people
-  std::string remedy = {};               ///< what to set: `take a smaller amplitude`; empty: no setting is known to help
-  std::string missing = {};              ///< how much more it takes: `11 V`; empty: not known
-  SourceLocation place = {};             ///< of the setting to look at
+  std::size_t parts = 0;                 ///< number of parts beyond the limit
+  double from, to;                       ///< s: time of the worst one
+  double first;                          ///< s: when a part was first beyond the limit
+  std::string first_part = {};           ///< that part; empty: none, or not known
+  std::string definition;                ///< definition of the value
+  std::string source = {};               ///< source of the limit
+  std::string text = {};                 ///< sentence for the user
+  std::string remedy = {};               ///< setting to change: `take a smaller amplitude`; empty: no setting is known to help
+  std::string missing = {};              ///< shortfall: `11 V`; empty: not known
+  SourceLocation place = {};             ///< place of the setting concerned
 
-  /// `text`, the time of what was at one instant, and what is missing.
+  /// `text`, with the time if the value is of one instant, and the shortfall.
   [[nodiscard]] std::string sentence() const;
-  /// The least margin if the limit of the main criterion were `limit`.
+  /// The least margin with `limit` as the limit of the main criterion.
   [[nodiscard]] double margin_of(double limit) const;
 };
 
 struct CheckedRun;
 
-/// The constant parts of a check: one row of the list that verdict, terminal, page, studies, `explain` and docs are loops over.
+/// The constant parts of a check: one row of the list from which verdict, terminal, page, studies, `explain` and docs are
+/// generated.
 struct CheckKind {
   const char* id;
   CheckGroup group;
@@ -104,10 +106,11 @@ struct CheckKind {
   const char* definition;  ///< value of the main criterion
   const char *fails, *warns;
   CheckSpan span;
-  const char* key;     ///< setting of the scenario that a message points at
+  const char* key;     ///< setting of the scenario to which a message refers
   const char* remedy;  ///< advice of `explain`
   void (*judge)(const CheckedRun& run, Check& made);
-  bool least = false;  ///< the limit is the least that is allowed
+  bool least = false;         ///< the limit is a lower limit
+  bool of_all_loads = false;  ///< without a stated limit its number needs Loads::recorded
   [[nodiscard]] bool can_fail() const { return *fails != '\0'; }
 };
 /// All checks, in the order of the verdict.

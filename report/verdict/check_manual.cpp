@@ -20,13 +20,13 @@ struct Meaning {
 };
 constexpr Meaning kWords[] = {
     {Word::feasible,
-     "No check fails, and none is too close to its limit. At least one limit of the motors was judged; of a floating base on a "
-     "ground, fall and in_ground, too. The run is evidence: long enough, borne by the ground, and accurate."},
+     "No check fails, and none is too close to its limit. At least one limit of the motors was judged, and for a floating base "
+     "on a ground also fall and in_ground. The run is evidence: long enough, borne by the ground, and accurate."},
     {Word::infeasible,
      "A check fails, in a run that is accurate. In one that is too short only a check of the whole run counts (docks, gears, "
      "collision, stops, fall "
      "...), because more time cannot undo it."},
-    {Word::not_judged, "Anything else. The sentence says what is missing and what to set."},
+    {Word::not_judged, "Anything else. The sentence names the missing evidence and the setting that gives it."},
     {Word::failed, "The run ended early."},
 };
 
@@ -37,12 +37,12 @@ constexpr const char* kEvidence =
     "% of the time coarser than physics.accuracy, and no motor whose efficiency x Kt exceeds Ks.";
 
 constexpr const char* kMargin =
-    "Margin of a check: (limit - value) / limit, for a least limit with the opposite sign, with the limit at which it fails; "
-    "of several limits the least; of a limit of 0 not divided. Below 0 it fails. The worst joint, body, dock or foot is the "
-    "one with the least margin. A value whose error, by the estimated error of the torques, reaches across the limit is too "
-    "close, unless another part is beyond its limit by more than its own error.";
+    "Margin of a check: (limit - value) / limit, where limit is the one at which the check fails; with the opposite sign for a "
+    "lower limit; the least of several limits; not divided for a limit of 0. Below 0 it fails. The worst joint, body, dock or "
+    "foot has the least margin. A value is too close to its limit if its error bar, from the estimated error of the torques, "
+    "contains the limit, unless another part exceeds its limit by more than its own error.";
 
-/// A paragraph behind a head, which its other lines are indented by.
+/// A paragraph after a head; its further lines are indented by the head's width.
 std::string hanging(const std::string& head, const std::string& text, std::size_t width) {
   return head + wrapped(text, head.size(), width).substr(head.size());
 }

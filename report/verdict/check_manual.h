@@ -1,4 +1,4 @@
-// The manual of the verdict: its words, and every check with its limit and remedy.
+// Manual of the verdict: its words, and every check with its limit and remedy.
 #pragma once
 #include <string>
 
@@ -6,11 +6,11 @@
 
 namespace gaitlab::report {
 
-/// What `gaitlab explain verdict` prints: the words, then a line per check.
+/// Text of `gaitlab explain verdict`: the words, then a line per check.
 std::string explain_verdict();
-/// What `gaitlab explain CHECK` prints.
+/// Text of `gaitlab explain CHECK`.
 std::string explain_check(const CheckKind& kind);
-/// docs/reference/verdict.md.
+/// Text of docs/reference/verdict.md.
 std::string verdict_page();
 
 }  // namespace gaitlab::report

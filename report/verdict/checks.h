@@ -1,4 +1,4 @@
-// The checks of a verdict: each fills in what one limit came to.
+// The checks of a verdict: each computes one check.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace gaitlab::report {
 
-/// What every check reads.
+/// Input of every check.
 struct CheckedRun {
   const Scenario& scenario;
   const Recording& record;
@@ -24,28 +24,28 @@ struct CheckedRun {
   Motors motors = report::motors(scenario, 0);
   bool has_dc_motors = report::dc_motors(scenario);
   std::string motor_source = report::motor_source(scenario);
-  std::optional<Fall> fall = report::fall(scenario, record);
+  std::optional<Fall> fall = summary.fall ? *summary.fall : report::fall(scenario, record);
   Evidence evidence = report::evidence(scenario, record, summary);
   std::vector<double> torque_errors = report::torque_errors(record);  ///< of each joint, share of its largest torque
 
   [[nodiscard]] const std::string& joint(std::size_t j) const { return scenario.robot->joints[j].name; }
   [[nodiscard]] const Limits& limits() const { return scenario.limits; }
   [[nodiscard]] bool driven() const { return !motors.of_joint.empty(); }
-  /// Why what needs this column of ticks cannot be judged; empty: it can.
+  /// Reason why checks on this column of ticks cannot be judged; empty: they can.
   [[nodiscard]] std::string unknown(TickColumn column) const;
 };
 
-/// Up to `pass` a pass, up to `warn` a warning, above it, and where it is not a number, a failure.
+/// Pass up to `pass`, warning up to `warn`, failure above and for NaN.
 CheckStatus graded(double value, double pass, double warn);
 
-/// The stretch between the row of Recording::ticks before `time` and `time`, in which a peak of that row was reached.
+/// The interval between the row of Recording::ticks before `time` and `time`, in which a peak of that row was reached.
 std::pair<double, double> row_before(const Recording& record, double time);
 
-/// Who says a threshold of the section `limits`; all of their defaults are chosen.
+/// Source of a threshold in the section `limits`; all defaults are chosen.
 std::string threshold(const char* key, double value, double preset);
 
-// A check comes with its id, title and unit, not judged, without a number and without a word; what stays so was not judged, and
-// the text says why.
+// Each function judges one check. Initially a check has its id, title and unit, is not judged and has no number and no text; a
+// check that stays so was not judged, and its text gives the reason.
 namespace checks {
 void outcome(const CheckedRun& run, Check& made);
 void height(const CheckedRun& run, Check& made);

@@ -37,10 +37,11 @@ void name_joint(Check& made, const CheckedRun& run, std::size_t joint) {
   made.worst = run.joint(joint);
 }
 
-/// Why what bodies without a shape pass through cannot be judged; empty: all have one.
+/// Reason why collisions of bodies without a shape cannot be judged; empty: all have one.
 std::string no_bodies(const CheckedRun& run) {
   const std::size_t all = run.scenario.robot->bodies.size();
-  if (run.scenario.contact.solver()) return "the solver of contact.law bullet keeps bodies apart and above the ground";
+  if (const ContactModel& contact = run.scenario.contact.model(); contact.keeps_bodies_apart)
+    return fmt::format("the solver of contact.law {} keeps bodies apart and above the ground", contact.text);
   if (run.overlaps.shaped == 0) return "no body has a shape, or the run has no poses";
   return run.overlaps.shaped == all ? "" : fmt::format("{} of {} bodies have a shape", run.overlaps.shaped, all);
 }
@@ -58,7 +59,7 @@ void outcome(const CheckedRun& run, Check& made) {
 
 void height(const CheckedRun& run, Check& made) {
   made.text = "judged of a floating base above a ground";
-  if (run.scenario.base != Base::floating || run.scenario.ground.kind == Ground::Kind::none) return;
+  if (run.scenario.base != Base::floating || !run.scenario.ground.exists()) return;
   if (!run.fall) {
     made.text = heights(run.scenario, run.record).empty() ? kNoPoses : "the start pose has its centre of mass in the ground";
     return;
@@ -222,7 +223,7 @@ void battery(const CheckedRun&, Check& made) { made.text = "the module types sta
 
 void in_ground(const CheckedRun& run, Check& made) {
   const std::optional<Sunk>& found = run.overlaps.sunk;
-  const bool grounded = run.scenario.ground.kind != Ground::Kind::none;
+  const bool grounded = run.scenario.ground.exists();
   made.text = grounded ? no_bodies(run) : "judged above a ground";
   if (!found && !made.text.empty()) return;
   judge(made, "sink", &Limits::sink, run);

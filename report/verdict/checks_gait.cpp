@@ -17,11 +17,11 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kLeastTravel = 0.01, kLeastTurn = 0.01;  // of the extent, and rad: per period, ten times that without one
+constexpr double kLeastTravel = 0.01, kLeastTurn = 0.01;  // of the extent, and rad: per period; without a period ten times that
 constexpr const char* kTooShort = "the run is too short";
 constexpr double kMostCycleError = 0.02;  // as core/recording/limit_cycle.h
-constexpr const char* kTimes = "times";   // unit of a growth
-constexpr double kSpeedsUp = 1.2;         // of the first half's speed, where gravity drives the robot
+constexpr const char* kTimes = "times";   // unit of a ratio
+constexpr double kSpeedsUp = 1.2;         // of the first half's speed, if gravity drives the robot
 
 /// Control ticks in the judged window.
 struct Rows {
@@ -34,7 +34,7 @@ Rows window(const CheckedRun& run, const Series& time) {
   return rows;
 }
 
-/// m: diagonal of the box around all links and contact elements at the start; 0: not known.
+/// Diagonal of the box around all links and contact elements at the start, m; 0: not known.
 double extent(const Scenario& s, const Recording& r) {
   const States states = States::at_ticks(r, *s.robot);
   if (states.size() == 0) return 0;
@@ -52,15 +52,15 @@ double extent(const Scenario& s, const Recording& r) {
   return (most - least).norm();
 }
 
-/// Two stretches of equal length up to the end of the run, each of whole periods.
+/// Two intervals of equal length up to the end of the run, each of whole periods.
 struct Halves {
-  double from = 0, length = 0;  ///< s, of the first; 0 long: the run has no two periods
+  double from = 0, length = 0;  ///< s, of the first; length 0: the run has no two periods
 };
 
-/// The halves of the window; of an odd number of periods the middle one is in both, and a period alone is compared with the one
-/// before. A drop at the start is left out of a run that is judged whole.
+/// The halves of the window; with an odd number of periods the middle one is in both, and a single period is compared with the
+/// one before. For a run that is judged as a whole a drop at the start is left out.
 Halves halves(const CheckedRun& run) {
-  constexpr double kMissing = 1e-3;  // of a period: what it may lack
+  constexpr double kMissing = 1e-3;  // of a period: tolerance of a whole one
   const Judged& judged = run.summary.judged;
   const double start = judged.periods > 0 ? judged.from : std::max(judged.from, left_out_start(judged.to));
   const double window = judged.to - start;
@@ -71,7 +71,7 @@ Halves halves(const CheckedRun& run) {
   return from >= -kMissing * unit ? Halves{from, std::ceil(held / 2) * unit} : Halves{};
 }
 
-/// J: work of gravity from the first half on.
+/// Work of gravity from the first half on, J.
 double gravity_work(const Scenario& s, const Motion& m, const Halves& of) {
   std::size_t first = 0;
   while (first + 1 < m.t.size() && m.t[first] < of.from) ++first;
@@ -92,6 +92,30 @@ double speed_up(const Motion& m, const Halves& of, double end) {
   return before > 0 ? way(end - of.length, end) / before : 1;
 }
 
+/// Fails a check of a robot that gravity pulls down a slope.
+void judge_slide(const CheckedRun& run, const Motion& m, Check& made) {
+  const Scenario& s = run.scenario;
+  const Halves two = halves(run);
+  const double fallen = gravity_work(s, m, two);
+  double driven = 0;
+  for (const JointStatistics& joint : run.record.joints) driven += joint.shaft;
+  if (!run.evidence.not_borne.empty()) return;  // a fall is not a slide
+  const double faster = speed_up(m, two, run.summary.judged.to);
+  if (!(fallen > std::max(driven, least_energy(s))) || !(faster > kSpeedsUp)) return;
+  made.criteria = {{made.value, made.limit, made.unit, true}, {faster, kSpeedsUp, kTimes}};
+  made.value = faster;
+  made.limit = kSpeedsUp;
+  made.unit = kTimes;
+  made.least = false;
+  made.margin = made.criteria.back().margin();
+  made.can_fail = true;
+  made.status = CheckStatus::fail;
+  made.text = fmt::format(
+      "the robot slides down: gravity does {:.3g} J of work, the motors {:.3g} J, and its speed grows {:.3g} "
+      "times from the first half of the judged time to the second",
+      fallen, driven, faster);
+}
+
 }  // namespace
 
 namespace checks {
@@ -101,7 +125,7 @@ void progress(const CheckedRun& run, Check& made) {
   const Recording& r = run.record;
   const Motion m = motion(r);
   made.text = "judged of a floating base on a ground";
-  if (s.base != Base::floating || s.ground.kind == Ground::Kind::none) return;
+  if (s.base != Base::floating || !s.ground.exists()) return;
   made.text = "the robot has no size, or the run has no control ticks";
   const double size = extent(s, r);
   if (!(size > 0) || m.t.size() < 3 || m.x.empty() || m.y.empty() || m.z.empty()) return;
@@ -125,25 +149,7 @@ void progress(const CheckedRun& run, Check& made) {
   made.text = fmt::format("the robot goes {:.3g} m {}{}", made.value, each,
                           goes ? "" : fmt::format(", less than {:.3g} m", made.limit));
   made.can_fail = asked > 0;
-  const Halves two = halves(run);
-  const double fallen = gravity_work(s, m, two);
-  double driven = 0;
-  for (const JointStatistics& joint : r.joints) driven += joint.shaft;
-  if (!run.evidence.not_borne.empty()) return;  // a fall is not a slide
-  const double faster = speed_up(m, two, run.summary.judged.to);
-  if (!(fallen > std::max(driven, least_energy(s))) || !(faster > kSpeedsUp)) return;
-  made.criteria = {{made.value, made.limit, made.unit, true}, {faster, kSpeedsUp, kTimes}};
-  made.value = faster;
-  made.limit = kSpeedsUp;
-  made.unit = kTimes;
-  made.least = false;
-  made.margin = made.criteria.back().margin();
-  made.can_fail = true;
-  made.status = CheckStatus::fail;
-  made.text = fmt::format(
-      "the robot slides down: gravity does {:.3g} J of work, the motors {:.3g} J, and its speed grows {:.3g} "
-      "times from the first half of the judged time to the second",
-      fallen, driven, faster);
+  judge_slide(run, m, made);
 }
 
 void airborne(const CheckedRun& run, Check& made) {
@@ -162,16 +168,16 @@ void field(const CheckedRun& run, Check& made) {
   const Scenario& s = run.scenario;
   made.text = "judged on a heightfield";
   const Motion m = motion(run.record);
-  if (s.ground.kind != Ground::Kind::heightfield || m.x.empty() || m.y.empty()) return;
+  if (!s.ground.has_border() || m.x.empty() || m.y.empty()) return;
   made.status = CheckStatus::pass;
   made.text = "the robot stays on its heightfield";
-  if (beside_field(s.ground, m.x.front(), m.y.front())) {  // told before the run
+  if (s.ground.beyond_border(m.x.front(), m.y.front())) {  // told before the run
     made.status = CheckStatus::not_judged;
     made.text = "the robot starts beside its heightfield";
     return;
   }
   for (std::size_t k = 0; k < m.x.size(); ++k) {
-    if (!beside_field(s.ground, m.x[k], m.y[k])) continue;
+    if (!s.ground.beyond_border(m.x[k], m.y[k])) continue;
     made.status = CheckStatus::warn;
     made.value = made.from = made.to = made.first = m.t[k];
     made.text = fmt::format(

@@ -44,9 +44,9 @@ struct Span {
   [[nodiscard]] double length() const { return to - from; }
 };
 
-/// The longest stretch behind the first row that a joint may have been at the limit without a break: rows of ticks that were so
-/// all the while, and the parts of the rows before and after them. A row that was partly at the limit, in how many pieces
-/// nobody knows, counts as one piece at its end and one at its start. parts: s, of every row.
+/// The longest interval after the first row in which a joint may have been at the limit without a break: consecutive rows of
+/// ticks at the limit throughout, and the parts of the rows before and after. A row that was partly at the limit, in an unknown
+/// number of pieces, counts as one piece at its end and one at its start. parts: s, of every row.
 Span longest_span(const Series& t, const std::vector<double>& parts, std::size_t first) {
   constexpr double kAllTheWhile = 0.999;
   Span longest;
@@ -62,7 +62,7 @@ Span longest_span(const Series& t, const std::vector<double>& parts, std::size_t
   return longest;
 }
 
-/// The reason why an actuator without a voltage or a limit is not judged by it; empty: it has one.
+/// Reason why an actuator without a voltage or a limit is not judged; empty: it is.
 std::string unstated(const CheckedRun& run, MotorLimit limit, double share) {
   if (share > 0 || run.has_dc_motors) return "";
   if (limit == MotorLimit::voltage) return "the actuator is not made of DC motors, and has no voltage";
@@ -70,13 +70,13 @@ std::string unstated(const CheckedRun& run, MotorLimit limit, double share) {
   return limited ? "" : "the actuator states no limit";
 }
 
-/// Behind a threshold on what motors have.
+/// Addition to the source of a threshold: that of the motor values.
 std::string of_motors(const CheckedRun& run) {
   return run.motor_source.empty() ? "" : fmt::format("; motors: {}", run.motor_source);
 }
 
-/// s, of every row of ticks: how long a joint is at this limit. Of `error` above 0 an upper bound: a row in which the joint is
-/// at no limit, but its torque comes within that share of this one, counts whole.
+/// Time in each row of ticks that a joint is at this limit, s. With `error` above 0 an upper bound: a row counts whole if the
+/// joint is at no limit, but its torque comes within that share of this one.
 std::vector<double> parts_at_limit(const CheckedRun& run, std::size_t joint, double error, MotorLimit limit) {
   const Recording& r = run.record;
   const Series t(r.ticks, 0);
@@ -97,13 +97,13 @@ std::vector<double> parts_at_limit(const CheckedRun& run, std::size_t joint, dou
   return parts;
 }
 
-/// Share by which the torque of a joint, and so its current, may be off; 0: not estimated.
+/// Relative error of a joint's torque, and so of its current; 0: not estimated.
 double error_of(const CheckedRun& run, std::size_t joint) {
   return joint < run.torque_errors.size() ? run.torque_errors[joint] : 0;
 }
 
 /// Sets Check::first to the end of the first row, behind the row `after`, in which any driven joint is `beyond`, and
-/// Check::first_part to the joint; leaves both where none is.
+/// Check::first_part to the joint; leaves both unchanged if none is.
 template <class Beyond>
 void find_first(const CheckedRun& run, std::size_t after, TickColumn column, const Beyond& beyond, Check& made) {
   const Series t(run.record.ticks, 0);
@@ -122,7 +122,7 @@ void find_first(const CheckedRun& run, std::size_t after, TickColumn column, con
 /// A joint at a limit of its motor.
 struct AtLimit {
   std::size_t joint = 0;
-  double share = 0;  ///< of the window
+  double share = 0;  ///< share of the window
   Span longest;
   std::vector<Criterion> criteria;
   [[nodiscard]] const Criterion& decisive() const { return *std::ranges::min_element(criteria, {}, margin_of); }
@@ -132,7 +132,7 @@ struct AtLimit {
 
 /// error: share by which the torque may be larger.
 AtLimit at_limit(const CheckedRun& run, std::size_t joint, double error, MotorLimit limit) {
-  constexpr double kRounding = 1 + 1e-6;  // of a stretch that is a sum of rows
+  constexpr double kRounding = 1 + 1e-6;  // for an interval that is a sum of rows
   const Series t(run.record.ticks, 0);
   const std::size_t first = run.summary.judged.first_row;
   const std::vector<double> parts = parts_at_limit(run, joint, error, limit);
@@ -145,7 +145,7 @@ AtLimit at_limit(const CheckedRun& run, std::size_t joint, double error, MotorLi
   return made;
 }
 
-/// The bar from a joint that is at its limit a share `error` shorter to one that is as long as `widest`.
+/// Error bar whose least value is from this joint with times shorter by the share `error`, and whose largest is from `widest`.
 ErrorBar bar_of(const AtLimit& at, double error, const AtLimit& widest) {
   ErrorBar bar{"", error, 0, 1 - widest.margin()};
   for (const Criterion& one : at.criteria)
@@ -153,77 +153,92 @@ ErrorBar bar_of(const AtLimit& at, double error, const AtLimit& widest) {
   return bar;
 }
 
-void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn column) {
-  made.text = run.unknown(column);
-  if (!made.text.empty()) return;
-  const Judged& judged = run.summary.judged;
+/// Driven joints at a limit of their motors.
+struct Saturated {
+  std::size_t joints = 0;  ///< at the limit for some time
   std::optional<AtLimit> worst;
-  std::optional<AtLimit> widest;  // of joints that would fail if their torques were larger by their errors
+  std::optional<AtLimit> widest;  ///< joint with the least margin if torques are larger by their errors, and that fails
   std::vector<ErrorBar> bars;
+};
+
+Saturated saturated(const CheckedRun& run, MotorLimit limit) {
   const auto worse = [](const AtLimit& one, const std::optional<AtLimit>& other) {
     constexpr double kEqual = 1e-9;  // margins of sums of the same ticks
     const double nearer = other ? other->margin() - one.margin() : 1;
     return std::abs(nearer) > kEqual ? nearer > 0 : one.share > kLarger * other->share;
   };
-  for (std::size_t j = 0; j < judged.joints.size(); ++j) {
+  Saturated made;
+  for (std::size_t j = 0; j < run.summary.judged.joints.size(); ++j) {
     if (!run.scenario.robot->joints[j].driven()) continue;
     const AtLimit one = at_limit(run, j, 0, limit);
-    if (one.share > 0) ++made.parts;
-    if (worse(one, worst)) worst = one;
+    if (one.share > 0) ++made.joints;
+    if (worse(one, made.worst)) made.worst = one;
     const double error = error_of(run, j);
-    const bool known = error > 0 && error <= run.limits().torque_error;  // a larger one is no evidence of anything
+    const bool known = error > 0 && error <= run.limits().torque_error;  // a larger error proves nothing
     const AtLimit wide = known ? at_limit(run, j, error, limit) : one;
-    bars.push_back(bar_of(one, error, wide));
-    if (known && wide.margin() < 0 && worse(wide, widest)) widest = wide;
+    made.bars.push_back(bar_of(one, error, wide));
+    if (known && wide.margin() < 0 && worse(wide, made.widest)) made.widest = wide;
   }
-  if (!worst) return;
-  made.text = unstated(run, limit, worst->share);
+  return made;
+}
+
+/// Joint and time of the worst saturation, and its sentence. `name`: of what limits the motor.
+void describe(const CheckedRun& run, const AtLimit& worst, TickColumn column, const char* name, Check& made) {
+  made.part = Part::joint;
+  made.worst = run.joint(worst.joint);
+  made.from = worst.longest.from;
+  made.to = worst.longest.to;
+  find_first(
+      run, run.summary.judged.first_row, column, [](std::size_t, double now, double before) { return now > before; }, made);
+  const std::string on_end = fmt::format("{:.3g} s on end from {:.2f} s", worst.longest.length(), made.from);
+  made.text = fmt::format("{} of {} reach{} the limit of {} {}; worst {}: ", made.parts,
+                          counted(driven_joints(*run.scenario.robot), "joint"), made.parts == 1 ? "es" : "",
+                          made.parts == 1 ? "its" : "their", name, made.worst);
+  made.text += made.unit.empty() ? fmt::format("{} of the judged time, up to {}", texts::percent(worst.share), on_end)
+                                 : fmt::format("{}, {}{:g} control periods ({:.3g} s), in all {} of the judged time", on_end,
+                                               made.margin < 0 ? "more than " : "of at most ", run.limits().saturated_periods,
+                                               made.limit, texts::percent(worst.share));
+}
+
+void saturation(const CheckedRun& run, Check& made, MotorLimit limit, TickColumn column) {
+  made.text = run.unknown(column);
   if (!made.text.empty()) return;
-  made.criteria = worst->criteria;
-  const Criterion& decisive = worst->share > 0 ? worst->decisive() : worst->criteria.front();
+  const Saturated found = saturated(run, limit);
+  made.parts = found.joints;
+  if (!found.worst) return;
+  made.text = unstated(run, limit, found.worst->share);
+  if (!made.text.empty()) return;
+  made.criteria = found.worst->criteria;
+  const Criterion& decisive = found.worst->share > 0 ? found.worst->decisive() : found.worst->criteria.front();
   made.value = decisive.value;
   made.limit = decisive.limit;
   made.unit = decisive.unit;
-  made.margin = worst->margin();
+  made.margin = found.worst->margin();
   made.status = made.margin < 0 ? CheckStatus::fail : made.parts > 0 ? CheckStatus::warn : CheckStatus::pass;
-  const bool by_share = made.unit.empty();
-  made.source = (by_share ? threshold("saturated_share", run.limits().saturated_share, Limits().saturated_share)
-                          : threshold("saturated_periods", run.limits().saturated_periods, Limits().saturated_periods)) +
-                of_motors(run);
+  made.source =
+      (made.unit.empty() ? threshold("saturated_share", run.limits().saturated_share, Limits().saturated_share)
+                         : threshold("saturated_periods", run.limits().saturated_periods, Limits().saturated_periods)) +
+      of_motors(run);
   const char* const name = !run.has_dc_motors ? "actuator" : limit == MotorLimit::voltage ? "voltage" : "current";
   made.text = fmt::format("no joint is at the limit of its {}", name);
-  if (made.parts > 0) {
-    made.part = Part::joint;
-    made.worst = run.joint(worst->joint);
-    made.from = worst->longest.from;
-    made.to = worst->longest.to;
-    find_first(
-        run, judged.first_row, column, [](std::size_t, double now, double before) { return now > before; }, made);
-    const std::string on_end = fmt::format("{:.3g} s on end from {:.2f} s", worst->longest.length(), made.from);
-    made.text = fmt::format("{} of {} reach{} the limit of {} {}; worst {}: ", made.parts,
-                            counted(driven_joints(*run.scenario.robot), "joint"), made.parts == 1 ? "es" : "",
-                            made.parts == 1 ? "its" : "their", name, made.worst);
-    made.text += by_share ? fmt::format("{} of the judged time, up to {}", texts::percent(worst->share), on_end)
-                          : fmt::format("{}, {}{:g} control periods ({:.3g} s), in all {} of the judged time", on_end,
-                                        made.margin < 0 ? "more than " : "of at most ", run.limits().saturated_periods,
-                                        made.limit, texts::percent(worst->share));
-  }
-  if (!widest || !too_close(bars)) return;
-  made.error = error_of(run, widest->joint);
+  if (made.parts > 0) describe(run, *found.worst, column, name, made);
+  if (!found.widest || !too_close(found.bars)) return;
+  made.error = error_of(run, found.widest->joint);
   made.status = CheckStatus::too_close;
   made.text += fmt::format(
       "; joint {} is within the error of its torque, {}, of that limit for up to {} of the judged time, {:.3g} s on end",
-      run.joint(widest->joint), texts::rough_percent(made.error), texts::percent(widest->share), widest->longest.length());
+      run.joint(found.widest->joint), texts::rough_percent(made.error), texts::percent(found.widest->share),
+      found.widest->longest.length());
   made.remedy = "take " + torque_remedy(run.scenario, std::max(made.error, run.limits().torque_error));
 }
 
-/// Of every joint a value and its limit; not a number: not known, not finite or 0: not stated.
+/// Value and limit of each joint; NaN: not known; infinite or 0 limit: not stated.
 struct Rated {
   double value, limit, time;
 };
 
-/// Of the joint that comes nearest to its limit, or is farthest beyond it. none: what is said where no joint has a limit.
-/// Returns the bars of all joints that have one.
+/// Judges the joint with the least margin. none: text if no joint has a limit. Returns the error bars of all joints that have
+/// one.
 template <class Rate>
 std::vector<ErrorBar> rated(const CheckedRun& run, Check& made, TickColumn column, const char* none, double pass, double warn,
                             Rate rate) {
@@ -281,7 +296,8 @@ void speed(const CheckedRun& run, Check& made) {
   const char* const none = "the actuator has torque at any speed, and states no largest one";
   const auto no_load = [&](std::size_t j) { return run.motors.joint(j).no_load.value_or(kNever); };
   const auto rating = [&](std::size_t j) { return run.motors.joint(j).speed_max.value_or(kNever); };
-  // What a motor cannot reach is of the gait, and a landing may exceed it; what its maker allows holds from the first step on.
+  // Torque that a motor cannot reach is a matter of the gait, and a landing may exceed it; a rating of the maker holds from the
+  // first step on.
   const double share = run.limits().warn_share;
   Check broken = made;
   rated(run, broken, kSpeedPeak, none, share, 1, [&](std::size_t j) {
@@ -293,7 +309,7 @@ void speed(const CheckedRun& run, Check& made) {
     return Rated{joint.speed_peak, no_load(j), joint.speed_peak_time};
   });
   const bool unreached = made.status != CheckStatus::not_judged;
-  const bool worse = broken.status == CheckStatus::fail ||  // more time cannot undo it
+  const bool worse = broken.status == CheckStatus::fail ||  // a longer run cannot undo it
                      (made.status != CheckStatus::fail && broken.value / broken.limit >= made.value / made.limit);
   const bool by_rating = broken.status != CheckStatus::not_judged && (!unreached || worse);
   if (by_rating) made = broken;

@@ -1,4 +1,4 @@
-// Checks of the accuracy of a run: of steps, torques and energies.
+// Checks of the accuracy of a run: of its steps, torques and energies.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,16 +16,16 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kTooLong = 0.01;  // of the control ticks: a step that is too long more often is a warning
+constexpr double kTooLong = 0.01;  // share of the control ticks: too long a step more often is a warning
 constexpr const char* kUndriven = "nothing drives the joints";
 constexpr const char* kNoEnergies = "the folder holds rows only, and no energies of all steps";
 
-/// The reason why energies are not judged; empty: they are.
+/// Reason why energies are not judged; empty: they are.
 std::string no_energies(const CheckedRun& run) {
   return !run.driven() ? kUndriven : run.record.joints.empty() ? kNoEnergies : "";
 }
 
-/// At most `limit` is a pass; more, and what is not a number, a warning.
+/// Pass up to `limit`; warning above and for NaN.
 void warn_above(double limit, Check& made) { made.status = made.value <= limit ? CheckStatus::pass : CheckStatus::warn; }
 
 const char* finer(const Scenario& s) {
@@ -46,10 +46,12 @@ void torque_error(const CheckedRun& run, Check& made) {
   warn_above(std::min(torque_error_limit(run.scenario), made.limit), made);
   made.part = Part::joint;
   made.worst = run.joint(error.joint);
-  made.text = fmt::format("the torque of joint {} is off by about {} of its peak, estimated from other steps", made.worst,
-                          texts::rough_percent(made.value));
+  made.text = fmt::format("the torque of joint {} is off by about {} of its peak, estimated from other steps{}", made.worst,
+                          texts::rough_percent(made.value),
+                          run.scenario.physics.adapts() ? "" : " in windows; `gaitlab converge` compares whole runs");
   if (made.status == CheckStatus::pass) return;
-  const bool chaotic = predictability(run.scenario, run.record) == Predictability::chaotic;  // then no step helps
+  const bool chaotic =
+      predictability(run.scenario, run.record) == Predictability::chaotic;  // then a shorter step does not help
   if (!chaotic) made.remedy = "take " + torque_remedy(run.scenario, error.share);
   const Parting& event = run.record.tally.event;
   if (event.time < 0) return;
@@ -63,7 +65,7 @@ void predictable(const CheckedRun& run, Check& made) {
   if (found == Predictability::unknown) return;
   const Parting& apart = parting(run.scenario, run.record);
   made.value = apart.share;
-  made.limit = torque_error_limit(run.scenario);
+  made.limit = predictability_limit(run.scenario);
   made.source = "physics.accuracy";
   warn_above(made.limit, made);
   if (made.status == CheckStatus::pass) return;

@@ -17,12 +17,12 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kThrown =
-    0.5;  // of the height of the start pose on the ground: a gait that rises by more than its own run did and this is a jump
+    0.5;  // of the height of the start pose on the ground: a gait that rises by more than that above its own run is a jump
 
 class Raise final : public Fields {
  public:
   bool found = false;
-  bool zero = false;  ///< a limit of 0, which stays one
+  bool zero = false;  ///< a limit of 0, which remains 0
   void visit(const Field& field) override {
     const auto* each = std::get_if<field::EachJoint>(&field.value);
     if (each == nullptr || each->role != field::Role::limit) return;
@@ -34,7 +34,7 @@ class Raise final : public Fields {
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 
  private:
-  /// Puts `usual` where nothing is stated.
+  /// Sets `usual` where no value is stated.
   static void state(PerJoint& value, const PerJoint& usual) {
     if (value.each.empty()) value.each.assign(usual.each.size(), value.common);
     for (std::size_t j = 0; j < value.each.size(); ++j) {
@@ -48,10 +48,10 @@ class Raise final : public Fields {
   }
 };
 
-/// m: how far the centre of mass rises above its height at the start.
+/// Largest rise of the centre of mass above its height at the start, m.
 double rise(const std::vector<double>& z) { return *std::ranges::max_element(z) - z.front(); }
 
-/// What the joint that lacks most would take beyond what it has, of those at that limit for some time: `0.241 A at m5/passive
+/// Requirement beyond its limit of the joint that lacks most, among those at that limit for some time: `0.241 A at m5/passive
 /// (needs 0.741 A; largest torque 1.3 N m, largest speed 0.9 rad/s)`.
 std::string lack(const Scenario& scenario, const std::vector<JudgedJoint>& own, const std::vector<JudgedJoint>& free,
                  double JudgedJoint::*share, double JudgedJoint::*peak, const char* unit) {
@@ -70,7 +70,7 @@ std::string lack(const Scenario& scenario, const std::vector<JudgedJoint>& own, 
 }  // namespace
 
 bool thrown_up(const Scenario& scenario, const Recording& free, const Recording& own) {
-  if (scenario.base != Base::floating || scenario.ground.kind == Ground::Kind::none) return false;
+  if (scenario.base != Base::floating || !scenario.ground.exists()) return false;
   const std::vector<double> z = heights(scenario, own);
   const std::vector<double> thrown = heights(scenario, free);
   return !z.empty() && !thrown.empty() && rise(thrown) > rise(z) + kThrown * std::abs(standing_height(scenario));
@@ -134,12 +134,12 @@ bool take_demand(Verdict& verdict, const std::string& json) try {
   }
   verdict = std::move(with);
   return true;
-} catch (const nlohmann::json::exception&) {  // a file that somebody changed
+} catch (const nlohmann::json::exception&) {  // a file that was changed
   return false;
 }
 
 void add_demand(Verdict& verdict, const Scenario& scenario, const Summary& summary, const Demand& demand) {
-  verdict.demand_doubt = without_folders(demand.doubt, scenario.plugins);
+  verdict.demand_doubt = without_folders(demand.doubt, scenario);
   if (!demand.known) return;
   const std::vector<JudgedJoint>& own = summary.judged.joints;
   for (std::size_t j = 0; j < own.size(); ++j) {

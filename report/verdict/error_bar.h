@@ -1,4 +1,4 @@
-// The error bar of a part of a check, and the one rule for what bars leave undecided.
+// Error bar of a part of a check, and the rule for undecided checks.
 #pragma once
 #include <algorithm>
 #include <span>
@@ -12,10 +12,10 @@ struct Scenario;
 
 namespace gaitlab::report {
 
-/// The least and the largest share of its limit that a part takes; above 1 it is beyond the limit.
+/// Range of the share of its limit that a part uses; above 1 it is beyond the limit.
 struct ErrorBar {
   std::string part;
-  double error = 0;  ///< share by which the value may be off
+  double error = 0;  ///< relative error of the value
   double least = 0, most = 0;
   static ErrorBar around(std::string part, double share, double error) {
     return {std::move(part), error, share * (1 - error), share * (1 + error)};
@@ -24,15 +24,15 @@ struct ErrorBar {
   [[nodiscard]] bool across() const { return !beyond() && most > 1; }
 };
 
-/// True where the limit lies within the bar of a part, and no part is beyond its limit with its whole bar: one such part makes
-/// a check fail, however near others are.
+/// Whether the limit lies within the bar of some part, and no part is beyond its limit with its whole bar: one such part makes
+/// a check fail, regardless of the others.
 inline bool too_close(std::span<const ErrorBar> bars) {
   return std::ranges::any_of(bars, &ErrorBar::across) && std::ranges::none_of(bars, &ErrorBar::beyond);
 }
 
-/// Sets Check::error, that of the worst part. Where `bars` are too close to their limits so becomes the status, and the text
-/// gains the remedy and the range of the worst part, or, where its limit is outside of its bar, of the one that may be the
-/// farthest beyond.
+/// Sets Check::error to that of the worst part. If `bars` are too close to their limits the status becomes so, and the text
+/// gains the remedy and the range of the worst part or, if its limit is outside of its bar, of the part that may be farthest
+/// beyond.
 void widen(const Scenario& scenario, std::span<const ErrorBar> bars, Check& made);
 
 }  // namespace gaitlab::report

@@ -19,7 +19,7 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kRelative = 1e-9;  // rounding
-constexpr double kEstimate = 1e-3;  // of a period, which is an estimate
+constexpr double kEstimate = 1e-3;  // of a period, as an estimate
 
 bool moves(const std::vector<Series>& set_points) {
   for (const Series& one : set_points) {
@@ -54,29 +54,30 @@ void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
                       "duration"};
 }
 
-/// unknown: gains a name where nobody can know it.
+/// unknown: gains the names of unknown numbers.
 void judge_support(const Scenario& s, const Summary& summary, Evidence& made, std::vector<std::string>& unknown) {
   if (s.base != Base::floating) return;
   if (!(s.physics.gravity.norm() > 0)) {
     made.not_borne = {"there is no gravity, so that no ground bears the robot", "physics.gravity",
                       "take physics.gravity, or base: fixed"};
-  } else if (s.ground.kind == Ground::Kind::none) {
+  } else if (!s.ground.exists()) {
     made.not_borne = {"the robot falls freely: there is no ground", "ground.type", "take base: fixed, or a ground"};
-  } else if (!s.contact.solver() && contact_elements(*s.robot, s.contact.on).empty()) {
+  } else if (s.contact.model().element_forces && contact_elements(*s.robot, s.contact.on).empty()) {
     made.not_borne = {"the robot falls freely: no part of it touches the ground", "contact.on",
                       "take base: fixed, or contact.on: all"};
   }
   made.falls_freely = !made.not_borne.empty();
   if (made.falls_freely) return;
   const double share = summary.posture.borne_share;
-  if (std::isnan(share)) unknown.emplace_back("the ground's share of the weight");  // a solver's impulses are not recorded
+  if (std::isnan(share))
+    unknown.emplace_back("the ground's share of the weight");  // the impulses of the solver are not recorded
   if (share >= kBorne || std::isnan(share)) return;
   made.not_borne = {fmt::format("the ground carries {} of the weight on average, less than {}: the robot is not on it",
                                 texts::percent(share), texts::percent(kBorne)),
                     "contact"};
 }
 
-/// The motor that makes energy by itself; empty: none.
+/// The motor that creates energy; empty: none.
 std::string makes_energy(const Scenario& s) {
   if (s.actuator.entry == nullptr || s.robot->joints.empty()) return "";
   const std::unique_ptr<Actuator> actuator = make_actuator(s.actuator, info(*s.robot));
@@ -108,12 +109,13 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
   } else if (error.estimated && !std::isfinite(error.share)) {
     made.not_trusted = {fmt::format("the error of the torque of joint {} is not a number", s.robot->joints[error.joint].name),
                         steps};
-  } else if (!chaotic && error.estimated && error.share > s.limits.torque_error) {  // else by the spread
+  } else if (!chaotic && error.estimated &&
+             error.share > s.limits.torque_error) {  // in a chaotic motion the spread decides instead
     made.not_trusted = {fmt::format("the torque of joint {} is off by about {} of its peak, more than {}; take {}",
                                     s.robot->joints[error.joint].name, texts::rough_percent(error.share),
                                     texts::percent(s.limits.torque_error), torque_remedy(s, error.share)),
                         steps};
-  } else if (driven && !(residual <= kTrustedResidual)) {  // also where it is not a number
+  } else if (driven && !(residual <= kTrustedResidual)) {  // also for NaN
     made.not_trusted = {fmt::format("{} of the energy is unaccounted for, more than {}; take a smaller {}",
                                     texts::percent(residual), texts::percent(kTrustedResidual), steps),
                         steps};

@@ -1,4 +1,4 @@
-// Summary numbers of every joint, and of the one that was farthest from its set point.
+// Summary numbers of every joint, and of the joint with the largest tracking error.
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -13,19 +13,19 @@ using Json = nlohmann::ordered_json;
 using R = const RunData&;
 using F = JointStatistics;
 
-/// Of the whole run.
+/// A member over the whole run.
 auto of_whole_run(double F::*member) {
   return [member](R run, std::size_t joint) { return run.record.joints[joint].*member; };
 }
 
-/// Within the judged window; NaN (null) where nothing drives the joints.
+/// A member within the judged window; NaN (null) if no joint has a motor.
 auto of_window(double JudgedJoint::*member) {
   return [member](R run, std::size_t joint) {
     return has_motors(run) ? run.summary.judged.joints[joint].*member : std::numeric_limits<double>::quiet_NaN();
   };
 }
 
-/// Of the joint that was farthest from its set point in the whole run; null: nothing drives the joints.
+/// A member of the joint with the largest tracking error in the whole run; null: no joint has a motor.
 Json tracked(R run, double F::*figure) {
   return has_motors(run) ? Json(run.record.joints[texts::worst(run.record, &F::error_peak)].*figure) : Json();
 }
@@ -36,7 +36,7 @@ std::vector<SummaryNumber> joint_numbers() {
   return {
       {.key = "per_joint.J.torque.peak",
        .unit = "N m",
-       .definition = "Largest motor torque, without the stop's.",
+       .definition = "Largest motor torque, without the torque of the stop.",
        .of_joint = of_whole_run(&F::torque_peak),
        .compare = {220},
        .golden = {.place = 70, .needs_motor = true}},
@@ -90,7 +90,8 @@ std::vector<SummaryNumber> joint_numbers() {
        .swap = {40, " peak torque", "         N m of joint", -29, texts::torque_cell}},
       {.key = "per_joint.J.judged.torque.peak_time",
        .unit = "s",
-       .definition = "When: the end of the control tick (or the few, where the run is long) in which it was reached.",
+       .definition = "Its time: the end of the control tick (or of the few ticks, in a long run) in which it "
+                     "was reached.",
        .of_joint = of_window(&JudgedJoint::torque_peak_time)},
       {.key = "per_joint.J.judged.torque.rms",
        .unit = "N m",
@@ -103,7 +104,7 @@ std::vector<SummaryNumber> joint_numbers() {
        .of_joint = of_window(&JudgedJoint::error_peak)},
       {.key = "per_joint.J.judged.tracking_error.peak_time",
        .unit = "s",
-       .definition = "When, in the same way.",
+       .definition = "Its time, defined in the same way.",
        .of_joint = of_window(&JudgedJoint::error_peak_time)},
       {.key = "per_joint.J.judged.saturated.voltage",
        .definition = "Share of the window at the voltage limit.",
@@ -120,7 +121,7 @@ std::vector<SummaryNumber> joint_numbers() {
        .definition = "Largest excess over [lo, hi].",
        .of_joint = of_whole_run(&F::range_worst)},
       {.key = "per_joint.J.range.setpoint_share",
-       .definition = "Share of the time in which the set point is outside [lo, hi].",
+       .definition = "Share of the time with the set point outside [lo, hi].",
        .of_joint = of_whole_run(&F::setpoint_outside)},
       {.key = "per_joint.J.energy.electrical",
        .unit = "J",
@@ -129,27 +130,25 @@ std::vector<SummaryNumber> joint_numbers() {
       {.key = "per_joint.J.energy.copper", .unit = "J", .definition = "sum(R i^2 h).", .of_joint = of_whole_run(&F::copper)},
       {.key = "per_joint.J.energy.gear",
        .unit = "J",
-       .definition = "sum(voltage * current - R i^2 - T w) h, all at one moment.",
+       .definition = "sum(voltage * current - R i^2 - T w) h, all evaluated at the same time.",
        .of_joint = of_whole_run(&F::gear)},
       {.key = "per_joint.J.energy.created",
        .unit = "J",
-       .definition =
-           "The part of `energy.gear` that is gained, not lost, without its sign: -sum(min(gear power, 0) h). What eq. "
-           "2 gives to back-driven joints; `gear` is what is left of the losses after it.",
+       .definition = "Energy that the gears create, as a positive number: -sum(min(gear power, 0) h). Eq. 2 "
+                     "gives it to back-driven joints; `gear` is the loss minus this energy.",
        .of_joint = of_whole_run(&F::created)},
       {.key = "per_joint.J.energy.shaft", .unit = "J", .definition = "sum(T w h).", .of_joint = of_whole_run(&F::shaft)},
       {.key = "tracking_error.worst",
        .unit = "rad",
-       .definition =
-           "Largest `per_joint.J.tracking_error.peak`: over all steps, as other peaks; `tracking_error` is null where "
-           "nothing drives the joints.",
+       .definition = "Largest `per_joint.J.tracking_error.peak`: over all steps, as other peaks; "
+                     "`tracking_error` is null if no joint has a motor.",
        .value = [](R r) { return tracked(r, &F::error_peak); },
        .line = {48, "tracking", texts::tracking},
        .compare = {235},
        .golden = {.place = 65, .needs_motor = true},
        .swap = {60, "tracking", "error, rad", 10, texts::tracking_cell}},
       {.key = "tracking_error.joint",
-       .definition = "The joint that has it.",
+       .definition = "Joint of this error.",
        .words = true,
        .value =
            [](R r) {

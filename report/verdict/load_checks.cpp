@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kNothing = 1e-9;  // N, N m: rounding
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLeastWay = 0.01;  // m: who goes less does not walk, and slides any share of nothing
+constexpr double kLeastWay = 0.01;  // m: with a shorter path the robot does not walk, and the share of slip has no meaning
 
 struct DockWords {
   const char *column, *unit, *does;
@@ -38,45 +38,45 @@ DockWords words(DockQuantity quantity) {
   }
 }
 
-/// The rows of Recording::loads within the judged window, and the row that it begins after.
+/// The rows of Recording::loads within the judged window, and the row before them.
 struct Window {
   const Trace& loads;
   std::size_t start = 0;
 
   /// The whole run.
   explicit Window(const Recording& record) : loads(record.loads) {}
-  /// Rows are those of Recording::ticks.
+  /// Rows with the indices of Recording::ticks.
   Window(const Recording& record, const Summary& summary)
       : loads(record.loads), start(std::min(summary.judged.first_row, std::max<std::size_t>(record.loads.rows(), 1) - 1)) {}
   [[nodiscard]] Series series(const std::string& name) const {
     const std::size_t at = loads.find(name);
     return at < loads.columns.size() && loads.rows() > 0 ? Series(loads, at) : Series();
   }
-  /// What a sum from t = 0 has grown by.
+  /// Growth of a sum that starts at t = 0.
   [[nodiscard]] double grown(const Series& sum) const { return sum.empty() ? kUnknown : sum.back() - sum[start]; }
   [[nodiscard]] double time(std::size_t row) const { return loads.at(row, 0); }
 };
 
-/// Why nothing is known of what feet and docks bore; empty: it is.
+/// Reason why the loads of feet and docks are not known; empty: they are.
 std::string unknown(const Scenario& scenario, const Recording& record) {
-  if (scenario.contact.solver())
-    return "not available with contact.law: bullet, which yields impulses that do not all act at contact elements";
+  if (const ContactModel& contact = scenario.contact.model(); !contact.element_forces)
+    return fmt::format("not available with contact.law: {}, which yields impulses that do not all act at contact elements",
+                       contact.text);
   if (record.loads.rows() < 2)
     return "loads were not recorded: `gaitlab run`, `test` and `swap` record them, unless a run ends at once";
   return "";
 }
 
 std::string unknown_of_feet(const Scenario& scenario, const Recording& record) {
-  if (scenario.base != Base::floating || scenario.ground.kind == Ground::Kind::none)
-    return "judged of a floating base on a ground";
+  if (scenario.base != Base::floating || !scenario.ground.exists()) return "judged of a floating base on a ground";
   return unknown(scenario, record);
 }
 
-/// The largest load of a dock, and when.
+/// Largest load of a dock, with its time.
 struct DockPeak {
   std::size_t module = 0;
   double value = 0, time = 0, limit = kUnknown;
-  double first = kUnknown;  ///< s, when the load was beyond the limit first
+  double first = kUnknown;  ///< s, when the load first exceeded the limit
   [[nodiscard]] bool limited() const { return limit > 0; }
   [[nodiscard]] double share() const { return value / limit; }
 };
@@ -103,7 +103,7 @@ double stated(const Connector& connector, DockQuantity quantity) {
   return limit > 0 ? limit : kUnknown;
 }
 
-/// The connector of a dock that gives way first.
+/// The connector of a dock with the smaller limit.
 Connector weaker(const Robot& robot, std::size_t module, DockQuantity quantity) {
   const auto [own, parents] = connectors_at(robot, module);
   return stated(parents, quantity) < stated(own, quantity) || std::isnan(stated(own, quantity)) ? parents : own;
@@ -122,7 +122,7 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
   const std::size_t modules = scenario.robot->modules.size();
   made.text = modules < 2 ? "the robot has no dock" : unknown(scenario, record);
   if (!made.text.empty()) return;
-  const Window window(record);  // a dock that opens once has opened
+  const Window window(record);  // once a dock has opened it stays open
   std::vector<DockPeak> peaks;
   for (std::size_t m = 1; m < modules; ++m)
     peaks.push_back(peak_of(window, m, quantity, m < limits.size() ? limits[m] : kUnknown));
@@ -141,6 +141,10 @@ void judge_docks(const Scenario& scenario, const Recording& record, DockQuantity
     made.first_part = fmt::format("m{}", peak.module);
   }
   const DockWords are = words(quantity);
+  if (std::isnan(worst.value) && !worst.limited()) {
+    made.text = "the module types do not state what a dock holds";
+    return;
+  }
   made.text = worst.value > 0 ? fmt::format("{}'s dock is {} by up to {:.3g} {}", made.worst, are.does, worst.value, are.unit)
                               : fmt::format("no dock is {}", are.does);
   if (!worst.limited()) {
@@ -189,7 +193,7 @@ void judge_slip(const Scenario& scenario, const Recording& record, const Summary
   if (way < kLeastWay) return;
   made.value = slip / way;
   made.limit = scenario.limits.slip;
-  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // not a number: a warning
+  made.status = made.value <= made.limit ? CheckStatus::pass : CheckStatus::warn;  // NaN: a warning
   made.from = window.time(window.start);
   made.to = window.loads.at(window.loads.rows() - 1, 0);
   made.text = made.worst.empty() ? "no foot slides under load"
@@ -198,8 +202,7 @@ void judge_slip(const Scenario& scenario, const Recording& record, const Summary
 }
 
 void judge_stability(const Scenario& scenario, const Recording& record, const Summary& summary, Check& made) {
-  made.text =
-      scenario.ground.kind == Ground::Kind::plane ? unknown_of_feet(scenario, record) : "judged on a plane without boxes";
+  made.text = scenario.ground.is_plane() ? unknown_of_feet(scenario, record) : "judged on a plane without boxes";
   if (!made.text.empty()) return;
   const Window window(record, summary);
   const Series margin = window.series("stability");
@@ -214,7 +217,7 @@ void judge_stability(const Scenario& scenario, const Recording& record, const Su
     }
     ++seen;
     if (margin[row] < 0) ++outside;
-    if (margin[row] >= made.value) continue;  // of a value that is not known yet: false
+    if (margin[row] >= made.value) continue;  // false for an unknown value
     made.value = margin[row];
     made.from = made.to = window.time(row);
   }

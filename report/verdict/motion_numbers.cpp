@@ -1,4 +1,4 @@
-// Summary numbers of energies, of the posture, and of what repeats or is stable.
+// Summary numbers of energies, posture, repetition and stability.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 using R = const RunData&;
 
 Json fallen(R run) {
-  const std::optional<Fall> found = fall(run.scenario, run.record);
+  const std::optional<Fall> found = run.summary.fall ? *run.summary.fall : fall(run.scenario, run.record);
   return found ? Json(found->time.has_value()) : Json();
 }
 
@@ -29,9 +29,8 @@ std::vector<SummaryNumber> motion_numbers() {
   return {
       {.key = "energy.electrical",
        .unit = "J",
-       .definition =
-           "Energy of the whole robot drawn from the supply: the ledger ([equations](equations.md), 8) at the last row "
-           "of the trace, as are all numbers of this group.",
+       .definition = "Energy that the whole robot draws from the supply. This and all other numbers of the "
+                     "group are the ledger ([equations](equations.md), 8) at the last row of the trace.",
        .value = [](R r) { return r.record.ledger.electrical; },
        .line = {100, "energy", texts::drawn}},
       {.key = "energy.copper",
@@ -41,7 +40,7 @@ std::vector<SummaryNumber> motion_numbers() {
        .line = {102, "", texts::ledger}},
       {.key = "energy.gear",
        .unit = "J",
-       .definition = "Loss in the gears, less `created`.",
+       .definition = "Loss in the gears, minus `created`.",
        .value = [](R r) { return r.record.ledger.gear; }},
       {.key = "energy.created",
        .unit = "J",
@@ -50,7 +49,8 @@ std::vector<SummaryNumber> motion_numbers() {
        .line = {106, "", texts::created_energy}},
       {.key = "energy.stored",
        .unit = "J",
-       .definition = "Kinetic and potential energy, springs of hinges without a motor included, less that at the start.",
+       .definition = "Kinetic and potential energy, including springs of hinges without a motor, minus the "
+                     "value at the start.",
        .value = [](R r) { return r.record.ledger.stored; }},
       {.key = "energy.contact",
        .unit = "J",
@@ -66,27 +66,28 @@ std::vector<SummaryNumber> motion_numbers() {
        .value = [](R r) { return r.record.ledger.stops; }},
       {.key = "energy.hinges",
        .unit = "J",
-       .definition = "Lost in dampers and friction of hinges without a motor.",
+       .definition = "Energy lost in dampers and friction of hinges without a motor.",
        .value = [](R r) { return r.record.ledger.hinges; }},
       {.key = "energy.residual",
        .unit = "J",
-       .definition = "What the ledger does not account for: the error of the integration.",
+       .definition = "Energy missing from the ledger: the error of the integration.",
        .value = [](R r) { return r.record.ledger.residual(); }},
       {.key = "energy.residual_share",
-       .definition = "Magnitude of `residual` over what was drawn (or stored, or lifts the robot by 1 mm, if that is more).",
+       .definition = "Magnitude of `residual` over the energy drawn (or stored, or needed to lift the robot by "
+                     "1 mm, if that is more).",
        .value = [](R r) { return or_null(std::abs(r.record.ledger.residual()) / energy_scale(r.scenario, r.record)); }},
       {.key = "energy.created_share",
-       .definition = "`created` over the same.",
+       .definition = "`created` over the same energy.",
        .value = [](R r) { return or_null(texts::created(r.record) / energy_scale(r.scenario, r.record)); }},
       {.key = "fell",
-       .definition =
-           "Whether the centre of mass came below `limits.height` of its height above the ground at the start (the check "
-           "`fall` of the verdict); null of a base that is not floating, and without a ground.",
+       .definition = "True if the centre of mass came below `limits.height` of its height above the ground at "
+                     "the start (the check `fall` of the verdict); null for a base that is not floating, and "
+                     "without a ground.",
        .value = [](R r) { return fallen(r); }},
       {.key = "airborne_share",
-       .definition =
-           "Share of the control ticks in the judged window at which the ground bears less than 5 % of the weight; null "
-           "without gravity, of a base that does not float, or of a robot without contact elements.",
+       .definition = "Share of the control ticks in the judged window at which the ground carries less than 5 % "
+                     "of the weight; null without gravity, for a base that does not float, or for a robot "
+                     "without contact elements.",
        .value = [](R r) { return held(r, &Posture::airborne_share); }},
       {.key = "height.min",
        .unit = "m",
@@ -94,34 +95,33 @@ std::vector<SummaryNumber> motion_numbers() {
        .value = [](R r) { return held(r, &Posture::height_min); }},
       {.key = "height.max",
        .unit = "m",
-       .definition = "The largest.",
+       .definition = "Largest height at these ticks.",
        .value = [](R r) { return held(r, &Posture::height_max); }},
       {.key = "tilt.max",
        .unit = "rad",
-       .definition =
-           "Largest angle between the base's z axis and the vertical at these ticks (the check `upright` of the verdict "
-           "is of the turn since the start).",
+       .definition = "Largest angle between the base's z axis and the vertical at these ticks (the check "
+                     "`upright` of the verdict uses the turn since the start).",
        .value = [](R r) { return held(r, &Posture::tilt_max); }},
       {.key = "limit_cycle.found",
-       .definition = "Whether the motion has become periodic: see below.",
+       .definition = "True if the motion has become periodic: see below.",
        .value = [](R r) { return r.summary.limit_cycle.found; },
        .line = {70, "limit cycle", texts::limit_cycle},
        .compare = {.place = 200, .if_different = true},
        .swap = {70, "", " limit cycle", -1, texts::limit_cycle_cell}},
       {.key = "limit_cycle.from",
        .unit = "s",
-       .definition = "Since when; 0 where it is not found.",
+       .definition = "Start of the periodic motion; 0 without a limit cycle.",
        .value = [](R r) { return r.summary.limit_cycle.from; }},
       {.key = "limit_cycle.period",
        .unit = "s",
-       .definition = "Its period, or that of the best candidate; 0 without one.",
+       .definition = "Its period, or that of the best candidate; 0 without a candidate.",
        .value = [](R r) { return r.summary.limit_cycle.period; },
        .compare = {210}},
       {.key = "limit_cycle.error",
-       .definition = "How well it repeats; 1 without a candidate.",
+       .definition = "Its repetition error; 1 without a candidate.",
        .value = [](R r) { return r.summary.limit_cycle.error; }},
       {.key = "stability.max",
-       .definition = "Largest h lambda seen at the control ticks ([equations](equations.md)).",
+       .definition = "Largest h lambda at the control ticks ([equations](equations.md)).",
        .value = [](R r) { return r.summary.stability_max; },
        .line = {130, "stability", texts::stability},
        .compare = {240}},
@@ -129,11 +129,11 @@ std::vector<SummaryNumber> motion_numbers() {
        .definition = "Share of the control ticks at which h lambda exceeds 1.",
        .value = [](R r) { return r.summary.stability_share; }},
       {.key = "stability.source",
-       .definition = "What has the largest lambda.",
+       .definition = "Source of the largest lambda.",
        .words = true,
        .value = [](R r) { return r.summary.stability_source; }},
       {.key = "trace_hash",
-       .definition = "Hash of the names and the bytes of all columns, behind the number of its format.",
+       .definition = "Hash of the names and the bytes of all columns, after the number of its format.",
        .words = true,
        .value = [](R r) { return hash(r.record.trace); },
        .compare = {250}},

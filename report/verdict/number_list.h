@@ -10,7 +10,7 @@ std::vector<SummaryNumber> run_numbers();
 std::vector<SummaryNumber> joint_numbers();
 std::vector<SummaryNumber> motion_numbers();
 
-/// Null of what is not a number.
+/// Null for NaN and infinity.
 nlohmann::ordered_json or_null(double value);
 
 }  // namespace gaitlab::report

@@ -14,10 +14,10 @@ namespace gaitlab::report::texts {
 namespace {
 
 constexpr double kMostShare = 10, kLeastShare = 1e-6;
-constexpr double kVisible = 1e-3;      // share of what is drawn
-constexpr double kMuchCreated = 0.05;  // of what is drawn: said beside a cost
+constexpr double kVisible = 1e-3;      // share of the energy drawn
+constexpr double kMuchCreated = 0.05;  // of the energy drawn: printed beside a cost
 constexpr std::size_t kWidth = 64;     // columns beside the titles, of 80
-constexpr double kLeastTravel = 1e-3;  // m: the work of a robot that stays is divided by noise
+constexpr double kLeastTravel = 1e-3;  // m: for a robot that does not travel the cost is noise
 
 }  // namespace
 
@@ -123,10 +123,14 @@ Lines transport(const RunData& run) {
   if (s.distance < kLeastTravel) return {"cost of transport undefined: travelled less than 1 mm"};
   Lines lines{
       fmt::format("cost {:.3g} electrical, {:.3g} mechanical (J per N of weight and m)", s.cost_electrical, s.cost_mechanical)};
-  // What is drawn would be more by that, if gears lost what eq. 2 lets them give.
-  const double share = created(run.record) / run.record.ledger.electrical;
-  if (share > kMuchCreated) lines.push_back(fmt::format("the gears create {} of the energy drawn (eq. 2)", percent(share)));
+  if (const std::string much = much_created(run); !much.empty()) lines.push_back(much);
   return lines;
+}
+
+// Energy drawn would be higher by this share without the energy that gears create by eq. 2.
+std::string much_created(const RunData& run) {
+  const double share = created(run.record) / run.record.ledger.electrical;
+  return share > kMuchCreated ? fmt::format("the gears create {} of the energy drawn (eq. 2)", percent(share)) : "";
 }
 
 namespace {
@@ -154,7 +158,7 @@ Lines window(const RunData& run) {
 
 namespace {
 
-/// The limit at which the joint that is named is not, or another is longer.
+/// Lines for a limit other than the named joint's, or at which another joint is longer.
 Lines other_limits(const RunData& run, std::size_t named) {
   struct Kind {
     MotorLimit limit;
@@ -211,7 +215,8 @@ Lines limits(const RunData& run) {
 
 namespace {
 
-/// The joint whose peak is nearest to what its motor has, or beyond it; nothing where one is at a limit, which says more.
+/// Line for the joint whose peak is nearest to, or beyond, its motor's torque at rest; none if a joint is at a limit, which is
+/// printed instead.
 Lines nearest_to_rest(const RunData& run) {
   const std::vector<double> rest = rest_torques(run.scenario);
   const std::vector<JudgedJoint>& joints = run.summary.judged.joints;

@@ -1,4 +1,4 @@
-// How the terminal and `swap` print summary numbers.
+// Formatting of summary numbers for the terminal and `swap`.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,24 +9,24 @@ namespace gaitlab::report::texts {
 
 using Lines = std::vector<std::string>;
 
-/// Three digits; `more than 1000 %`, `0.0001 % and less` of what more digits would say nothing about.
+/// Three digits; `more than 1000 %`, `0.0001 % and less` where more digits have no meaning.
 std::string percent(double share);
-/// Of estimates: two digits, three from 10 % on, `1000 % and more`.
+/// For estimates: two digits, three from 10 % on, `1000 % and more`.
 std::string rough_percent(double share);
 
 /// `5.2 mm`; from 1 m on in m, from 1 km on in km, three digits.
 std::string length(double metres);
 
-/// Three decimals; of a thousand and more three digits.
+/// Three decimals; from a thousand on three digits.
 std::string thousandths(double value);
 
-/// The words nan and inf, with or without a sign, as `-`, as wide as they were: what is not known is told in a warning.
+/// Replaces nan and inf, with or without a sign, by `-` of the same width: a warning reports unknown values.
 std::string without_nan(std::string text);
 
-/// J: what the gears gave instead of losing it.
+/// Energy that the gears created, J.
 double created(const Recording& record);
 
-/// The joint with the largest value of one of its statistics over the whole run; there is a joint.
+/// Joint with the largest value of one of its statistics over the whole run; requires a joint.
 std::size_t worst(const Recording& record, double JointStatistics::*member);
 
 Lines simulated(const RunData& run);
@@ -44,6 +44,8 @@ Lines tracking(const RunData& run);
 Lines drawn(const RunData& run);
 Lines ledger(const RunData& run);
 Lines created_energy(const RunData& run);
+/// `the gears create 17 % of the energy drawn (eq. 2)`, beside a cost of transport; empty up to 5 %.
+std::string much_created(const RunData& run);
 Lines range(const RunData& run);
 Lines stability(const RunData& run);
 

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-/// Of the whole robot; of joints all that are of the whole run.
+/// Quantities of the whole robot that are known for a run that ended early; those of joints are known if they cover the whole
+/// run.
 constexpr std::array<std::string_view, 11> kSoFar{
     "simulated",     "displacement.x", "displacement.y",       "distance", "speed", "path_length", "straightness",
     "forward_speed", "heading_change", "tracking_error.worst", "fell"};
@@ -56,7 +57,7 @@ double Quantity::value(const RunData& run) const {
 
 std::string Quantity::meaning() const {
   const std::string text = number->definition;
-  return of == Of::largest ? "Of all joints the largest: " + text : of == Of::joint ? "Of this joint: " + text : text;
+  return of == Of::largest ? "Largest over all joints. " + text : of == Of::joint ? "This joint. " + text : text;
 }
 
 const std::vector<Quantity>& quantities() {

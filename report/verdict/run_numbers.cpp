@@ -1,4 +1,4 @@
-// Summary numbers of a run: what it was, its judged window, the robot, and the way it went.
+// Summary numbers of a run: settings and outcome, its judged window, the robot, and the path that it travelled.
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using R = const RunData&;
 
-/// Null: nothing drives the joints.
+/// Null: no joint has a motor.
 template <class Of>
 Json of_motors(R run, Of of) {
   return has_motors(run) ? Json(of(run.summary.judged)) : Json();
@@ -46,16 +46,16 @@ Json spread_of(R run, const char* column) {
 }
 
 Json torque_errors(R run) {
-  Json each = Json::object();
-  for (std::size_t j = 0; j < run.record.joints.size(); ++j)
-    each[run.scenario.robot->joints[j].name] = run.record.tally.torque_error[j];
+  Json::object_t each;
+  for (std::size_t j = 0; j < run.record.joints.size(); ++j)  // operator[] would search all previous names
+    each.Container::emplace_back(run.scenario.robot->joints[j].name, run.record.tally.torque_error[j]);
   return each;
 }
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 Json forward_speed(R run) {
-  constexpr double kLeast = 1e-6;  // of the axis: less is rounding
+  constexpr double kLeast = 1e-6;  // of the axis: below is rounding
   const Vec3 axis = rpy(run.scenario.orientation) * Vec3::UnitX();
   const double level = std::sqrt(axis.x() * axis.x() + axis.y() * axis.y());
   const double way = axis.x() * run.summary.displacement_x + axis.y() * run.summary.displacement_y;
@@ -79,7 +79,7 @@ std::vector<SummaryNumber> run_numbers() {
        .value = [](R r) { return r.scenario.name; },
        .compare = {.place = 10, .if_different = true}},
       {.key = "engine",
-       .definition = "Engine that simulated it.",
+       .definition = "Engine of the simulation.",
        .words = true,
        .value = [](R r) { return r.scenario.physics.engine->name; },
        .line = {90, "engine", texts::engine},
@@ -92,7 +92,7 @@ std::vector<SummaryNumber> run_numbers() {
        .compare = {.place = 40, .if_different = true}},
       {.key = "step_setting",
        .unit = "s",
-       .definition = "What the scenario says of the step: a number, or `auto`.",
+       .definition = "`physics.step` of the scenario: a number, or `auto`.",
        .words = true,
        .value = [](R r) { return r.scenario.physics.adaptive_step ? Json("auto") : Json(r.scenario.physics.step); }},
       {.key = "integrator",
@@ -101,22 +101,24 @@ std::vector<SummaryNumber> run_numbers() {
        .value = [](R r) { return r.scenario.physics.integrator->name; },
        .compare = {.place = 30, .if_different = true}},
       {.key = "accuracy",
-       .definition = "`physics.accuracy`; null where the integrator does not choose its steps.",
+       .definition = "`physics.accuracy`; null if the integrator does not choose its steps.",
        .value = [](R r) { return r.scenario.physics.adapts() ? Json(r.scenario.physics.accuracy) : Json(); }},
       {.key = "solves",
-       .definition = "Solutions of the equations of motion, until every law was met; 0: the engine does not count them.",
+       .definition = "Number of solutions of the equations of motion, repeated solutions of a step included; 0: "
+                     "the engine does not count them.",
        .value = [](R r) { return r.record.tally.solves; }},
       {.key = "off_law",
-       .definition = "Joint-steps that ended off the law of their motor or stop; above 0 the torques there are wrong.",
+       .definition = "Joint-steps that ended off the law of their motor or stop; if above 0, the torques in "
+                     "these steps are wrong.",
        .value = [](R r) { return r.record.tally.off; }},
       {.key = "coarse_time",
        .unit = "s",
-       .definition = "Time in which the shortest steps of integrator `adaptive` did not reach the accuracy.",
+       .definition = "Time in which even the shortest steps of integrator `adaptive` did not reach the accuracy.",
        .value = [](R r) { return r.record.tally.coarse; }},
       {.key = "torque_error.worst",
-       .definition = "Estimate of the error that the steps leave in the torques: RMS over the joint's largest torque (at least "
-                     "2 % of the largest of all), of the worst joint ([equations](equations.md), 7); `torque_error` is null "
-                     "where nothing is estimated.",
+       .definition = "Estimate of the integration error of the torques: RMS over the joint's largest torque (at "
+                     "least 2 % of the largest torque of all joints), of the worst joint "
+                     "([equations](equations.md), 7); `torque_error` is null without an estimate.",
        .value = [](R r) { return estimated(r, [](const TorqueError& e) { return e.share; }); }},
       {.key = "torque_error.joint",
        .definition = "The worst joint.",
@@ -124,50 +126,50 @@ std::vector<SummaryNumber> run_numbers() {
        .value = [](R r) { return estimated(r, [&](const TorqueError& e) { return r.scenario.robot->joints[e.joint].name; }); }},
       {.key = "torque_error.per_joint",
        .unit = "N m",
-       .definition = "RMS of the estimate, by joint.",
+       .definition = "RMS of the estimated error, by joint.",
        .value = [](R r) { return estimated(r, [&](const TorqueError&) { return torque_errors(r); }); },
        .list = true},
       {.key = "torque_event.time",
        .unit = "s",
-       .definition = "When a torque was first off by more than `accuracy` (1 % where the step is given) of its peak, by the "
-                     "estimate; `torque_event` is null where none was.",
+       .definition = "First time at which the estimated error of a torque exceeds `accuracy` (1 % if the step "
+                     "is given) of its peak; `torque_event` is null if none does.",
        .value = [](R r) { return r.record.tally.event.time < 0 ? Json() : Json(r.record.tally.event.time); }},
       {.key = "torque_event.joint",
-       .definition = "Its joint.",
+       .definition = "Joint of that torque.",
        .words = true,
        .value = [](R r) { return joint_of(r, r.record.tally.event); }},
       {.key = "predictable.until",
        .unit = "s",
-       .definition =
-           "When a torque changed first by more than `accuracy` under gravity times 1 + 1e-6 (in proportion to the change by "
-           "1 + 1e-9), or, where they change by more than that on the whole (RMS over the peak) by 1 + 1e-9, by that; the "
-           "duration where none did. `predictable` is null where it was not tried.",
+       .definition = "First time at which a torque changes by more than `accuracy` under gravity times 1 + 1e-6 "
+                     "(computed as 1000 times the change under 1 + 1e-9); for torques that change by more than "
+                     "that as a whole (RMS over the peak) under 1 + 1e-9, the first such time under 1 + 1e-9; "
+                     "the duration if there is none. `predictable` is null if this was not tested.",
        .value = [](R r) { return tried(r, [&] { return apart(r).time < 0 ? r.record.simulated : apart(r).time; }); }},
       {.key = "predictable.chaotic",
        .definition = "Change of the torques under gravity times 1 + 1e-9: RMS over the joint's peak, of the worst joint.",
        .value = [](R r) { return tried(r, [&] { return r.record.tally.chaotic.share; }); }},
       {.key = "predictable.ill",
-       .definition = "The same times 1000: by 1 + 1e-6, in proportion.",
+       .definition = "The same times 1000: the change under gravity times 1 + 1e-6, in proportion.",
        .value = [](R r) { return tried(r, [&] { return r.record.tally.ill.share; }); }},
       {.key = "spread.torque_peak",
        .unit = "N m",
-       .definition = "Of a motion that is not predictable: least and largest of four rollouts, under gravity times 1 and 1 +- "
-                     "1e-9 (1e-6 of an ill-conditioned one) and with half the accuracy: largest motor torque. `spread` is null "
-                     "elsewhere.",
+       .definition = "Least and largest value of the largest motor torque, over four rollouts of a motion that "
+                     "is not predictable: under gravity times 1 and 1 +- 1e-9 (1e-6 if it is ill-conditioned), "
+                     "and with half the accuracy. `spread` is null for other motions.",
        .value = [](R r) { return spread_of(r, "torque_peak"); },
        .list = true},
       {.key = "spread.torque_rms",
        .unit = "N m",
-       .definition = "The same of the largest RMS of a motor torque.",
+       .definition = "The same for the largest RMS of a motor torque.",
        .value = [](R r) { return spread_of(r, "torque_rms"); },
        .list = true},
       {.key = "spread.distance",
        .unit = "m",
-       .definition = "The same of `distance`.",
+       .definition = "The same for `distance`.",
        .value = [](R r) { return spread_of(r, "distance"); },
        .list = true},
       {.key = "spread.margin",
-       .definition = "The same of the least margin of the checks that can fail.",
+       .definition = "The same for the least margin of the checks that can fail.",
        .value = [](R r) { return spread_of(r, kLeastMargin); },
        .list = true},
       {.key = "duration",
@@ -176,43 +178,47 @@ std::vector<SummaryNumber> run_numbers() {
        .value = [](R r) { return r.scenario.duration; },
        .compare = {.place = 50, .if_different = true}},
       {.key = "outcome",
-       .definition = "`done`, or why the run ended early.",
+       .definition = "`done`, or the reason for an early end of the run.",
        .words = true,
        .value = [](R r) { return r.summary.outcome.text(); },
        .compare = {.place = 70, .if_different = true}},
       {.key = "simulated",
        .unit = "s",
-       .definition = "Simulated time: less than `duration` where the run ended early.",
+       .definition = "Simulated time; less than `duration` if the run ended early.",
        .value = [](R r) { return r.summary.simulated; },
        .compare = {.place = 60, .if_different = true}},
       {.key = "judged.from",
        .unit = "s",
-       .definition =
-           "Start of the window by which the run is judged: whole periods up to the end, from the limit cycle on, or from "
-           "earlier on where more than one period would be left out; without a limit cycle 2 s or a fifth of the "
-           "run, whichever is earlier; where the set points do not repeat, 0.",
+       .definition = "Start of the judged window, which consists of whole periods up to the end: from the limit "
+                     "cycle on, or earlier, so that at most one period is left out. Without a limit cycle it "
+                     "starts at 2 s or a fifth of the run, whichever is earlier; if the set points do not "
+                     "repeat, at 0.",
        .value = [](R r) { return r.summary.judged.from; },
        .line = {42, "judged", texts::window}},
-      {.key = "judged.to", .unit = "s", .definition = "Its end.", .value = [](R r) { return r.summary.judged.to; }},
+      {.key = "judged.to",
+       .unit = "s",
+       .definition = "End of the judged window.",
+       .value = [](R r) { return r.summary.judged.to; }},
       {.key = "judged.joint",
-       .definition = "The most loaded joint in the window: longest at a limit, then of the largest torque RMS, then peak; "
-                     "`judged.joint` and the next two are null where nothing drives the joints.",
+       .definition = "The most loaded joint in the window: longest at a limit, then largest torque RMS, then "
+                     "largest peak. `judged.joint` and the next two are null if no joint has a motor.",
        .words = true,
        .value = [](R r) { return of_motors(r, [&](const Judged& j) { return r.scenario.robot->joints[j.order[0]].name; }); },
        .compare = {.place = 215, .if_different = true}},
       {.key = "judged.saturated",
-       .definition = "Its share of the window at the voltage or current limit: the largest of all joints.",
+       .definition = "Share of the window in which that joint is at the voltage or current limit: the largest "
+                     "of all joints.",
        .value = [](R r) { return of_motors(r, [](const Judged& j) { return j.joints[j.order[0]].limited(); }); },
        .line = {44, "motors", texts::limits},
        .compare = {216},
        .swap = {50, "at a limit", "share", 10, texts::saturated_cell}},
       {.key = "judged.joints_at_limit",
-       .definition = "Number of joints that reach a limit in the window, however shortly.",
+       .definition = "Number of joints that reach a limit in the window, however briefly.",
        .value = [](R r) { return of_motors(r, [](const Judged& j) { return Judged::limited(j.joints); }); },
        .compare = {217}},
       {.key = "wall_time",
        .unit = "s",
-       .definition = "Time that the simulation took.",
+       .definition = "Real time of the simulation.",
        .value = [](R r) { return r.summary.wall_time; },
        .clock = true},
       {.key = "real_time_factor",
@@ -235,7 +241,7 @@ std::vector<SummaryNumber> run_numbers() {
        .compare = {.place = 100, .if_different = true}},
       {.key = "bodies", .definition = "Number of bodies.", .value = [](R r) { return r.scenario.robot->bodies.size(); }},
       {.key = "dof",
-       .definition = "Degrees of freedom, six of a floating base included.",
+       .definition = "Degrees of freedom, including six of a floating base.",
        .value = [](R r) { return r.scenario.robot->dof(r.scenario.base); }},
       {.key = "mass",
        .unit = "kg",
@@ -252,19 +258,19 @@ std::vector<SummaryNumber> run_numbers() {
        .list = true},
       {.key = "displacement.x",
        .unit = "m",
-       .definition = "x of the centre of mass at the end minus at the start: the first element of an array.",
+       .definition = "x of the centre of mass at the end minus x at the start: the first element of an array.",
        .value = [](R r) { return r.summary.displacement_x; },
        .compare = {130},
        .golden = {20},
        .swap = {20, "travel x, y", "m", 19, texts::travel_cell}},
       {.key = "displacement.y",
        .unit = "m",
-       .definition = "The same of y: the second element.",
+       .definition = "The same for y: the second element.",
        .value = [](R r) { return r.summary.displacement_y; },
        .compare = {140}},
       {.key = "distance",
        .unit = "m",
-       .definition = "Norm of `displacement`: how far it got, horizontally.",
+       .definition = "Norm of `displacement`: the horizontal distance travelled.",
        .value = [](R r) { return r.summary.distance; },
        .line = {60, "distance", texts::distance},
        .compare = {120},
@@ -284,30 +290,29 @@ std::vector<SummaryNumber> run_numbers() {
        .compare = {160},
        .golden = {40}},
       {.key = "straightness",
-       .definition = "distance / path_length: 1 of a straight way; null where the robot has not moved.",
+       .definition = "distance / path_length: 1 for a straight path; null if the robot has not moved.",
        .value =
            [](R r) { return or_null(r.summary.path_length > 0 ? r.summary.distance / r.summary.path_length : kNoNumber); }},
       {.key = "forward_speed",
        .unit = "m/s",
-       .definition =
-           "Part of `displacement` along the base's x axis at the start, level, over `simulated`: negative of a robot "
-           "that goes backwards; null where that axis is upright.",
+       .definition = "Component of `displacement` along the horizontal direction of the base's x axis at the "
+                     "start, over `simulated`: negative if the robot moves backwards; null if that axis is "
+                     "vertical.",
        .value = [](R r) { return forward_speed(r); }},
       {.key = "cycle_speed",
        .unit = "m/s",
-       .definition = "Horizontal way of the centre of mass in the judged window, which is whole periods, over its length; null "
-                     "without a limit cycle.",
+       .definition = "Horizontal displacement of the centre of mass in the judged window (whole periods), over "
+                     "its length; null without a limit cycle.",
        .value = [](R r) { return or_null(cycle_speed(r.record, r.summary.judged)); }},
       {.key = "heading_change",
        .unit = "rad",
-       .definition =
-           "Sum over the control ticks of the base's turn about world z (the twist of the rotation from tick to tick; a "
-           "full turn counts 2 pi).",
+       .definition = "Rotation of the base about world z, summed over the control ticks (twist of the rotation "
+                     "from tick to tick; a full turn counts 2 pi).",
        .value = [](R r) { return r.summary.heading_change; },
        .compare = {170}},
       {.key = "cost_of_transport.electrical",
        .unit = "J/(N m)",
-       .definition = "sum(voltage * current * h) over all joints / (m g distance); 0 where the robot has not moved.",
+       .definition = "sum(voltage * current * h) over all joints / (m g distance); 0 if the robot has not moved.",
        .value = [](R r) { return r.summary.cost_electrical; },
        .line = {80, "transport", texts::transport},
        .compare = {.place = 180, .label = "transport, electrical"},
@@ -315,7 +320,7 @@ std::vector<SummaryNumber> run_numbers() {
        .swap = {30, "cost of transport", "electr.      mech.", 22, texts::cost_cell}},
       {.key = "cost_of_transport.mechanical",
        .unit = "J/(N m)",
-       .definition = "sum(max(T w, 0) h) over all joints / (m g distance); 0 where the robot has not moved.",
+       .definition = "sum(max(T w, 0) h) over all joints / (m g distance); 0 if the robot has not moved.",
        .value = [](R r) { return r.summary.cost_mechanical; },
        .compare = {.place = 190, .label = "transport, mechanical"},
        .golden = {.place = 60, .needs_motor = true, .needs_travel = true}},

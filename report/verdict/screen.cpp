@@ -67,7 +67,9 @@ std::string gait(const RunData& run) {
   std::string text = fmt::format("{:.4f} m/s", s.speed);
   if (const double speed = cycle_speed(run.record, s.judged); s.limit_cycle.found && std::isfinite(speed))
     text += fmt::format(", {:.4f} m per period of {:.4g} s", speed * s.limit_cycle.period, s.limit_cycle.period);
-  if (s.cost_electrical != 0 && has_motors(run)) text += fmt::format(", cost of transport {:.3g}", s.cost_electrical);
+  if (s.cost_electrical == 0 || !has_motors(run)) return text;
+  text += fmt::format(", cost of transport {:.3g}", s.cost_electrical);
+  if (const std::string much = texts::much_created(run); !much.empty()) text += ": " + much;
   return text;
 }
 
@@ -94,12 +96,14 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
     head += ": " + why;
   }
   screen.add("verdict", head, tone_of(verdict.word));
-  const bool led = verdict.word == Word::infeasible || verdict.word == Word::failed;  // the deciding check stands above
+  const bool led = verdict.word == Word::infeasible || verdict.word == Word::failed;  // the deciding check is printed above
   if (const std::string tightest = tightest_text(verdict); !led && !tightest.empty()) screen.add("tightest", tightest);
   if (!verdict.demand_doubt.empty()) screen.add("demand", verdict.demand_doubt, Tone::doubtful);
   add_kind(screen, verdict.failures(), led ? 1 : 0, most, "fails", Tone::bad);
   add_kind(screen, of_status(verdict, CheckStatus::too_close), 0, most, "too close", Tone::doubtful);
-  add_kind(screen, of_status(verdict, CheckStatus::warn), 0, most, "warns", Tone::doubtful);
+  std::vector<const Check*> warnings = of_status(verdict, CheckStatus::warn);
+  std::erase_if(warnings, [](const Check* check) { return check->id == "created"; });  // printed beside the cost of transport
+  add_kind(screen, warnings, 0, most, "warns", Tone::doubtful);
   if (const auto open = of_status(verdict, CheckStatus::not_judged); !open.empty())
     screen.add("unknown", names(open) + " (gaitlab explain verdict)");
   if (const std::string text = gait(run); !text.empty()) screen.add("gait", text);

@@ -15,7 +15,7 @@ namespace gaitlab::report {
 
 namespace {
 
-/// One rollout: its recording, and what was made of it.
+/// One rollout: its recording, with the results computed from it.
 struct Rolled {
   const Recording& record;
   const Summary& summary;
@@ -71,17 +71,8 @@ Trace spread(const Scenario& scenario, const Recording& record, const Summary& s
     other.physics.estimated_by_others = true;
   }
   std::vector<Recording> records(others.size());
-  std::size_t next = 0;
-  const BatchStream stream{.next = [&]() -> std::optional<Rollout> {
-                             if (next == others.size()) return {};
-                             const std::size_t number = next++;
-                             return Rollout{number, others[number]};
-                           },
-                           .end =
-                               [&](std::vector<RolloutEnd>&& pack) {
-                                 for (RolloutEnd& end : pack) records.at(end.rollout.number) = std::move(end.recording);
-                               }};
-  if (!run_pulled(stream, {}, Loads::recorded, stop)) return {};
+  const auto keep = [&](std::size_t k, RolloutEnd&& end) { records.at(k) = std::move(end.recording); };
+  if (!run_all(others, {}, Loads::recorded, stop, keep)) return {};
   for (std::size_t k = 0; k < others.size(); ++k) {
     const Summary own = summarise(others[k], records.at(k), 0);
     const Verdict judged = report::verdict(others[k], records.at(k), own, overlaps(others[k], records.at(k)));
@@ -94,7 +85,10 @@ std::string spread_text(const Trace& spread) {
   if (spread.rows() == 0) return "";
   const auto text = [&](const char* column, auto shown) {
     const std::optional<Between> found = between(spread, column);
-    return found ? fmt::format("{} to {}", shown(found->low), shown(found->high)) : "no number";
+    if (!found) return std::string("no number");
+    const std::string low = shown(found->low);
+    const std::string high = shown(found->high);
+    return low == high ? low : low + " to " + high;
   };
   const auto torque = [](double value) { return fmt::format("{:.3g}", value); };
   return fmt::format(

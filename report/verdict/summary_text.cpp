@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A group of which a number is not known is null.
+/// Sets a number; a group with an unknown number is null.
 void put(Json& json, const SummaryNumber& number, const std::string& joint, const Json& value) {
   const Json::json_pointer at(number.pointer(joint));
   const Json::json_pointer group = at.parent_pointer();
@@ -27,14 +27,21 @@ void put(Json& json, const SummaryNumber& number, const std::string& joint, cons
 
 Json numbers_json(const RunData& run) {
   Json json;
+  std::vector<Json> joints(run.record.joints.size(), Json::object({{"per_joint", Json::object()}}));
   for (const SummaryNumber& number : summary_numbers()) {
     if (number.of_joint == nullptr) {
       put(json, number, "", number.value(run));
       continue;
     }
-    json.emplace("per_joint", Json::object());  // without joints, too
-    for (std::size_t j = 0; j < run.record.joints.size(); ++j)
-      put(json, number, run.scenario.robot->joints[j].name, number.of_joint(run, j));
+    json.emplace("per_joint", Json::object());  // also without joints
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      put(joints[j], number, run.scenario.robot->joints[j].name, number.of_joint(run, j));
+  }
+  // Directly in the group: a search by path would test all joints for each number.
+  auto& all = json["per_joint"].get_ref<Json::object_t&>();
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    auto& [name, numbers] = *joints[j]["per_joint"].get_ref<Json::object_t&>().begin();
+    all.Container::emplace_back(name, std::move(numbers));
   }
   return json;
 }
@@ -56,7 +63,7 @@ std::string to_text(const Summary& s, const Scenario& scenario, const Recording&
 }
 
 std::string joint_table(const Summary& s, const Scenario& scenario) {
-  if (!has_motors(scenario) || s.judged.joints.empty()) return "  no table of joints: nothing drives them\n";
+  if (!has_motors(scenario) || s.judged.joints.empty()) return "  no joint table: no joint has a motor\n";
   std::size_t width = 5;
   for (const Joint& joint : scenario.robot->joints) width = std::max(width, joint.name.size());
   std::string text = fmt::format("  {:<{}}  {:^15}  {:^24}  {}\n  {:<{}} {:>8} {:>8} {:>9} {:>8} {:>6}  {:>8} {:>8}\n", "",

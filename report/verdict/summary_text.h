@@ -1,4 +1,4 @@
-// The figures of a run as texts: summary.json, what the terminal shows, and warnings.
+// Texts of a run's summary: summary.json, terminal output, and warnings.
 #pragma once
 #include <string>
 
@@ -9,14 +9,14 @@ namespace gaitlab::report {
 /// The text of summary.json.
 std::string to_json(const Summary& summary, const Scenario& scenario, const Recording& record);
 
-/// The numbers that `gaitlab run --verbose` prints.
+/// Output of `gaitlab run --verbose`.
 std::string to_text(const Summary& summary, const Scenario& scenario, const Recording& record);
 
-/// A row per joint, the most loaded first: what each did in the judged window.
+/// Table with a row per joint, the most loaded first: its statistics in the judged window.
 std::string joint_table(const Summary& summary, const Scenario& scenario);
 
-/// The warning about a part of the robot that starts below the ground, or "": its height was given, or only contact elements
-/// touch the ground.
+/// Warning about a part of the robot that starts below the ground, or "": possible if its height was given, or if only contact
+/// elements touch the ground.
 std::string start_warning(const Scenario& scenario);
 
 }  // namespace gaitlab::report

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/settings/wording.h"
+#include "report/verdict/number_texts.h"
 
 namespace gaitlab::report {
 
@@ -38,7 +39,7 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
-/// RFC 4180; a line break of an outcome would end the row for many readers.
+/// Quotes by RFC 4180, on one line: a line break in an outcome would end the row for many readers.
 std::string quoted(std::string text) {
   text = in_one_line(std::move(text));
   if (text.find_first_of(",\"\r") == std::string::npos) return text;
@@ -54,6 +55,12 @@ std::string csv_cell(const Json& value) {
   return std::isfinite(value.get<double>()) ? number_text(value) : "";
 }
 
+/// A line below a table: the energy that gears create in the run, which its cost of transport counts as gain. Empty: little.
+std::string created_line(const std::string& name, const NamedRun& one) {
+  const std::string much = broke_off(one) ? "" : texts::much_created(one.run);
+  return much.empty() ? "" : fmt::format("{}: {}\n", name, much);
+}
+
 }  // namespace
 
 std::string swap_table(const std::vector<NamedRun>& runs) {
@@ -66,12 +73,13 @@ std::string swap_table(const std::vector<NamedRun>& runs) {
     text += broke_off(one) ? without_blanks_at_end(name(one.name) + " " + one.run.summary.outcome.text())
                            : cells(name(one.name), [&](const SummaryNumber& number) { return number.swap.cell(one.run); });
   }
+  for (const NamedRun& one : runs) text += created_line(one.name, one);
   return text;
 }
 
 namespace {
 
-/// A line of CSV: `text` and a cell of every number that is one number or text, but none of the clock.
+/// A line of CSV: `text`, then a cell for every number that is a single number or text, except those of the clock.
 template <class Cell>
 std::string csv_row(std::string text, const Cell& cell) {
   for (const SummaryNumber& number : summary_numbers()) {
@@ -103,7 +111,7 @@ Json json_numbers(const NamedRun& one) {
   return numbers;
 }
 
-/// The columns of the matrix, of those of `swap`.
+/// The columns of the matrix: a selection of those of `swap`.
 std::vector<const SummaryNumber*> matrix_columns() {
   std::vector<const SummaryNumber*> columns;
   for (const SummaryNumber* number : placed(&SummaryNumber::swap)) {
@@ -155,6 +163,7 @@ std::string matrix_table(const std::vector<MatrixRun>& runs) {
     const auto cell = [&](const SummaryNumber& number) { return broke_off(one.named) ? "-" : number.swap.cell(one.named.run); };
     text += row(one.named.name, one.scenario, cell, fmt::format("{}  {}", mark, why_not(one)));
   }
+  for (const MatrixRun& one : runs) text += created_line(one.named.name + " in " + one.scenario, one.named);
   return text;
 }
 

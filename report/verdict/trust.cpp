@@ -17,12 +17,12 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kGood = 0.01;           // of a torque's peak
-constexpr double kLeastPeak = 0.02;      // of the largest of all joints: smaller ones are judged by this
-constexpr double kLeastAccuracy = 1e-6;  // that a scenario may ask for
-constexpr double kHeight = 1e-3;         // m: lifting the robot by it is the least energy that is judged
-constexpr double kMargin = 2;            // by which a remedy is better than it seems to need
+constexpr double kLeastPeak = 0.02;      // of the largest of all joints: the least scale
+constexpr double kLeastAccuracy = 1e-6;  // least value that a scenario may request
+constexpr double kHeight = 1e-3;         // m: lifting the robot by it is the least energy that counts
+constexpr double kMargin = 2;            // factor by which a remedy is stricter than necessary
 
-/// One digit, downwards: 0.0037 becomes 0.003.
+/// Rounds down to one digit: 0.0037 becomes 0.003.
 double one_digit(double value) {
   const double decade = std::pow(10.0, std::floor(std::log10(value)));
   return std::floor(value / decade) * decade;
@@ -32,7 +32,7 @@ double one_digit(double value) {
 
 std::string torque_remedy(const Scenario& s, double share) {
   const Physics& physics = s.physics;
-  const double ratio = kGood / share / kMargin;
+  const double ratio = std::min(kGood, torque_error_limit(s)) / share / kMargin;
   if (physics.adapts()) {
     return fmt::format("physics.accuracy: {:.1g}", std::max(one_digit(physics.accuracy * ratio), kLeastAccuracy));
   }
@@ -59,10 +59,10 @@ TorqueError torque_error(const Recording& r) {
   TorqueError worst;
   const std::vector<double> shares = torque_errors(r);
   for (std::size_t j = 0; j < shares.size(); ++j) {
-    if (!(shares[j] <= worst.share)) worst = {true, shares[j], j};  // also what is not a number
+    if (!(shares[j] <= worst.share)) worst = {true, shares[j], j};  // also if it is NaN
     if (std::isnan(worst.share)) break;
   }
-  worst.estimated = !(worst.share <= 0);  // else both took the same steps, which says nothing
+  worst.estimated = !(worst.share <= 0);  // otherwise both took the same steps, and the difference has no meaning
   return worst;
 }
 
@@ -91,8 +91,8 @@ std::string steps_text(const Scenario& scenario, const Recording& r) {
 }
 
 Predictability predictability(const Scenario& s, const Recording& r) {
-  if (!s.physics.adapts() || !r.tally.estimated) return Predictability::unknown;
-  const double limit = torque_error_limit(s);
+  if (!s.physics.adapts() || !r.tally.estimated || !(r.tally.chaotic.share > 0)) return Predictability::unknown;
+  const double limit = predictability_limit(s);
   if (!(r.tally.chaotic.share <= limit)) return Predictability::chaotic;
   return r.tally.ill.share <= limit ? Predictability::predictable : Predictability::ill;
 }
@@ -104,7 +104,10 @@ const Parting& parting(const Scenario& s, const Recording& r) {
 std::string predictability_text(const Scenario& s, const Recording& r) {
   const Predictability found = predictability(s, r);
   const Parting& apart = parting(s, r);
-  if (found == Predictability::unknown) return "rollouts under a disturbed gravity were not made";
+  if (found == Predictability::unknown) {
+    return s.physics.adapts() && r.tally.estimated ? "not tested: a disturbed gravity changes no torque of this robot"
+                                                   : "not tested: no rollout under a disturbed gravity was made";
+  }
   const bool chaotic = found == Predictability::chaotic;
   const std::string does =
       chaotic ? fmt::format("gravity times 1 + 1e-9 changes the torques by {} of their peak", texts::rough_percent(apart.share))
@@ -123,7 +126,8 @@ double energy_scale(const Scenario& s, const Recording& r) {
   return std::max({std::abs(r.ledger.electrical), std::abs(r.ledger.stored), least_energy(s)});
 }
 
-double torque_error_limit(const Scenario& s) { return s.physics.adapts() ? std::max(kGood, s.physics.accuracy) : kGood; }
+double torque_error_limit(const Scenario& s) { return s.physics.adapts() ? s.physics.accuracy : kGood; }
+double predictability_limit(const Scenario& s) { return s.physics.adapts() ? std::max(kGood, s.physics.accuracy) : kGood; }
 
 std::vector<std::string> not_finite(const Scenario& s, const Recording& r) {
   std::vector<std::string> names;

@@ -27,12 +27,12 @@ void replace_end(std::string& text, std::string_view end, std::string_view by) {
   if (text.ends_with(end)) text.replace(text.size() - end.size(), end.size(), by);
 }
 
-/// What orders checks: those of the robot as a whole first, because what fell has no gait; then by the least margin.
+/// Order of checks: those of the robot as a whole first, because a robot that fell has no gait; then by the least margin.
 std::pair<bool, double> urgency(const Check& check) {
   return {check.group != CheckGroup::run, std::isnan(check.margin) ? -std::numeric_limits<double>::infinity() : check.margin};
 }
 
-/// The most urgent of those that count, or nullptr.
+/// The most urgent check for which `counts` is true, or nullptr.
 template <class Counts>
 const Check* worst_of(const std::vector<Check>& checks, const Counts& counts) {
   const Check* found = nullptr;
@@ -46,20 +46,24 @@ bool fails(const Check& check) { return check.status == CheckStatus::fail; }
 bool too_close(const Check& check) { return check.status == CheckStatus::too_close; }
 bool undone_by_no_time(const Check& check) { return fails(check) && check.span == CheckSpan::whole_run; }
 
-/// Of a motion that nobody can predict: where another rollout, as good as the run, comes to the other side of the failing
-/// limit, the status becomes `too close`.
+/// For an unpredictable motion: if another equally valid rollout is on the other side of the failing limit, or is not judged
+/// (it diverged, it fell), the status becomes `too close`.
 void take_spread(const Trace& spread, Check& made) {
-  const std::optional<Between> margins = between(spread, margin_column(made.id));
+  const std::size_t column = spread.find(margin_column(made.id));
   const bool judged = made.status != CheckStatus::not_judged && made.can_fail;
-  if (!judged || !margins || !(margins->low < 0 && margins->high >= 0)) return;
+  if (!judged || spread.rows() == 0 || column == spread.columns.size() || std::isnan(spread.at(0, column))) return;
+  std::size_t without = 0;
+  for (std::size_t row = 0; row < spread.rows(); ++row) without += std::isnan(spread.at(row, column)) ? 1 : 0;
+  const std::optional<Between> margins = between(spread, margin_column(made.id));
+  if (without == 0 && (!margins || !(margins->low < 0 && margins->high >= 0))) return;
   made.status = CheckStatus::too_close;
-  made.text +=
-      fmt::format("; the motion is not predictable: of {} rollouts that differ by next to nothing the margin is {} to {}",
-                  spread.rows(), texts::percent(margins->low), texts::percent(margins->high));
+  made.text += fmt::format("; the motion is not predictable: of {} rollouts that differ by next to nothing ", spread.rows());
+  made.text += without > 0 ? fmt::format("{} cannot be judged by this", without)
+                           : fmt::format("the margin is {} to {}", texts::percent(margins->low), texts::percent(margins->high));
   made.remedy = "judge several runs with other seeds or starts";
 }
 
-/// The reason why nothing that fails makes the gait infeasible, or why it is not feasible though nothing fails; empty: none.
+/// Reason why failing checks do not make the gait infeasible, or why it is not feasible without failing checks; empty: none.
 std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) {
   const Evidence& found = run.evidence;
   if (!found.not_trusted.empty()) return found.first().sentence();
@@ -73,7 +77,7 @@ std::string not_judged(const CheckedRun& run, const std::vector<Check>& checks) 
   const auto judged = [](const Check& c) { return c.status != CheckStatus::not_judged; };
   if (std::ranges::none_of(checks, [&](const Check& c) { return c.group == CheckGroup::motor && judged(c); }))
     return run.driven() ? "no limit of the motors is known" : "nothing drives the joints";
-  if (run.scenario.base != Base::floating || run.scenario.ground.kind == Ground::Kind::none || run.scenario.contact.solver())
+  if (run.scenario.base != Base::floating || !run.scenario.ground.exists() || run.scenario.contact.model().keeps_bodies_apart)
     return "";
   for (const Check& check : checks) {
     if ((check.id == "fall" || check.id == "in_ground") && !judged(check)) return check.id + " was not judged: " + check.text;
@@ -146,39 +150,49 @@ std::string Verdict::why() const {
   return decisive->sentence();
 }
 
-Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps) {
+namespace {
+
+/// A check of the kind, judged for the run.
+Check judged_check(const CheckKind& kind, const CheckedRun& run, bool of_rows) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  Check check{.id = kind.id,
+              .group = kind.group,
+              .title = kind.title,
+              .span = kind.span,
+              .can_fail = kind.can_fail(),
+              .least = kind.least,
+              .value = kNone,
+              .limit = kNone,
+              .unit = kind.unit,
+              .from = kNone,
+              .to = kNone,
+              .first = kNone,
+              .definition = kind.definition,
+              .place = run.scenario.nearest_place(kind.key)};
+  if (!states_of_ticks(run.record)) replace_end(check.definition, kAtTicks, ", at trace rows");
+  if (of_rows) replace_end(check.definition, kOverAllSteps, ", over the rows of the trace");
+  kind.judge(run, check);
+  take_spread(run.record.spread, check);
+  if (check.criteria.empty()) check.margin = Criterion{check.value, check.limit, check.unit, check.least}.margin();
+  if (check.status == CheckStatus::not_judged || check.id == "outcome" || (kind.can_fail() && !check.can_fail))
+    check.margin = kNone;
+  check.text = without_folders(std::move(check.text), run.scenario);
+  return check;
+}
+
+}  // namespace
+
+Verdict verdict(const Scenario& scenario, const Recording& record, const Summary& summary, const Overlaps& overlaps) {
   const CheckedRun run{scenario, record, summary, overlaps};
   Verdict made;
-  std::vector<std::string> motors;  // sources of what checks were judged by
+  std::vector<std::string> motors;  // sources of the values used by checks
   std::vector<std::string> docks;
   made.from = summary.judged.from;
   made.to = summary.judged.to;
   made.of_rows = rows_sentence(record);
   made.window_of_rows = motion_sentence(record);
   for (const CheckKind& kind : check_kinds()) {
-    Check check{.id = kind.id,
-                .group = kind.group,
-                .title = kind.title,
-                .span = kind.span,
-                .can_fail = kind.can_fail(),
-                .least = kind.least,
-                .value = kNone,
-                .limit = kNone,
-                .unit = kind.unit,
-                .from = kNone,
-                .to = kNone,
-                .first = kNone,
-                .definition = kind.definition,
-                .place = scenario.nearest_place(kind.key)};
-    if (!states_of_ticks(record)) replace_end(check.definition, kAtTicks, ", at trace rows");
-    if (!made.of_rows.empty()) replace_end(check.definition, kOverAllSteps, ", over the rows of the trace");
-    kind.judge(run, check);
-    take_spread(record.spread, check);
-    if (check.criteria.empty()) check.margin = Criterion{check.value, check.limit, check.unit, check.least}.margin();
-    if (check.status == CheckStatus::not_judged || check.id == "outcome" || (kind.can_fail() && !check.can_fail))
-      check.margin = kNone;
-    check.text = without_folders(std::move(check.text), scenario.plugins);
+    Check check = judged_check(kind, run, !made.of_rows.empty());
     const bool judged = check.status != CheckStatus::not_judged;
     if (judged && check.group == CheckGroup::motor) motors = {run.motor_source};
     if (judged && check.id.starts_with("dock_")) docks.push_back(check.source);

@@ -1,4 +1,4 @@
-// The verdict as a file.
+// verdict.json, the file of a verdict.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,14 +11,54 @@ namespace gaitlab::report {
 
 namespace {
 
-nlohmann::ordered_json json_number(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+using Json = nlohmann::ordered_json;
+
+Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json json_of(const Check& c) {
+  return {{"id", c.id},
+          {"group", name_of(c.group)},
+          {"title", c.title},
+          {"status", name_of(c.status)},
+          {"span", name_of(c.span)},
+          {"can_fail", c.can_fail},
+          {"value", json_number(c.value)},
+          {"limit", json_number(c.limit)},
+          {"least", c.least},
+          {"unit", c.unit},
+          {"margin", json_number(c.margin)},
+          {"error", json_number(c.error)},
+          {"part", name_of(c.part)},
+          {"worst", c.worst.empty() ? Json() : Json(c.worst)},
+          {"parts", c.parts},
+          {"from", json_number(c.from)},
+          {"to", json_number(c.to)},
+          {"first", json_number(c.first)},
+          {"first_part", c.first_part.empty() ? Json() : Json(c.first_part)},
+          {"remedy", c.remedy},
+          {"missing", c.missing},
+          {"definition", c.definition},
+          {"source", c.source},
+          {"text", c.text}};
+}
+
+Json demand_of(const Verdict& verdict) {
+  Json demand;
+  demand["doubt"] = verdict.demand_doubt;
+  demand["joints"] = Json::array();
+  for (const JointDemand& d : verdict.demands) {
+    demand["joints"].push_back({{"joint", d.joint},
+                                {"voltage", json_number(d.voltage)},
+                                {"current", json_number(d.current)},
+                                {"torque", json_number(d.torque)},
+                                {"speed", json_number(d.speed)}});
+  }
+  return demand;
 }
 
 }  // namespace
 
 std::string to_json(const Verdict& verdict) {
-  using Json = nlohmann::ordered_json;
   Json json;
   json["format"] = 2;
   json["verdict"] = name_of(verdict.word);
@@ -40,44 +80,8 @@ std::string to_json(const Verdict& verdict) {
        {CheckStatus::pass, CheckStatus::warn, CheckStatus::fail, CheckStatus::too_close, CheckStatus::not_judged})
     counts[name_of(status)] = verdict.count(status);
   json["counts"] = counts;
-  for (const Check& c : verdict.checks) {
-    json["checks"].push_back({{"id", c.id},
-                              {"group", name_of(c.group)},
-                              {"title", c.title},
-                              {"status", name_of(c.status)},
-                              {"span", name_of(c.span)},
-                              {"can_fail", c.can_fail},
-                              {"value", json_number(c.value)},
-                              {"limit", json_number(c.limit)},
-                              {"least", c.least},
-                              {"unit", c.unit},
-                              {"margin", json_number(c.margin)},
-                              {"error", json_number(c.error)},
-                              {"part", name_of(c.part)},
-                              {"worst", c.worst.empty() ? Json() : Json(c.worst)},
-                              {"parts", c.parts},
-                              {"from", json_number(c.from)},
-                              {"to", json_number(c.to)},
-                              {"first", json_number(c.first)},
-                              {"first_part", c.first_part.empty() ? Json() : Json(c.first_part)},
-                              {"remedy", c.remedy},
-                              {"missing", c.missing},
-                              {"definition", c.definition},
-                              {"source", c.source},
-                              {"text", c.text}});
-  }
-  if (!verdict.demands.empty() || !verdict.demand_doubt.empty()) {
-    Json& demand = json["demand"];
-    demand["doubt"] = verdict.demand_doubt;
-    demand["joints"] = Json::array();
-    for (const JointDemand& d : verdict.demands) {
-      demand["joints"].push_back({{"joint", d.joint},
-                                  {"voltage", json_number(d.voltage)},
-                                  {"current", json_number(d.current)},
-                                  {"torque", json_number(d.torque)},
-                                  {"speed", json_number(d.speed)}});
-    }
-  }
+  for (const Check& c : verdict.checks) json["checks"].push_back(json_of(c));
+  if (!verdict.demands.empty() || !verdict.demand_doubt.empty()) json["demand"] = demand_of(verdict);
   return json.dump(2) + "\n";
 }
 

@@ -15,13 +15,13 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kApart = 1.3;          // Kt / Ks or its inverse: measured constants of one motor agree to 10 %
-constexpr double kOvershoots = 1;       // gain of the sampled loop: with 1 the error is gone at the next tick
+constexpr double kOvershoots = 1;       // gain of the sampled loop: with 1 the error is zero at the next tick
 constexpr double kCannotSettle = 2;     // measured: 1.3 to 1.9 settle, 2.3 does not
-constexpr double kRounding = 1 + 1e-9;  // of products that are equal on paper
+constexpr double kRounding = 1 + 1e-9;  // for products that are equal on paper
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kDegrees = 360;  // a larger range is not an angle in degrees either: it stands for "no limit"
+constexpr double kDegrees = 360;  // degrees: a larger range is not an angle in degrees either, but means "no limit"
 
-/// Two digits, downwards: 156.4 becomes 150.
+/// Rounds down to two digits: 156.4 becomes 150.
 double two_digits(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
   return std::floor(value / unit) * unit;
@@ -58,8 +58,8 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warni
   }
 }
 
-/// Whether the derivative answers a step of the error with more than a quarter of what Kp does (Kd N / (Kd + N Ts), eq. 5): it
-/// then moves the bound on Kp.
+/// Whether the derivative part responds to a step of the error with more than a quarter of Kp's response (Kd N / (Kd + N Ts),
+/// eq. 5): it then changes the bound on Kp.
 bool damps(const SettingsNumbers& settings, std::size_t joint, double period) {
   const SettingsNumbers::Found* Kp = settings.find("Kp");
   const SettingsNumbers::Found* Kd = settings.find("Kd");
@@ -77,8 +77,7 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& 
   double largest = 0;
   std::size_t worst = 0;
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
-    if (!s.robot->joints[j].driven() || !(motors[j].Ks > 0))
-      continue;  // nothing slows such a motor down: the rule is of another loop
+    if (!s.robot->joints[j].driven() || !(motors[j].Ks > 0)) continue;  // no damping in such a motor: the rule does not apply
     const double g = gain->value[j] * s.control_period / (motors[j].Ks * motors[j].gear);
     if (!(g > largest) || damps(settings, j, s.control_period)) continue;
     largest = g;
@@ -141,24 +140,15 @@ void check_degrees(const Scenario& s, std::vector<Warning>& out) {
 
 }  // namespace
 
-bool beside_field(const Ground& ground, double x, double y) {
-  if (ground.kind != Ground::Kind::heightfield) return false;
-  const Heightfield& field = ground.field;
-  const double u = (x - field.origin.x()) / field.spacing;
-  const double v = (y - field.origin.y()) / field.spacing;
-  const auto within = [](double at, std::size_t count) { return at >= 0 && at <= static_cast<double>(count - 1); };
-  return !within(u, field.columns) || !within(v, field.rows());
-}
-
 std::vector<Warning> setup_warnings(const Scenario& s) {
   std::vector<Warning> out;
   try {
     check_motors(s, out);
     check_degrees(s, out);
   } catch (const PluginError&) {
-    out.clear();  // the run says it, at its place
+    out.clear();  // reported by the run, at its place
   }
-  if (beside_field(s.ground, s.position.x(), s.position.y())) {
+  if (s.ground.beyond_border(s.position.x(), s.position.y())) {
     out.push_back(
         {s.nearest_place("ground.heightfield"),
          fmt::format("the robot starts at ({:.4g}, {:.4g}) m, beside the heightfield, whose edge heights go on there: put "

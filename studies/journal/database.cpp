@@ -21,7 +21,8 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// statfs: file systems of networks, on which processes do not share memory. NFS, SMB, CIFS, Lustre, GPFS, FUSE, 9p.
+/// Whether a file is on a network file system, on which processes do not share memory; values of statfs: NFS, SMB, CIFS,
+/// Lustre, GPFS, FUSE, 9p.
 bool on_network(const std::filesystem::path& file) {
   constexpr std::array<unsigned long, 8> kNetworks{0x6969,     0x517B,     0xFF534D42, 0xFE534D42,
                                                    0x0BD00BD0, 0x47504653, 0x65735546, 0x01021997};
@@ -31,8 +32,8 @@ bool on_network(const std::filesystem::path& file) {
   return std::ranges::find(kNetworks, static_cast<unsigned long>(about.f_type)) != kNetworks.end();
 }
 
-/// Checks that the rollback journal ends with the name of a super-journal, as a transaction over several databases leaves it.
-/// This program writes none, and SQLite deletes the file of that name, wherever it is.
+/// Checks that the rollback journal ends with the name of a super-journal, as left by a transaction over several databases.
+/// This program never writes one, and SQLite would delete the file of that name anywhere.
 bool names_another_file(const std::filesystem::path& journal) {
   constexpr std::string_view kMagic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
   std::ifstream file(journal, std::ios::binary);
@@ -41,9 +42,9 @@ bool names_another_file(const std::filesystem::path& journal) {
   return file.read(end.data(), end.size()) && std::string_view(end.data(), end.size()) == kMagic;
 }
 
-/// SQLite opens all four by their names, waits for a FIFO and follows links.
+/// SQLite opens all four by their names, would block on a FIFO and follows links.
 void check_files(const std::filesystem::path& file) {
-  constexpr std::uintmax_t kMost = std::uintmax_t{1} << 40;  // bytes: of 2e9 runs
+  constexpr std::uintmax_t kMost = std::uintmax_t{1} << 40;  // bytes: enough for 2e9 runs
   for (const char* behind : {"", "-wal", "-shm", "-journal"}) {
     std::filesystem::path one = file;
     one += behind;
@@ -85,8 +86,8 @@ void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(dat
 Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   check_files(file);
   const bool write = mode == Mode::write;
-  // A log that a writer left needs the file of shared memory beside it; where nobody may write, and no log is left, there is
-  // nothing that could change.
+  // Reading a left-over log needs the shared memory file beside it. Without write permission and without a log the database
+  // cannot change: it is opened as immutable.
   std::filesystem::path log = file;
   log += "-wal";
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
@@ -111,7 +112,7 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   constexpr int kPatience = 5000;  // ms, for another writer: merge beside a sweep
   sqlite3_busy_timeout(opened, kPatience);
   execute("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0");
-  // Before the first look at a write-ahead log, which else takes shared memory.
+  // Before the first access to a write-ahead log, which otherwise uses shared memory.
   if (write && on_network(file)) execute("PRAGMA locking_mode = EXCLUSIVE");
 }
 
@@ -163,7 +164,7 @@ void Statement::check(int code) const {
 }
 
 Statement& Statement::bind(int at, double value) {
-  // Zero has no sign in the file: -0 would be kept as an integer.
+  // The file has no signed zero: -0 would be stored as an integer.
   check(std::isfinite(value) ? sqlite3_bind_double(statement_.get(), at + 1, value + 0.0)
                              : sqlite3_bind_null(statement_.get(), at + 1));
   return *this;
@@ -220,7 +221,7 @@ Transaction::~Transaction() {
   if (!open_) return;
   try {
     database_.execute("ROLLBACK");
-  } catch (const std::exception&) {  // SQLite has rolled it back already, as of a full disk
+  } catch (const std::exception&) {  // SQLite has rolled it back already, as after a full disk
   }
 }
 

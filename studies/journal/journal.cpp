@@ -14,12 +14,12 @@ Journal::Journal(const std::filesystem::path& file, const JournalHead& head, Bui
     : file_(file), head_(head), database_(file, Database::Mode::write), columns_(head) {
   const std::int64_t application = database_.integer("PRAGMA application_id");
   if (database_.integer("SELECT count(*) FROM sqlite_master") == 0 && (application == 0 || application == kApplication)) {
-    // Written before the log begins, so that the first bytes of the file identify it, also after kill -9.
+    // Written before the write-ahead log is used, so that the first bytes of the file identify it even after kill -9.
     database_.execute(fmt::format("PRAGMA application_id = {}", kApplication));
     database_.write_ahead();
     create();
   } else {
-    read_head();  // another program's file stays as it is
+    read_head();  // leaves another program's file unchanged
     database_.write_ahead();
     compare(head, build);
   }
@@ -46,6 +46,11 @@ Effort Journal::effort() {
   all.runs = static_cast<std::uint64_t>(sum.integer(0));
   all.wall = sum.number(1);
   return all;
+}
+
+std::string Journal::column_of(const std::string& quantity) const {
+  const auto at = std::ranges::find(head_.quantities, quantity, &Quantity::name);
+  return at == head_.quantities.end() ? "" : columns_.quantities[static_cast<std::size_t>(at - head_.quantities.begin())];
 }
 
 std::uint64_t Journal::rows() { return static_cast<std::uint64_t>(database_.integer("SELECT count(*) FROM run")); }
@@ -108,6 +113,17 @@ void Journal::write(std::span<const Row> rows, const Effort& effort) {
   }
   insert_effort_->bind(0, static_cast<std::int64_t>(effort.first_run)).bind(1, static_cast<std::int64_t>(effort.runs));
   insert_effort_->bind(2, effort.started).bind(3, effort.wall).bind(4, effort.host).bind(5, effort.process).run();
+  transaction.commit();
+}
+
+void Journal::replace(std::span<const Row> rows) {
+  Transaction transaction(database_);
+  Statement drop = database_.prepare("DELETE FROM run WHERE run = ?");
+  for (const Row& row : rows) {
+    drop.bind(0, static_cast<std::int64_t>(row.run)).run();
+    bind(*insert_, row);
+    insert_->run();
+  }
   transaction.commit();
 }
 

@@ -1,4 +1,4 @@
-// The journal of a study, study.db: a row for each run that has ended. SQLite, which many programs read.
+// The journal of a study, study.db: a row for each run that has ended. An SQLite database, which many programs can read.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -15,23 +15,23 @@
 
 namespace gaitlab::studies {
 
-/// How a run ended. Where it did not end well, its quantities are not known.
+/// Result of a run. Its quantities are known only if the outcome is `done`.
 struct Row {
   std::uint64_t run = 0;
-  std::string point;     ///< name of its values, the same in every study of the scenario
-  std::string scenario;  ///< its name; empty: the study has one
+  std::string point;     ///< name derived from its values, the same in every study of the scenario
+  std::string scenario;  ///< its name; empty: the study has only one
   std::uint64_t replicate = 0;
   std::int64_t seed = 0;
   std::string outcome;              ///< done, diverged, refused, plugin
-  std::string message;              ///< why it is not `done`, or its verdict not `feasible`
+  std::string message;              ///< reason why it is not `done`, or its verdict not `feasible`
   double simulated = 0;             ///< s
-  std::vector<std::string> values;  ///< of the parameters, then what is drawn
-  std::vector<double> quantities;   ///< by column; none: not known
+  std::vector<std::string> values;  ///< of the parameters, then of the draws
+  std::vector<double> quantities;   ///< by column; empty: not known
   std::string verdict;
   std::optional<Score> score = {};
 };
 
-/// A parameter, or a key that is drawn for every replicate, as the journal knows it.
+/// A parameter, or a key that is drawn for every replicate, as stored in the journal.
 struct JournalParameter {
   std::string key;
   bool words = false;
@@ -46,16 +46,16 @@ struct JournalObjective {
   bool maximize = true;
 };
 
-/// What a journal says of its study.
+/// Description of the study in its journal.
 struct JournalHead {
   std::string name, build, definition, command;
-  std::string scenario;                ///< resolved; of several as in scenario_texts
-  std::vector<std::string> scenarios;  ///< names; none: there is one
+  std::string scenario;                ///< resolved; for several as in scenario_texts
+  std::vector<std::string> scenarios;  ///< names; empty: there is one
   std::vector<JournalObjective> objectives;
   std::string combine = "worst";
   double quantile = 0.5;
-  std::uint64_t runs = 0;        ///< 0: as many as the journal says
-  std::uint64_t replicates = 1;  ///< runs of a point, in all scenarios
+  std::uint64_t runs = 0;        ///< 0: number stored in the journal
+  std::uint64_t replicates = 1;  ///< runs per point, in all scenarios
   std::int64_t seed = 1;
   std::vector<JournalParameter> parameters;
   std::vector<Quantity> quantities;
@@ -64,26 +64,26 @@ struct JournalHead {
   bool guarded = true;
 };
 
-/// A generation of a search, all of whose points have come to their end.
+/// A generation of a search whose points have all ended.
 struct Generation {
   std::uint64_t search = 0, generation = 0, restart = 0;
-  std::uint64_t first_run = 0, runs = 0;  ///< of points that were not asked for before
+  std::uint64_t first_run = 0, runs = 0;  ///< runs of points that had not been requested before
   std::uint64_t points = 0, kept = 0;
   double best = std::numeric_limits<double>::quiet_NaN(), median = best;  ///< of the kept points, by the first objective
   double spread = 0;  ///< largest deviation of a coordinate, as a share of the box
 };
 
-/// A point of the best, tried again in another way.
+/// A run of one of the best points with another step or engine.
 struct Verification {
-  std::uint64_t run = 0;  ///< first of the point
+  std::uint64_t run = 0;  ///< first run of the point
   std::string what;       ///< half step, bullet
   std::vector<double> objectives;
   double violation = 0;
-  std::string verdict;  ///< of the first replicate that is infeasible, or of the first
-  std::string reason;   ///< why it is not verified, or ""
+  std::string verdict;  ///< of the first infeasible replicate, or of the first one
+  std::string reason;   ///< reason why it is not verified, or ""
 };
 
-/// Of the packs that ran: all that differs from machine to machine.
+/// Effort of packs of runs: the only data that differ from machine to machine.
 struct Effort {
   std::uint64_t first_run = 0, runs = 0;
   std::string started;  ///< UTC
@@ -92,21 +92,21 @@ struct Effort {
   std::int64_t process = 0;
 };
 
-/// `objective.1` of the first.
+/// `objective.1` for the first.
 std::string objective_column(std::size_t number);
 
-/// The columns of table `run` in their order, as SQL knows them.
+/// The columns of table `run` in their order, under their names in SQL.
 struct RunColumns {
   explicit RunColumns(const JournalHead& head);
   std::vector<std::string> parameters, quantities, objectives;
-  bool scenario = false;  ///< whether there is a column of that name
-  /// Whether a run is kept: `kept`; `feasible` in journals of programs that had no quantity of that name.
+  bool scenario = false;  ///< whether there is a column `scenario`
+  /// Column for whether a run is kept: `kept`; `feasible` in journals of programs without a quantity of that name.
   std::string kept;
-  std::string sql;  ///< that makes the table
+  std::string sql;  ///< statement that creates the table
   [[nodiscard]] std::vector<std::string> all() const;
 };
 
-/// What is known of a run without its quantities.
+/// A run without its quantities.
 struct Brief {
   std::uint64_t run = 0;
   std::string outcome, message;
@@ -115,55 +115,63 @@ struct Brief {
   std::string verdict = {};
 };
 
+/// The time now, in UTC: 2026-01-31T23:59:59Z.
+std::string utc_now();
+
 class Journal {
  public:
   enum class Build { same, any };
-  /// Opens it for writing, or makes it. InputError: the file is not a journal, or that of another study (the message tells what
-  /// has changed); of another build, unless `any` is taken, which the journal then notes. RunError: it cannot be written.
+  /// Opens it for writing, or creates it. Throws InputError if the file is not a journal, or belongs to another study (with the
+  /// differences), or to another build, unless `any` is given, which is then noted in the journal. Throws RunError if it cannot
+  /// be written.
   Journal(const std::filesystem::path& file, const JournalHead& head, Build build);
-  /// Opens it to be read: also while another process writes. InputError as above.
+  /// Opens it for reading, also while another process writes. Throws InputError as above.
   explicit Journal(const std::filesystem::path& file);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] const JournalHead& head() const { return head_; }
   [[nodiscard]] const RunColumns& columns() const { return columns_; }
+  /// Column of a quantity by its name, or "".
+  [[nodiscard]] std::string column_of(const std::string& quantity) const;
   /// Whether each run has a row.
   [[nodiscard]] std::vector<bool> present(std::uint64_t runs);
-  /// Says that the study has at least so many runs.
+  /// Notes that the study has at least this number of runs.
   void expect(std::uint64_t runs);
-  /// All of a pack, or nothing. RunError: it cannot be written; what was written before stays.
+  /// Writes all rows of a pack, or none. Throws RunError if it cannot be written; earlier rows remain.
   void write(std::span<const Row> rows, const Effort& effort);
-  /// Those that it has stay.
+  /// Replaces the rows of these runs.
+  void replace(std::span<const Row> rows);
+  /// Adds generations; existing ones remain.
   void write(std::span<const Generation> generations);
-  /// Takes the place of what was verified before.
+  /// Replaces all verifications.
   void write(std::span<const Verification> verifications);
-  /// By search, then generation.
+  /// Ordered by search, then generation.
   [[nodiscard]] std::vector<Generation> generations();
   [[nodiscard]] std::vector<Verification> verifications();
-  /// Counts a start of each run; an end takes the count away.
+  /// Counts a start of each run; the end of a run resets its count.
   void count_starts(std::span<const std::uint64_t> runs);
-  /// Takes these counts away: the runs were stopped.
+  /// Undoes these counts: the runs were stopped.
   void forget_starts(std::span<const std::uint64_t> runs);
-  /// How often each run was begun that never ended.
+  /// Number of starts of each run that never ended.
   [[nodiscard]] std::vector<std::pair<std::uint64_t, std::int64_t>> unfinished();
 
-  /// In the order of runs.
+  /// Visits all runs in order.
   void each_brief(const std::function<void(const Brief&)>& take);
-  /// Columns of one run as text, NULL as ""; empty: it has no row.
+  /// Columns of one run as text, NULL as ""; empty: no row.
   [[nodiscard]] std::vector<std::string> row(std::uint64_t run);
   /// Quantities of one run as text, by column, NULL as "".
   [[nodiscard]] std::vector<std::string> quantities(std::uint64_t run);
-  /// Columns of all runs in their order, numbers as the shortest text that gives the same double, NULL as "".
+  /// Visits columns of all runs in order, numbers as the shortest text that gives the same double, NULL as "".
   void each_row(const std::vector<std::string>& columns, const std::function<void(const std::vector<std::string>&)>& take);
-  /// Of the runs that came to their end, as numbers, not a number where one is not known.
+  /// Visits columns of the runs that ended as numbers, NaN for unknown ones.
   void each_numbers(const std::vector<std::string>& columns, const std::function<void(std::span<const double>)>& take);
-  /// Takes the rows of another journal of the same study that are not here. Returns how many there are. InputError: another
-  /// study.
+  /// Copies the rows of another journal of the same study that are missing here. Returns their number. Throws InputError if it
+  /// belongs to another study.
   std::uint64_t take(Journal& other);
   [[nodiscard]] std::uint64_t rows();
-  /// One more than the largest number of a run that has a row.
+  /// One more than the largest run number with a row.
   [[nodiscard]] std::uint64_t end();
-  /// Of all packs together: runs and wall.
+  /// Total of all packs: runs and wall.
   [[nodiscard]] Effort effort();
 
  private:
@@ -180,7 +188,7 @@ class Journal {
   std::optional<Statement> insert_, insert_effort_, insert_start_, remove_start_;
 };
 
-/// What a journal is called in the folder of a study.
+/// File name of a journal in the folder of a study.
 inline constexpr const char* kJournalFile = "study.db";
 
 }  // namespace gaitlab::studies

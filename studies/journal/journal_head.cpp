@@ -1,4 +1,4 @@
-// What a journal says of its study: its tables made, read back and compared.
+// Description of the study in a journal: its tables written, read back and compared.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,10 +18,10 @@ namespace {
 constexpr std::array kBefore{"run", "point", "replicate", "seed", "outcome", "message", "simulated"};
 constexpr const char* kScenario = "scenario";
 constexpr const char* kViolation = "violation";
-constexpr std::uint64_t kMostRuns = 4'000'000'000;  // a journal with more is not one of this program
+constexpr std::uint64_t kMostRuns = 4'000'000'000;  // a journal with more was not written by this program
 
 std::string lower(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;  // as SQLite compares names
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;  // SQLite compares names without case
   return text;
 }
 
@@ -87,6 +87,55 @@ std::vector<std::string> RunColumns::all() const {
   return names;
 }
 
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday, utc.tm_hour,
+                     utc.tm_min, utc.tm_sec);
+}
+
+namespace {
+
+void insert_parameters(Database& database, const JournalHead& head, const RunColumns& columns) {
+  Statement parameter = database.prepare("INSERT INTO parameter VALUES(?,?,?,?,?,?,?,?)");
+  for (std::size_t k = 0; k < head.parameters.size(); ++k) {
+    const JournalParameter& p = head.parameters[k];
+    parameter.bind(0, static_cast<std::int64_t>(k + 1)).bind(1, columns.parameters[k]).bind(2, p.key);
+    parameter.bind(3, std::string(p.drawn ? "drawn " : "") + (p.words ? "word" : "real"));
+    const bool listed = !p.values.empty() || p.drawn;
+    parameter.bind(4, listed ? std::nan("") : p.low).bind(5, listed ? std::nan("") : p.high);
+    parameter.bind(6, std::string(p.log ? "log" : "linear")).bind(7, split_values(p.values)).run();
+  }
+}
+
+void insert_quantities(Database& database, const JournalHead& head, const RunColumns& columns) {
+  Statement quantity = database.prepare("INSERT INTO figure VALUES(?,?,?,?,?,?)");
+  for (std::size_t k = 0; k < head.quantities.size(); ++k) {
+    const Quantity& f = head.quantities[k];
+    const auto shown = std::ranges::find(head.shown, f.name) - head.shown.begin();
+    const bool is_shown = shown < static_cast<std::ptrdiff_t>(head.shown.size());
+    quantity.bind(0, static_cast<std::int64_t>(k + 1)).bind(1, columns.quantities[k]).bind(2, f.name).bind(3, f.unit);
+    quantity.bind(4, f.meaning).bind(5, std::int64_t{is_shown ? shown + 1 : 0}).run();
+  }
+}
+
+void insert_aims(Database& database, const JournalHead& head) {
+  Statement objective = database.prepare("INSERT INTO objective VALUES(?,?,?)");
+  for (std::size_t k = 0; k < head.objectives.size(); ++k) {
+    const JournalObjective& o = head.objectives[k];
+    objective.bind(0, static_cast<std::int64_t>(k + 1)).bind(1, o.expression);
+    objective.bind(2, std::string(o.maximize ? "maximize" : "minimize")).run();
+  }
+  Statement limit = database.prepare("INSERT INTO \"constraint\" VALUES(?,?,?)");
+  for (std::size_t k = 0; k < head.limits.size(); ++k) {
+    const Limit& l = head.limits[k];
+    limit.bind(0, static_cast<std::int64_t>(k + 1)).bind(1, l.text).bind(2, std::int64_t{l.guard}).run();
+  }
+}
+
+}  // namespace
+
 void Journal::create() {
   Transaction transaction(database_);
   database_.execute(fmt::format("PRAGMA user_version = {}", kSchema));
@@ -94,13 +143,9 @@ void Journal::create() {
   database_.execute(columns_.sql);
   database_.execute("CREATE VIEW best AS SELECT * FROM run WHERE " + columns_.kept + (" = 1 ORDER BY \"objective.1\" ") +
                     (head_.objectives.front().maximize ? "DESC" : "ASC") + ", run");
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
   database_.prepare("INSERT INTO study VALUES(?,?,?,?,?,?,?,?,?,?,?,?)")
       .bind(0, head_.name)
-      .bind(1, fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday, utc.tm_hour,
-                           utc.tm_min, utc.tm_sec))
+      .bind(1, utc_now())
       .bind(2, head_.build)
       .bind(3, head_.definition)
       .bind(4, head_.scenario)
@@ -112,53 +157,21 @@ void Journal::create() {
       .bind(10, head_.quantile)
       .bind(11, std::int64_t{head_.guarded})
       .run();
-  Statement parameter = database_.prepare("INSERT INTO parameter VALUES(?,?,?,?,?,?,?,?)");
-  for (std::size_t k = 0; k < head_.parameters.size(); ++k) {
-    const JournalParameter& p = head_.parameters[k];
-    parameter.bind(0, static_cast<std::int64_t>(k + 1)).bind(1, columns_.parameters[k]).bind(2, p.key);
-    parameter.bind(3, std::string(p.drawn ? "drawn " : "") + (p.words ? "word" : "real"));
-    const bool listed = !p.values.empty() || p.drawn;
-    parameter.bind(4, listed ? std::nan("") : p.low).bind(5, listed ? std::nan("") : p.high);
-    parameter.bind(6, std::string(p.log ? "log" : "linear")).bind(7, split_values(p.values)).run();
-  }
-  Statement quantity = database_.prepare("INSERT INTO figure VALUES(?,?,?,?,?,?)");
-  for (std::size_t k = 0; k < head_.quantities.size(); ++k) {
-    const Quantity& f = head_.quantities[k];
-    const auto shown = std::ranges::find(head_.shown, f.name) - head_.shown.begin();
-    const bool is_shown = shown < static_cast<std::ptrdiff_t>(head_.shown.size());
-    quantity.bind(0, static_cast<std::int64_t>(k + 1)).bind(1, columns_.quantities[k]).bind(2, f.name).bind(3, f.unit);
-    quantity.bind(4, f.meaning).bind(5, std::int64_t{is_shown ? shown + 1 : 0}).run();
-  }
-  Statement objective = database_.prepare("INSERT INTO objective VALUES(?,?,?)");
-  for (std::size_t k = 0; k < head_.objectives.size(); ++k) {
-    const JournalObjective& o = head_.objectives[k];
-    objective.bind(0, static_cast<std::int64_t>(k + 1)).bind(1, o.expression);
-    objective.bind(2, std::string(o.maximize ? "maximize" : "minimize")).run();
-  }
-  Statement limit = database_.prepare("INSERT INTO \"constraint\" VALUES(?,?,?)");
-  for (std::size_t k = 0; k < head_.limits.size(); ++k) {
-    const Limit& l = head_.limits[k];
-    limit.bind(0, static_cast<std::int64_t>(k + 1)).bind(1, l.text).bind(2, std::int64_t{l.guard}).run();
-  }
+  insert_parameters(database_, head_, columns_);
+  insert_quantities(database_, head_, columns_);
+  insert_aims(database_, head_);
   transaction.commit();
 }
 
-void Journal::read_head() {
-  if (database_.integer("PRAGMA application_id") != kApplication)
-    refuse(file_, "is a database of SQLite, and not the journal of a study");
-  if (const std::int64_t version = database_.integer("PRAGMA user_version"); version != kSchema)
-    refuse(file_, fmt::format("is a journal of format {}; this program reads format {}", version, kSchema));
-  Statement table = database_.prepare("SELECT sql FROM sqlite_master WHERE type = 'table' AND name = ?");
-  const auto check = [&](const std::string& name, const std::string& sql) {
-    const bool same = table.bind(0, name).step() && table.text(0) == sql;
-    while (table.step()) {
-    }
-    if (!same) refuse(file_, "is not a journal that this program wrote: its table " + name + " is another");
-  };
-  for (const JournalTable& known : kTables) check(known.name, known.sql);
+namespace {
+
+constexpr const char* kForeign = "is not a journal that this program wrote: ";
+
+/// The row of table study. Throws InputError if it is missing or damaged.
+JournalHead read_study(Database& database, const std::filesystem::path& file) {
   JournalHead head;
-  Statement study = database_.prepare("SELECT * FROM study");
-  if (!study.step()) refuse(file_, "is not a journal that this program wrote: it names no study");
+  Statement study = database.prepare("SELECT * FROM study");
+  if (!study.step()) refuse(file, std::string(kForeign) + "it names no study");
   head.name = study.text(0);
   head.build = study.text(2);
   head.definition = study.text(3);
@@ -173,14 +186,19 @@ void Journal::read_head() {
   head.guarded = study.integer(11) != 0;
   const bool even = head.scenarios.empty() || head.replicates % head.scenarios.size() == 0;
   if (head.runs > kMostRuns || head.replicates == 0 || head.replicates > kMostRuns || !even)
-    refuse(file_, "is not a journal that this program wrote: its numbers of runs are out of range");
-  Statement parameter = database_.prepare("SELECT * FROM parameter ORDER BY number");
+    refuse(file, std::string(kForeign) + "its numbers of runs are out of range");
+  return head;
+}
+
+/// Parameters, quantities, objectives and limits, each in its order.
+void read_lists(Database& database, const std::filesystem::path& file, JournalHead& head) {
+  Statement parameter = database.prepare("SELECT * FROM parameter ORDER BY number");
   while (parameter.step()) {
     const std::string kind = parameter.text(3);
     head.parameters.push_back({parameter.text(2), kind.ends_with("word"), kind.starts_with("drawn"), parameter.number(4),
                                parameter.number(5), parameter.text(6) == "log", joined_values(parameter.text(7))});
   }
-  Statement quantity = database_.prepare("SELECT * FROM figure ORDER BY number");
+  Statement quantity = database.prepare("SELECT * FROM figure ORDER BY number");
   std::vector<std::pair<std::int64_t, std::string>> shown;
   while (quantity.step()) {
     head.quantities.push_back({quantity.text(2), quantity.text(3), quantity.text(4)});
@@ -188,12 +206,31 @@ void Journal::read_head() {
   }
   std::ranges::sort(shown);
   for (auto& [rank, name] : shown) head.shown.push_back(std::move(name));
-  Statement objective = database_.prepare("SELECT * FROM objective ORDER BY number");
+  Statement objective = database.prepare("SELECT * FROM objective ORDER BY number");
   while (objective.step()) head.objectives.push_back({objective.text(1), objective.text(2) != "minimize"});
   if (head.objectives.empty() || head.objectives.size() > kMostObjectives)
-    refuse(file_, "is not a journal that this program wrote: its number of objectives is out of range");
-  Statement limit = database_.prepare("SELECT * FROM \"constraint\" ORDER BY number");
+    refuse(file, std::string(kForeign) + "its number of objectives is out of range");
+  Statement limit = database.prepare("SELECT * FROM \"constraint\" ORDER BY number");
   while (limit.step()) head.limits.push_back({limit.text(1), limit.integer(2) != 0});
+}
+
+}  // namespace
+
+void Journal::read_head() {
+  if (database_.integer("PRAGMA application_id") != kApplication)
+    refuse(file_, "is a database of SQLite, and not the journal of a study");
+  if (const std::int64_t version = database_.integer("PRAGMA user_version"); version != kSchema)
+    refuse(file_, fmt::format("is a journal of format {}; this program reads format {}", version, kSchema));
+  Statement table = database_.prepare("SELECT sql FROM sqlite_master WHERE type = 'table' AND name = ?");
+  const auto check = [&](const std::string& name, const std::string& sql) {
+    const bool same = table.bind(0, name).step() && table.text(0) == sql;
+    while (table.step()) {
+    }
+    if (!same) refuse(file_, kForeign + ("its table " + name) + " is another");
+  };
+  for (const JournalTable& known : kTables) check(known.name, known.sql);
+  JournalHead head = read_study(database_, file_);
+  read_lists(database_, file_, head);
   RunColumns columns(head);
   check("run", columns.sql);
   head_ = std::move(head);
@@ -209,12 +246,15 @@ void Journal::compare(const JournalHead& head, Build build) {
   }
   std::string text;
   for (const std::string& change : changes) text += "\n  " + change;
-  if (!changes.empty())
-    refuse(file_, "is of another study; take another folder (--out), or go on as it was begun: " + head_.command + text);
+  if (!changes.empty()) {
+    refuse(file_,
+           "belongs to another study; choose another folder (--out), or continue it as it was begun: " + head_.command + text);
+  }
   const bool noted = head_.build == head.build || head_.build.ends_with("; " + head.build);
-  if (!noted && build == Build::same)
+  if (!noted && build == Build::same) {
     refuse(file_, "was begun by another build, which may give other numbers: then " + head_.build + ", now " + head.build +
-                      "; go on all the same with --accept-build");
+                      "; continue nevertheless with --accept-build");
+  }
   if (!noted) {
     head_.build += "; " + head.build;
     database_.prepare("UPDATE study SET build = ?").bind(0, head_.build).run();

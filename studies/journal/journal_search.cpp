@@ -1,4 +1,4 @@
-// What a journal holds of searches: their generations, and how the best points stood.
+// Searches in a journal: their generations, and the verification of the best points.
 #include <array>
 #include <cmath>
 

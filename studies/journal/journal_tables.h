@@ -12,7 +12,7 @@ struct JournalTable {
   const char* sql;
 };
 
-/// All but `run`, whose columns depend on the study.
+/// All tables except `run`, whose columns depend on the study.
 inline constexpr std::array<JournalTable, 9> kTables{{
     {"study",
      "CREATE TABLE study(name TEXT NOT NULL, created TEXT NOT NULL, build TEXT NOT NULL, definition TEXT NOT NULL, "

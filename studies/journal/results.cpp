@@ -10,7 +10,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// Gathers the replicates of one point after the other.
+/// Collects the replicates of one point after the other.
 class Gather {
  public:
   Gather(const JournalHead& head, Results& results) : head_(head), results_(results) {}
@@ -35,7 +35,7 @@ class Gather {
 
 PointResult point_result(const JournalHead& head, std::span<const Brief> runs) {
   PointResult point{runs.front().run / head.replicates * head.replicates, runs.size(), 0, {}};
-  std::array<std::vector<double>, kMostObjectives> bad;  // more is worse
+  std::array<std::vector<double>, kMostObjectives> bad;  // values per objective; larger is worse
   std::vector<double> violation;
   for (const Brief& run : runs) {
     if (run.verdict == "feasible") ++point.feasible_runs;
@@ -90,24 +90,29 @@ Results results(Journal& journal) {
   return results;
 }
 
+void Estimated::add(double share) {
+  ++runs;
+  worst = std::max(worst, share);
+  for (std::size_t k = 0; k < kShares.size(); ++k) beyond[k] += share > kShares[k] ? 1 : 0;
+}
+
 Estimated estimated(Journal& journal) {
-  const JournalHead& head = journal.head();
-  const auto at = std::ranges::find(head.quantities, kTorqueError, &Quantity::name);
   Estimated found;
-  if (at == head.quantities.end()) return found;
-  const auto column = static_cast<std::size_t>(at - head.quantities.begin());
-  journal.each_numbers({journal.columns().quantities[column]}, [&](std::span<const double> values) {
-    if (std::isnan(values.front())) return;
-    ++found.runs;
-    found.worst = std::max(found.worst, values.front());
-    for (std::size_t k = 0; k < found.kShares.size(); ++k) found.beyond[k] += values.front() > found.kShares[k] ? 1 : 0;
+  const std::string column = journal.column_of(kTorqueError);
+  if (column.empty()) return found;
+  journal.each_numbers({column}, [&](std::span<const double> values) {
+    if (std::isnan(values.front())) {
+      ++found.others;
+    } else {
+      found.add(values.front());
+    }
   });
   return found;
 }
 
 std::vector<BrokenLimit> broken_limits(Journal& journal) {
   const JournalHead& head = journal.head();
-  std::vector<std::string> columns{"run"};  // one at least
+  std::vector<std::string> columns{"run"};  // at least one
   const Names names = [&](const std::string& name, const std::string& joint) -> Naming {
     const std::string full = joint.empty() ? name : name + "[" + joint + "]";
     const auto at = std::ranges::find(head.quantities, full, &Quantity::name);
@@ -118,13 +123,13 @@ std::vector<BrokenLimit> broken_limits(Journal& journal) {
     if (known == columns.end()) columns.push_back(column);
     return {place};
   };
-  std::vector<std::pair<Formula, bool>> formulas;  // and whether it is a guard
+  std::vector<std::pair<Formula, bool>> formulas;  // with whether it is a guard
   std::vector<BrokenLimit> limits;
   for (const Limit& limit : head.limits) {
     Problems problems;
     Formula formula({limit.text, {}}, names, problems);
     const bool relation = formula.compares("<=") || formula.compares(">=") || formula.compares("==");
-    if (!problems.empty() || !relation) continue;  // a stranger's
+    if (!problems.empty() || !relation) continue;  // a forged relation
     formulas.emplace_back(std::move(formula), limit.guard);
     limits.push_back({limit.text});
   }

@@ -24,7 +24,7 @@ struct ShardName {
   std::string index, count;
 };
 
-/// The two numbers in I-of-N.db, also if a shard cannot have them.
+/// The two numbers in I-of-N.db, also if no shard can have them.
 std::optional<ShardName> shard_name(const std::string& name) {
   constexpr std::string_view kOf = "-of-";
   constexpr std::string_view kEnd = ".db";
@@ -39,7 +39,7 @@ std::optional<ShardName> shard_name(const std::string& name) {
   return found;
 }
 
-/// Nothing if a shard cannot have such a name.
+/// Shard of a name; nothing if no shard can have it.
 std::optional<Shard> shard_of(const ShardName& name) {
   constexpr std::size_t kDigits = 7;  // as of --shard
   for (const std::string& text : {name.index, name.count}) {
@@ -60,11 +60,11 @@ std::vector<std::string> names_in(const fs::path& folder) {
 /// The kind of a file by its first bytes.
 enum class Content { journal, unborn, other };
 
-/// unborn: an empty file, or a database without an application ID, as a process leaves it that was killed while it made its
+/// unborn: an empty file, or a database without an application ID, left by a process that was killed while it created its
 /// journal.
 Content content_of(const fs::path& file) {
   constexpr std::string_view kSqlite{"SQLite format 3\0", 16};
-  constexpr std::size_t kPlace = 68;  // of the application_id, four bytes, the highest first
+  constexpr std::size_t kPlace = 68;  // of the application_id, four bytes, the most significant first
   std::error_code none;
   if (fs::is_symlink(file, none)) return Content::other;
   std::string bytes;
@@ -81,7 +81,7 @@ Content content_of(const fs::path& file) {
   return application == 0 ? Content::unborn : Content::other;
 }
 
-/// Checks that a name belongs to a journal, or to a file that SQLite keeps beside a journal.
+/// Checks that a name is that of a journal, or of a file that SQLite keeps beside one.
 bool is_journals(const std::string& name) {
   for (const char* behind : {"-wal", "-shm", "-journal"}) {
     if (name.ends_with(behind)) return is_journals(name.substr(0, name.size() - std::string_view(behind).size()));
@@ -108,13 +108,13 @@ bool holds_a_journal(const fs::path& folder) {
   });
 }
 
-/// Checks that a folder belongs to a study; false for an empty one. InputError: its study.db is something else.
+/// Checks that a folder belongs to a study; false for an empty one. Throws InputError if its study.db is something else.
 bool is_studys(const fs::path& folder) {
   std::error_code none;
   if (fs::is_empty(folder, none) || none) return false;
   if (holds_a_journal(folder) || holds_a_start(folder)) return true;
   if (!fs::exists(fs::symlink_status(folder / kJournalFile, none))) return false;
-  const Journal there(folder / kJournalFile);  // older programs wrote the application ID into the log alone
+  const Journal there(folder / kJournalFile);  // older programs wrote the application ID into the write-ahead log only
   return true;
 }
 
@@ -128,10 +128,10 @@ Shards shards_in(const fs::path& folder) {
     const std::optional<Shard> shard = shard_of(*parts);
     if (!shard)
       throw InputError(SourceLocation{(folder / "shards" / name).string()},
-                       "is no shard of a study; expected I-of-N.db with I from 0 to N - 1, without zeros in front");
+                       "is not a shard of a study; expected I-of-N.db with I from 0 to N - 1, without zeros in front");
     if (shards.count != 0 && shard->count != shards.count)
       throw InputError(SourceLocation{(folder / "shards").string()},
-                       fmt::format("holds shards of {} and of {}; expected those of one division",
+                       fmt::format("holds shards of {} and of {}; expected shards of one division",
                                    std::min(shard->count, shards.count), std::max(shard->count, shards.count)));
     shards.count = shard->count;
     shards.indices.push_back(shard->index);
@@ -157,7 +157,7 @@ fs::path study_folder(const std::optional<fs::path>& out, const std::string& nam
     } catch (const InputError&) {
       if (!again) throw;
     }
-    constexpr std::chrono::milliseconds kPatience{20};  // another shard may just have made it
+    constexpr std::chrono::milliseconds kPatience{20};  // another shard may be creating it
     std::this_thread::sleep_for(kPatience);
   }
 }

@@ -21,14 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first 300 bytes: more than a lock of this program has.
+/// The first 300 bytes: longer than any lock of this program.
 std::string start_of(int descriptor) {
   std::array<char, 300> bytes{};
   const ssize_t size = ::pread(descriptor, bytes.data(), bytes.size(), 0);
   return {bytes.data(), size > 0 ? static_cast<std::size_t>(size) : 0};
 }
 
-/// The line `process 12 on HOST` of a lock; empty if the text is another.
+/// The line `process 12 on HOST` of a lock; empty for any other text.
 std::string holder_in(const std::string& text) {
   constexpr std::string_view kProcess = "process ";
   const std::size_t digits = text.find_first_not_of("0123456789", kProcess.size());
@@ -37,19 +37,19 @@ std::string holder_in(const std::string& text) {
   return ours ? clipped(text.substr(0, text.size() - 1)) : "";
 }
 
-/// A file of one name.
+/// Whether it is a regular file with one name.
 bool is_plain(int descriptor) {
   struct stat about {};
   return ::fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode) && about.st_nlink == 1;
 }
 
-/// The same, empty or with the line of a lock.
+/// Whether it is also empty or has the line of a lock.
 bool is_lock(int descriptor) {
   const std::string text = start_of(descriptor);
   return is_plain(descriptor) && (text.empty() || !holder_in(text).empty());
 }
 
-/// Neither waits for a FIFO nor follows a link. -1 and errno: it cannot be opened.
+/// Opens a file without waiting for a FIFO and without following a link. Returns -1 and sets errno on failure.
 int open_there(const fs::path& file, int how) {
   return ::open(file.c_str(), how | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY);
 }
@@ -83,7 +83,7 @@ Lock::Lock(fs::path file) : file_(std::move(file)) {
   if (descriptor_ < 0) throw refuse("cannot be opened: " + std::generic_category().message(errno));
   try {
     if (!is_plain(descriptor_)) throw refuse(kNoLock);
-    // A killed process may not have ended yet where the next one begins: a batch system that starts a job anew.
+    // A killed process may not have ended when its successor begins, as in a batch system that restarts a job.
     constexpr int kPatience = 50;  // times 20 ms
     bool taken = take_lock(descriptor_, file_.parent_path());
     for (int k = 0; k < kPatience && !taken; ++k) {
@@ -93,14 +93,14 @@ Lock::Lock(fs::path file) : file_(std::move(file)) {
     const std::string who = holder_in(start_of(descriptor_));
     if (!taken)
       throw refuse((who.empty() ? "another process" : who) +
-                   " is writing this study; wait for it, or look at what there is with `gaitlab study show`");
+                   " is writing this study; wait for it, or see its results so far with `gaitlab study show`");
     if (!is_lock(descriptor_)) throw refuse(kNoLock);
   } catch (...) {
     ::close(descriptor_);
     throw;
   }
   const std::string text = fmt::format("process {} on {}\n", ::getpid(), host());
-  // For people: a study whose disk is full says so where it matters.
+  // Information only: a full disk is reported elsewhere.
   if (::ftruncate(descriptor_, 0) == 0) (void)!::pwrite(descriptor_, text.data(), text.size(), 0);
 }
 

@@ -1,22 +1,22 @@
-// The file `lock` of a study, or of one of its shards: one process at a time writes.
+// The file `lock` of a study, or of one of its shards, for one writing process at a time.
 #pragma once
 #include <filesystem>
 #include <string>
 
 namespace gaitlab::studies {
 
-/// Holds the lock of a file for as long as it lives; the file says who.
+/// Holds the lock of a file during its lifetime; the file names the holder.
 class Lock {
  public:
-  /// Makes the file, or takes an existing lock: a regular file, under one name, empty or with the line `process N on HOST`.
-  /// InputError: it is another; another process holds it and keeps it for a second, `PATH: error: process 12 on HOST is writing
-  /// this study`. File systems without locks: see take_lock().
+  /// Creates the file, or takes an existing lock: a regular file, with one name, empty or with the line `process N on HOST`.
+  /// Throws InputError if it is something else, or if another process holds it for a second: `PATH: error: process 12 on HOST
+  /// is writing this study`. File systems without locks: see take_lock().
   explicit Lock(std::filesystem::path file);
   ~Lock();
   Lock(const Lock&) = delete;
   Lock& operator=(const Lock&) = delete;
 
-  /// Who holds it, or "".
+  /// Holder of the lock, or "".
   static std::string holder(const std::filesystem::path& file);
 
  private:
@@ -24,7 +24,7 @@ class Lock {
   int descriptor_ = -1;
 };
 
-/// Checks that a file is the lock of a study, held or free: regular, under one name, empty or with such a line.
+/// Checks that a file is the lock of a study, held or free: regular, with one name, empty or with such a line.
 bool is_lock(const std::filesystem::path& file);
 
 /// Name of this machine.

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "studies/plan/draws.h"
+#include "core/math/random.h"
 #include "studies/plan/points.h"
 
 namespace gaitlab::studies {
@@ -19,9 +19,9 @@ std::vector<double> morris_shares(std::uint64_t seed, std::size_t parameters, st
   const std::uint64_t trajectory = point / (parameters + 1);
   const std::uint64_t step = point % (parameters + 1);
   const auto draw = [&](MorrisDraw kind, std::size_t k) {
-    return uniform({static_cast<std::uint64_t>(kind), seed, trajectory, k});
+    return math::uniform({static_cast<std::uint64_t>(kind), seed, trajectory, k});
   };
-  std::vector<std::size_t> order(parameters);  // shuffled as Fisher and Yates do
+  std::vector<std::size_t> order(parameters);  // shuffled by Fisher and Yates
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t k = parameters; k > 1; --k)
     std::swap(order[k - 1], order[static_cast<std::size_t>(draw(MorrisDraw::order, k) * static_cast<double>(k))]);

@@ -1,4 +1,4 @@
-// The points of a study, by number: the same whatever ran before.
+// The points of a study by number, independent of earlier runs.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -9,7 +9,8 @@
 
 namespace gaitlab::studies {
 
-/// Runs are numbered from 0: those of a point follow one another, its replicates in the first scenario, then in the next.
+/// Points and runs by number. Runs are numbered from 0: those of a point follow one another, its replicates in the first
+/// scenario, then in the next.
 class Points {
  public:
   explicit Points(const Study& study) : study_(study) {}
@@ -22,14 +23,14 @@ class Points {
   [[nodiscard]] std::size_t scenario(std::uint64_t run) const { return run % runs_of_point() / replicates(); }
   [[nodiscard]] std::uint64_t replicate(std::uint64_t run) const { return run % replicates(); }
 
-  /// The next point of a method that chooses points by what came out.
+  /// Adds the next point of a method that chooses points by earlier results.
   void add(std::vector<std::string> values) { chosen_.push_back(std::move(values)); }
 
-  /// Of each parameter, as for --set. A grid changes the last parameter fastest.
+  /// Value of each parameter in the form of --set. A grid changes the last parameter fastest.
   [[nodiscard]] std::vector<std::string> values(std::uint64_t point) const;
-  /// Of each variation, as for --set. nominal: of the point, by key.
+  /// Draw of each variation in the form of --set. nominal: numbers of the point, by key.
   [[nodiscard]] std::vector<std::string> drawn(std::uint64_t replicate, const std::map<std::string, double>& nominal) const;
-  /// Of the scenario's random numbers, 53 bits.
+  /// Seed of the scenario's random numbers, 53 bits.
   [[nodiscard]] std::int64_t seed(std::uint64_t replicate) const;
 
  private:
@@ -40,7 +41,7 @@ class Points {
 /// A point of a Sobol sequence in the unit cube.
 std::vector<double> sobol_point(std::size_t dimensions, std::uint64_t number);
 
-/// A value of a parameter between its ends: share 0 is low, 1 is high. 12 digits, so that a grid of tenths is one.
+/// A value of a parameter between its ends: share 0 is low, 1 is high. Rounded to 12 digits, so that a grid of tenths is exact.
 double between(const Parameter& parameter, double share);
 
 }  // namespace gaitlab::studies

@@ -7,16 +7,16 @@
 
 namespace gaitlab::studies {
 
-/// The rules of a study, as `stop: [fell, "saturated.voltage > 0.3 after 4"]` says them.
+/// The rules of a study, written as `stop: [fell, "saturated.voltage > 0.3 after 4"]`.
 class StopRules {
  public:
-  /// Faults of expressions, and quantities that are not known while a run goes on, are problems at their places.
+  /// Faults of expressions, and quantities that are not known during a run, are problems at their places.
   StopRules(const Study& study, const QuantityOffer& offer, const std::vector<std::string>& joints, Problems& problems);
 
   [[nodiscard]] bool empty() const { return rules_.empty(); }
-  /// `stopped by RULE at t = 4 s`, of the first rule that holds of what is recorded so far (Simulation::watch); "": none does.
+  /// `stopped by RULE at t = 4 s` for the first rule that is true in the recording so far (Simulation::watch); "": none is.
   [[nodiscard]] std::string reason(const Scenario& scenario, const Recording& so_far) const;
-  /// As the study says them.
+  /// Texts of the rules.
   [[nodiscard]] std::vector<std::string> texts() const;
 
  private:
@@ -26,7 +26,7 @@ class StopRules {
     Formula when;
   };
   std::vector<Rule> rules_;
-  std::vector<std::pair<std::string, std::string>> quantities_;  ///< names and joints, by their number in the formulas
+  std::vector<std::pair<std::string, std::string>> quantities_;  ///< names and joints, by their index in the formulas
   QuantityOffer offer_;
 };
 

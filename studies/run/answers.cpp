@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/settings/wording.h"
+#include "studies/plan/definition.h"
 #include "studies/study/number.h"
 
 namespace gaitlab::studies {
@@ -23,7 +24,7 @@ std::string key_of(const Row& row) {
   return key_of(row.point, std::to_string(row.replicate), std::to_string(row.seed), row.scenario);
 }
 
-/// The lines of a definition that say which rules stop runs.
+/// The lines of a definition with its rules for stopping.
 std::string stop_lines(const std::string& definition) {
   std::string lines;
   for (std::size_t at = 0; at < definition.size();) {
@@ -39,7 +40,7 @@ std::size_t column(const std::vector<std::string>& names, const std::string& nam
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
-/// Jobs on their way through an executor that remembers.
+/// Jobs in an executor that reuses results.
 class Remembering {
  public:
   Remembering(const Work& work, std::vector<Answers>& answers, std::uint64_t* taken)
@@ -77,11 +78,11 @@ class Remembering {
 
  private:
   struct Known {
-    std::optional<Row> row;    ///< nothing: it runs
-    std::vector<Row> waiting;  ///< of the same values
+    std::optional<Row> row;    ///< nothing: the run has not ended
+    std::vector<Row> waiting;  ///< rows with the same values
   };
 
-  /// What another run of the same values gave, under this one's number.
+  /// Row of another run with the same values, with this run's number.
   static Row as(Row wanted, const Row& known) {
     Row row = known;
     row.run = wanted.run;
@@ -95,7 +96,7 @@ class Remembering {
     return {};
   }
 
-  /// Whether a run of the same values gives its row, now or when it has ended.
+  /// Whether a run with the same values gives the row, now or when it has ended.
   bool held(const Job& job) {
     constexpr std::size_t kMost = 20000;  // rows in memory; later ones are run again
     std::optional<Row> row;
@@ -129,8 +130,8 @@ class Remembering {
   const Work& work_;
   std::vector<Answers>& answers_;
   std::uint64_t* taken_;
-  std::vector<Row> given_;  ///< of next(), which one thread at a time calls
-  std::mutex mutex_;        ///< of what follows
+  std::vector<Row> given_;  ///< rows found by next(), which one thread at a time calls
+  std::mutex mutex_;        ///< guards the following members
   std::map<std::string, Known> known_;
 };
 
@@ -147,7 +148,7 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
   if (head.build != build && taken == Journal::Build::same)
     refuse("was written by another build, which may give other numbers: " + head.build + ", and this is " + build +
            "; take its answers all the same with --accept-build");
-  if (stop_lines(head.definition) != stop_lines(plan.definition()))
+  if (stop_lines(head.definition) != stop_lines(definition(plan.bound())))
     refuse("is of a study with other rules for stopping runs; its runs may have ended at other times");
   const std::vector<std::string> names = journal_->columns().all();
   for (const Quantity& quantity : plan.columns()) {
@@ -156,7 +157,7 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
     quantities_.push_back(
         column(names, journal_->columns().quantities[static_cast<std::size_t>(at - head.quantities.begin())]));
   }
-  // By key; where the other study has other keys, its points have other names and none is found.
+  // Keys of the columns. With other keys the other study's points have other names, and none is found.
   std::vector<std::string> keys;
   for (const Parameter& p : plan.study().parameters) keys.push_back(p.key);
   for (const Variation& v : plan.study().replicates.vary) keys.push_back(v.key);

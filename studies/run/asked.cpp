@@ -37,7 +37,7 @@ std::uint64_t Asked::point(std::vector<std::string> values) {
   return next_++;
 }
 
-/// The number next_ belongs to a point of the journal, which may lack replicates.
+/// Moves past next_, which belongs to a point of the journal, possibly with missing replicates.
 void Asked::pass_taken() {
   const Known& known = in_journal_.at(next_);
   const std::vector<std::string> names = journal_.columns().all();

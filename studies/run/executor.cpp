@@ -21,7 +21,7 @@ class LocalWork {
         return plan_.stops().reason(rollout.scenario, so_far);
       };
     }
-    const bool whole = run_pulled(stream, settings, Loads::recorded, stop);
+    const bool whole = run_pulled(stream, settings, measure_.reads, stop);
     if (whole) give_refused();
     return whole;
   }
@@ -75,7 +75,7 @@ class LocalWork {
     return std::move(rows_.extract(run).mapped());
   }
 
-  /// Of a run whose scenario is refused with its values: the first problem.
+  /// Row of a run whose scenario is refused with its values: contains the first problem.
   static void refuse(Row& row, const std::vector<Problem>& problems) {
     row.outcome = "refused";
     row.message = problems.empty() ? "" : problems.front().text;
@@ -89,8 +89,8 @@ class LocalWork {
   const Plan& plan_;
   const Measure& measure_;
   const Work& work_;
-  std::vector<Row> refused_;  ///< of next(), which one thread at a time calls
-  std::mutex mutex_;          ///< of what follows
+  std::vector<Row> refused_;  ///< rows refused by next(), which one thread at a time calls
+  std::mutex mutex_;          ///< guards the following members
   std::map<std::uint64_t, Row> rows_;
 };
 

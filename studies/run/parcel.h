@@ -1,4 +1,4 @@
-// Jobs and rows as bytes, for processes that work together.
+// Jobs and rows as bytes, for processes that cooperate.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -11,7 +11,7 @@ namespace gaitlab::studies {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// CBOR: doubles keep their value to the bit, not a number stays so (of whichever kind), texts may hold any bytes.
+/// Bytes of jobs in CBOR: doubles are exact, NaN remains NaN (of any kind), texts may contain any bytes.
 Bytes packed(std::span<const Job> jobs);
 Bytes packed(std::span<const Row> rows);
 std::vector<Job> jobs_of(const Bytes& bytes);

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 constexpr const char* kExpected = R"(; expected {"id": 7, "parameters": {"KEY": VALUE}})";
 
 Json parsed(const std::string& line, const SourceLocation& place) {
-  constexpr int kDeep = 2;  // objects in one another
+  constexpr int kDeep = 2;  // nesting depth of objects
   const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
     if (depth > kDeep) throw InputError(place, "holds values within values" + std::string(kExpected));
     return true;
@@ -28,13 +28,13 @@ Json parsed(const std::string& line, const SourceLocation& place) {
     SourceLocation at = place;
     at.column = static_cast<int>(error.byte);
     throw InputError(at, "is not JSON" + std::string(kExpected));
-  } catch (const Json::exception&) {  // a number beyond what a double holds
+  } catch (const Json::exception&) {  // a number beyond the range of a double
     throw InputError(place, "holds a number that is too large" + std::string(kExpected));
   }
 }
 
-/// The value of a parameter as for --set; a problem where it is of another kind; where it is not allowed, the question is
-/// refused.
+/// Value of a parameter in the form of --set. A value of the wrong type is a problem; a value out of range refuses the
+/// question.
 std::string value_of(const Json& value, const Parameter& p, Question& question, const SourceLocation& place,
                      Problems& problems) {
   if (p.words ? !value.is_string() : !value.is_number()) {

@@ -1,4 +1,4 @@
-// What another program asks and is told, a line of JSON each.
+// Protocol for a program that chooses points: questions and answers, one line of JSON each.
 #pragma once
 #include <span>
 #include <string>
@@ -12,17 +12,17 @@ namespace gaitlab::studies {
 /// `{"id": 7, "parameters": {"cpg.frequency": 0.5}}`
 struct Question {
   std::string id;                   ///< as JSON
-  std::vector<std::string> values;  ///< of the parameters, as for --set
-  std::string refused;              ///< why the study has no such point; empty: it has
+  std::vector<std::string> values;  ///< of the parameters, in the form of --set
+  std::string refused;              ///< reason why the study does not have such a point; empty: it has
 };
 
-/// Reads one; `place`: of the line. InputError: it is not a question to this study: not JSON, a parameter that is missing,
-/// unknown or not of its kind. A value beyond what the study allows is a point that is refused.
+/// Reads a question; `place`: of the line. Throws InputError if it is not a question to this study: not JSON, or a parameter
+/// that is missing, unknown or of the wrong type. A value outside the study's range gives a refused point.
 Question read_question(const std::string& line, const SourceLocation& place, const std::vector<Parameter>& parameters);
 
-/// What is told of a point: runs in the order of replicates with their quantities, one row of values each by column; none: it
-/// was refused. With several replicates each quantity is a list. Numbers are the shortest that give the same double; not known:
-/// null.
+/// Answer for a point: runs in the order of replicates with their quantities, one row of values each by column; without rows:
+/// refused. With several replicates each quantity is a list. Numbers are the shortest that give the same double; unknown ones
+/// are null.
 std::string answer(const Question& question, const JournalHead& head, std::span<const Brief> runs,
                    std::span<const std::vector<std::string>> quantities);
 

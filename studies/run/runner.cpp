@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <new>
 
 #include "core/errors.h"
@@ -17,14 +16,6 @@ namespace gaitlab::studies {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday, utc.tm_hour,
-                     utc.tm_min, utc.tm_sec);
-}
 
 Brief brief(const Row& row) { return {row.run, row.outcome, row.message, row.simulated, row.score, row.verdict}; }
 
@@ -94,7 +85,7 @@ void Runner::begin(std::span<const std::uint64_t> runs) {
 
 void Runner::write(const std::vector<Row>& rows) {
   const std::lock_guard lock(mutex_);
-  Pack pack{Clock::now(), utc_now(), {}};  // what was refused, or ended a process, never began here
+  Pack pack{Clock::now(), utc_now(), {}};  // of refused runs, and runs that ended a process: they never began here
   if (const auto at = started_.find(rows.front().run); at != started_.end()) {
     pack = std::move(at->second);
     started_.erase(at);
@@ -108,7 +99,7 @@ void Runner::write(const std::vector<Row>& rows) {
   settings_.told(standing_);
 }
 
-/// Of those that were stopped the process did not end.
+/// Removes the counted starts of stopped runs, whose process did not end.
 void Runner::forget_stopped() {
   for (const auto& [first, pack] : started_) journal_.forget_starts(pack.runs);
   started_.clear();

@@ -1,4 +1,4 @@
-// Does runs of a study: from their numbers to rows in its journal.
+// Runner of a study: does runs by number and writes their rows to the journal.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -13,11 +13,11 @@
 
 namespace gaitlab::studies {
 
-/// How far a study is.
+/// Progress of a study.
 struct Standing {
-  std::uint64_t wanted = 0;  ///< of this shard
-  std::uint64_t ended = 0;   ///< have a row
-  std::uint64_t before = 0;  ///< of these, had one when it began
+  std::uint64_t wanted = 0;  ///< runs of this shard
+  std::uint64_t ended = 0;   ///< runs with a row
+  std::uint64_t before = 0;  ///< of these, runs with a row at the start
   std::uint64_t kept = 0, feasible = 0, failed = 0;
   std::optional<Score> best;  ///< of kept runs, by the first objective
   std::uint64_t best_run = 0;
@@ -28,21 +28,21 @@ struct Standing {
 struct RunnerSettings {
   Executor executor;
   Shard shard;
-  int jobs = 1;  ///< processes for runs during which the program ended before
-  /// After each pack, one call at a time.
+  int jobs = 1;  ///< parallel processes for runs during which the program ended before
+  /// Called after each pack, one call at a time.
   std::function<void(const Standing&)> told = [](const Standing&) {};
-  /// Of each run that has a row: those of the journal first, then each as it ends. One call at a time.
+  /// Called for each run with a row: first those of the journal, then each as it ends. One call at a time.
   std::function<void(const Brief&)> ended = [](const Brief&) {};
 };
 
 class Runner {
  public:
-  /// Plan and journal must outlive it; the journal's rows are counted.
+  /// Counts the journal's rows. Plan and journal must outlive this object.
   Runner(const Plan& plan, Journal& journal, RunnerSettings settings);
 
-  /// Does the runs of this shard, numbered below `end`, that have no row. Each pack is in the journal when it has ended. A run
-  /// during which the process ended twice gets a process of its own first. False: `stop` was set; what ran leaves no rows.
-  /// RunError: the journal cannot be written.
+  /// Does the runs of this shard with a number below `end` that have no row. Each pack is written to the journal when it has
+  /// ended. A run during which the process ended twice is first tried in a separate process. False: `stop` was set; unfinished
+  /// runs leave no rows. Throws RunError if the journal cannot be written.
   bool run(std::uint64_t end, std::atomic<bool>& stop);
 
   [[nodiscard]] const Standing& standing() const { return standing_; }
@@ -67,8 +67,8 @@ class Runner {
   std::vector<bool> present_;  ///< by run
   std::uint64_t next_ = 0;
   std::string host_ = host();
-  std::mutex mutex_;                       ///< of what follows, and of the journal
-  std::map<std::uint64_t, Pack> started_;  ///< by their first run
+  std::mutex mutex_;                       ///< guards the following members, and the journal
+  std::map<std::uint64_t, Pack> started_;  ///< by first run
   Standing standing_;
 };
 

@@ -1,4 +1,4 @@
-// Runs in processes of their own: where a plugin ends the process, the study goes on.
+// Trial of runs in separate processes, so that a study survives a plugin that ends its process.
 #pragma once
 #include <atomic>
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace gaitlab::studies {
 
-/// Runs each in another process first, `jobs` at a time. The rows `crashed` of those whose process ended by a signal of its own
-/// making (abort, a bad address, a bad number); none of those that lived, were ended from outside, or did not begin because
-/// `stop` was set. To be called before there are threads.
+/// Tries each run in a separate process, `jobs` at a time. Returns rows `crashed` for those whose process ended by a signal
+/// that it caused (abort, a bad address, a bad number), not for those that survived, were ended from outside, or did not begin
+/// because `stop` was set. Call it before there are threads.
 std::vector<Row> crashes_of(const Plan& plan, std::span<const std::uint64_t> runs, int jobs, const std::atomic<bool>& stop);
 
 }  // namespace gaitlab::studies

@@ -19,10 +19,10 @@ namespace {
 
 struct Answers {
   std::map<Vector, Vector> known;
-  std::vector<Vector> asked;  ///< that are not known, in order
+  std::vector<Vector> asked;  ///< requested points without a known value, in order
 };
 
-/// Answers from a table, which all copies of the problem share.
+/// Problem with answers from a table that all copies share.
 struct Recorded {
   std::shared_ptr<Answers> answers = std::make_shared<Answers>();
   Vector low{0}, high{1};
@@ -37,10 +37,10 @@ struct Recorded {
   [[nodiscard]] std::pair<Vector, Vector> get_bounds() const { return {low, high}; }
 };
 
-/// One generation at a time, with its memory kept. Steps below which cmaes and xnes would end are 0: on a flat population, of
-/// points that are all refused, they would end at once. Bounds are not forced: the box is mirrored instead.
+/// Algorithm of one generation at a time, with memory. Step sizes below which cmaes and xnes would end are 0: on a flat
+/// population, with all points refused, they would end at once. Bounds are not forced: the box is mirrored instead.
 pagmo::algorithm made(const EvolutionSettings& s) {
-  constexpr double kOwn = -1;  // the algorithm's own choice
+  constexpr double kOwn = -1;  // default of the algorithm
   switch (s.algorithm) {
     case Method::xnes:
       return pagmo::algorithm(pagmo::xnes(1, kOwn, kOwn, kOwn, s.sigma, 0, 0, true, false, s.seed));
@@ -77,7 +77,7 @@ class PagmoEvolution : public Evolution {
     answers_->asked.clear();
     for (std::size_t k = 0; k < asked_.size(); ++k) answers_->known[asked_[k]] = values[k];
     population_ = algorithm_.evolve(population_);
-    if (!answers_->asked.empty()) throw RunError("a point of this generation depends on what came out at another");
+    if (!answers_->asked.empty()) throw RunError("a point of this generation depends on the result of another");
   }
 
   [[nodiscard]] std::vector<Vector> points() const override { return population_.get_x(); }

@@ -1,4 +1,4 @@
-// What a search is told of a point: numbers that keep the order of points, and are never NaN.
+// Fitness of a point for a search: finite numbers that keep the order of points.
 #pragma once
 #include <vector>
 
@@ -6,12 +6,12 @@
 
 namespace gaitlab::studies {
 
-/// By objective, less is better: of a kept point its objective (with the other sign where most is wanted), beyond +-1e5
-/// pressed together below 9e5; of one that is not kept 1e6 + its violation, at most 1e5; of one that failed 2e6 + 1 - the share
-/// of its duration (s) that it lived.
+/// Fitness by objective, smaller is better. A kept point: its objective (negated if it is maximised), compressed beyond +-1e5
+/// to below 9e5. A point that is not kept: 1e6 + its violation, at most 1e5. A failed point: 2e6 + (1 - simulated time /
+/// duration), both in s.
 std::vector<double> fitness(const PointResult& point, const std::vector<JournalObjective>& objectives, double duration);
 
-/// By how much a value is better than a former best, as a share of that; of a better kind (kept, not kept, failed): 1.
+/// Improvement of a value over a former best, as a share of that; for a better kind (kept, not kept, failed): 1.
 double fitness_gain(double former, double value);
 
 }  // namespace gaitlab::studies

@@ -26,7 +26,7 @@ SearchSettings search_settings(const Study& study, std::uint64_t number) {
           .number = number};
 }
 
-/// Values of all parameters, as for --set: of a combination of those that are listed, and a point of the others' box.
+/// Values of all parameters in the form of --set: a combination of the listed values, and a point in the box of the others.
 std::vector<std::string> values_at(const Study& study, std::size_t combination, const Vector& point) {
   std::vector<std::string> values(study.parameters.size());
   std::size_t coordinate = point.size();
@@ -42,12 +42,12 @@ std::vector<std::string> values_at(const Study& study, std::size_t combination, 
   return values;
 }
 
-/// One search, and the points that its present generation asks for.
+/// One search, with the points of its present generation.
 struct Course {
   Search search;
   std::size_t combination;
   std::vector<std::uint64_t> points = {};
-  std::uint64_t first = 0, added = 0;  ///< points that nobody had asked for
+  std::uint64_t first = 0, added = 0;  ///< points requested for the first time
 };
 
 class Optimizer {
@@ -86,7 +86,7 @@ class Optimizer {
 
   std::vector<bool> present() { return journal_.present(plan_.most_runs()); }
 
-  /// Adds what the searches ask for. False: the budget ends within this generation.
+  /// Adds the points that the searches request. False: the budget ends within this generation.
   bool ask() {
     for (std::size_t s = 0; s < courses_.size(); ++s) {
       Course& course = courses_[s];
@@ -107,14 +107,14 @@ class Optimizer {
     return true;
   }
 
-  /// Where the journal has the first new run, its point is the one that is asked for.
+  /// Checks that the journal's first new run belongs to the requested point.
   void check(std::uint64_t first) {
     const std::uint64_t run = first * plan_.points().runs_of_point();
     if (run >= added_ * plan_.points().runs_of_point() || !before_[run]) return;
     if (journal_.row(run)[1] != plan_.row(run).point)
       throw InputError(
           SourceLocation{"study.db"},
-          fmt::format("run {} is at another point than this program asks for, with {}; take another folder (--out)", run,
+          fmt::format("run {} is at another point than this program requires, with {}; choose another folder (--out)", run,
                       evolution_library()));
   }
 
@@ -167,10 +167,10 @@ class Optimizer {
   Journal& journal_;
   std::vector<Brief> answers_;  ///< by run
   Runner runner_;
-  std::vector<bool> before_;  ///< runs that the journal had
+  std::vector<bool> before_;  ///< runs in the journal at the start
   std::vector<Course> courses_;
   std::map<std::vector<std::string>, std::uint64_t> memo_;  ///< points by their values
-  std::uint64_t added_ = 0;                                 ///< points
+  std::uint64_t added_ = 0;                                 ///< number of points
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/math/functions.h"
+#include "core/math/random.h"
 #include "studies/plan/draws.h"
 #include "studies/plan/points.h"
 #include "studies/search/fitness.h"
@@ -17,14 +18,14 @@ namespace {
 
 constexpr double kConverged = 1e-4;
 
-/// Into [0, 1], as in a hall of mirrors, to 1e-9.
+/// Mirrors a coordinate into [0, 1], with 1e-9 resolution.
 double within(double coordinate) {
   constexpr double kDigits = 1e9;
   const double folded = std::abs(std::fmod(coordinate, 2.0));
   return std::round(kDigits * (folded > 1 ? 2 - folded : folded)) / kDigits;
 }
 
-/// Less: fewer dominate it; of those alike the first.
+/// Indices ordered by the number of points that dominate each; equal ones in their order.
 std::vector<std::size_t> best_first(const std::vector<Vector>& values) {
   std::vector<std::size_t> behind(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -51,7 +52,7 @@ bool dominates(std::span<const double> a, std::span<const double> b) {
 Search::Search(const SearchSettings& settings)
     : settings_(settings), population_(settings.population > 0 ? settings.population : usual_population(settings.dimensions)) {
   for (std::size_t k = 0; k < settings.dimensions; ++k)
-    shift_.push_back(uniform({kSearchDraw, settings.seed, settings.number, k}));
+    shift_.push_back(math::uniform({kSearchDraw, settings.seed, settings.number, k}));
   begin();
 }
 
@@ -73,7 +74,7 @@ void Search::start(const std::vector<Vector>& values) {
   EvolutionSettings s{.algorithm = settings_.algorithm,
                       .low = Vector(settings_.dimensions, 0.0),
                       .high = Vector(settings_.dimensions, 1.0),
-                      .seed = static_cast<unsigned>(hash64({kSearchDraw, settings_.seed, settings_.number, restart_, 1})),
+                      .seed = static_cast<unsigned>(math::hash64({kSearchDraw, settings_.seed, settings_.number, restart_, 1})),
                       .sigma = settings_.sigma,
                       .points = {},
                       .values = {}};

@@ -7,8 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/math/random.h"
 #include "studies/plan/designs.h"
-#include "studies/plan/draws.h"
 #include "studies/study/number.h"
 #include "studies/study/study.h"
 
@@ -20,9 +20,9 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kResamples = 500;
 constexpr std::uint64_t kBootstrapDraw = 111;  // the first word of its hashes
 
-using Blocks = std::vector<std::size_t>;  ///< numbers of blocks; one may stand several times
+using Blocks = std::vector<std::size_t>;  ///< numbers of blocks, possibly repeated
 
-/// Those of which every point has a value.
+/// Blocks in which every point has a value.
 Blocks whole_blocks(std::span<const double> values, std::size_t size) {
   Blocks whole;
   for (std::size_t b = 0; (b + 1) * size <= values.size(); ++b) {
@@ -32,7 +32,7 @@ Blocks whole_blocks(std::span<const double> values, std::size_t size) {
   return whole;
 }
 
-/// What a resample gives, by measure and parameter, one after the other.
+/// Estimates from a resample, by measure and parameter, in sequence.
 using Estimator = std::function<std::vector<double>(const Blocks&)>;
 
 void estimate(Sensitivity& found, const Blocks& used, const Estimator& estimator, std::size_t parameters) {
@@ -41,7 +41,7 @@ void estimate(Sensitivity& found, const Blocks& used, const Estimator& estimator
   constexpr std::size_t kFewest = 2;
   for (std::uint64_t sample = 0; used.size() >= kFewest && sample < kResamples; ++sample) {
     Blocks drawn(used.size());
-    for (std::size_t k = 0; k < drawn.size(); ++k) drawn[k] = used[hash64({kBootstrapDraw, sample, k}) % used.size()];
+    for (std::size_t k = 0; k < drawn.size(); ++k) drawn[k] = used[math::hash64({kBootstrapDraw, sample, k}) % used.size()];
     const std::vector<double> one = estimator(drawn);
     for (std::size_t k = 0; k < one.size(); ++k) {
       if (std::isfinite(one[k])) resampled[k].push_back(one[k]);
@@ -69,7 +69,7 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// By trajectory and parameter.
+/// Elementary effects by trajectory and parameter.
 std::vector<double> elementary_effects(std::uint64_t seed, std::size_t n, std::span<const double> values) {
   std::vector<double> effects(values.size() / (n + 1) * n, kNone);
   for (std::size_t t = 0; t < values.size() / (n + 1); ++t) {
@@ -108,20 +108,20 @@ std::vector<double> morris_measures(const std::vector<double>& effects, std::siz
   return measures;
 }
 
-/// Total, first of the drawn rows.
+/// Total indices, then first-order indices, of the drawn rows.
 std::vector<double> jansen(std::span<const double> values, std::size_t n, const Blocks& drawn) {
   std::vector<double> measures(2 * n, kNone);
   if (drawn.size() < 2) return measures;
   const auto rows = static_cast<double>(drawn.size());
   double mean = 0;
   for (const std::size_t row : drawn) mean += (values[row * (n + 2)] + values[row * (n + 2) + 1]) / (2 * rows);
-  double variance = 0;  // of A and B together
+  double variance = 0;  // over A and B together
   for (const std::size_t row : drawn) {
     const double a = values[row * (n + 2)] - mean;
     const double b = values[row * (n + 2) + 1] - mean;
     variance += (a * a + b * b) / (2 * rows - 1);
   }
-  // Below, the differences are those of rounding.
+  // Smaller differences are rounding.
   constexpr double kRounding = 1e-24;
   if (!(variance > kRounding * mean * mean) || !(variance > 0)) return measures;
   for (std::size_t p = 0; p < n; ++p) {
@@ -140,7 +140,7 @@ std::vector<double> jansen(std::span<const double> values, std::size_t n, const 
   return measures;
 }
 
-/// The method of a study, as its definition says.
+/// Method of a study, from its definition.
 std::string method_of(const JournalHead& head) {
   constexpr std::string_view kKey = "\nmethod: ";
   const std::size_t at = head.definition.find(kKey);
@@ -149,7 +149,7 @@ std::string method_of(const JournalHead& head) {
   return head.definition.substr(from, head.definition.find('\n', from) - from);
 }
 
-/// An answer of the points, by their numbers.
+/// An output: its values at the points, by number.
 struct Output {
   std::string name, unit;
   std::vector<double> values;
@@ -160,7 +160,7 @@ std::string unit_of(const JournalHead& head, const std::string& name) {
   return quantity == head.quantities.end() ? "" : quantity->unit;
 }
 
-/// Mean over the replicates of each point; not known where one does not know it.
+/// Mean over the replicates of each point; not known if it is unknown for one of them.
 std::vector<double> means(Journal& journal, const std::string& column, std::size_t points) {
   const std::uint64_t replicates = journal.head().replicates;
   std::vector<double> sums(points, 0.0);
@@ -206,7 +206,7 @@ std::vector<Sensitivity> sensitivities(Journal& journal, const Results& results)
   for (const JournalParameter& p : head.parameters) {
     if (!p.drawn) keys.push_back(p.key);
   }
-  constexpr std::uint64_t kMostPoints = 1U << 28U;  // a journal with more is not one of this program
+  constexpr std::uint64_t kMostPoints = 1U << 28U;  // a journal with more was not written by this program
   const std::uint64_t all = head.runs / head.replicates;
   if (keys.empty() || all > kMostPoints) return {};
   const auto points = static_cast<std::size_t>(all);

@@ -1,4 +1,4 @@
-// Which parameters matter: estimates from the points of a sensitivity study.
+// Estimates of the influence of each parameter, from the points of a sensitivity study.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace gaitlab::studies {
 
-/// With the interval that holds 95 % of what resampled trajectories or rows give (Efron's percentile bootstrap, 500 samples,
-/// drawn by counters: the same every time). NaN: not known.
+/// An estimate with the 95 % interval of resampled trajectories or rows (Efron's percentile bootstrap, 500 samples, drawn by
+/// counters: the same every time). NaN: not known.
 struct Estimate {
   double value, low, high;
 };
@@ -23,27 +23,27 @@ struct Measure95 {
 };
 
 struct Sensitivity {
-  std::string output;                   ///< the quantity or expression that answers
-  std::string unit;                     ///< of it
+  std::string output;                   ///< the quantity or expression
+  std::string unit;                     ///< its unit
   std::vector<std::string> parameters;  ///< keys
-  std::vector<Measure95> measures;      ///< the first orders the parameters
-  std::uint64_t blocks = 0, used = 0;   ///< trajectories or rows of the study; those all of whose points have a value
-  std::uint64_t unusable = 0;           ///< points without one: failed, or the quantity is not known
-  std::uint64_t not_kept = 0;           ///< points that are not kept and count all the same
+  std::vector<Measure95> measures;      ///< the first one orders the parameters
+  std::uint64_t blocks = 0, used = 0;   ///< trajectories or rows of the study; those with a value at all points
+  std::uint64_t unusable = 0;           ///< points without a value: failed, or the quantity is not known
+  std::uint64_t not_kept = 0;           ///< points that are not kept but count nevertheless
 };
 
 /// Elementary effects (Morris 1991) by point, in the output's unit per whole range of a parameter: `mu_star`, the mean of their
 /// magnitudes (Campolongo, Cariboni, Saltelli 2007), `mu`, their mean, `sigma`, their deviation. A trajectory with a value that
-/// is not finite is left out; sigma takes two.
+/// is not finite is left out; sigma requires two.
 Sensitivity morris(std::uint64_t seed, std::size_t parameters, std::span<const double> values);
 
-/// Shares of the output's variance by Jansen's estimators (Jansen 1999; Saltelli et al. 2010, table 2): `total`, that of a
-/// parameter with all that it does together with others, `first`, that of it alone. `values` by point of saltelli_shares. Rows
-/// with a value that is not finite are left out; not known where less than two are left, or nothing varies.
+/// Shares of the output's variance by Jansen's estimators (Jansen 1999; Saltelli et al. 2010, table 2): `total`, a parameter's
+/// share including its interactions, `first`, its share alone. `values` by point of saltelli_shares. Rows with a value that is
+/// not finite are left out; not known if less than two are left, or if nothing varies.
 Sensitivity sobol_indices(std::size_t parameters, std::span<const double> values);
 
-/// Of a journal whose method is `morris` or `sobol_indices`: of its objectives (as its replicates are combined), and of the
-/// quantities shown beside (the mean over the replicates). None: another method.
+/// Sensitivities from a journal whose method is `morris` or `sobol_indices`: of its objectives (as its replicates are
+/// combined), and of the other quantities shown (the mean over the replicates). Empty: another method.
 std::vector<Sensitivity> sensitivities(Journal& journal, const Results& results);
 
 }  // namespace gaitlab::studies

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <mutex>
 
 #include "core/math/functions.h"
 #include "core/settings/wording.h"
+#include "studies/run/again.h"
 #include "studies/study/number.h"
 
 namespace gaitlab::studies {
 
 namespace {
 
-/// Another way to run a point; `sets` of one of its runs.
+/// Another way to run a point; `sets`: settings for one of its runs.
 struct Way {
   std::string what;
   std::vector<std::string> (*sets)(const Plan& plan, std::uint64_t run);
@@ -31,12 +31,12 @@ std::vector<Way> ways(const Plan& plan) {
   std::vector<Way> ways;
   const Verify& verify = plan.study().verify;
   if (verify.halve_step) ways.push_back({"half step", halved});
-  if (plan.has_other_engine())
+  if (plan.bound().has_other_engine())
     ways.push_back({clipped(verify.engine), [](const Plan& of, std::uint64_t run) { return of.other_engine(run); }});
   return ways;
 }
 
-/// Largest difference of a coordinate as a share of its range; another word: 1.
+/// Largest difference of a coordinate as a share of its range; 1 for different words.
 double apart(const Study& study, const std::vector<std::string>& a, const std::vector<std::string>& b) {
   double most = 0;
   for (std::size_t k = 0; k < study.parameters.size(); ++k) {
@@ -54,9 +54,9 @@ double apart(const Study& study, const std::vector<std::string>& a, const std::v
   return most;
 }
 
-constexpr const char* kEvidence = "margin.evidence";  // below 0: some is missing
+constexpr const char* kEvidence = "margin.evidence";  // below 0: evidence is missing
 
-/// Why a verdict, which guards may not ask for, keeps a point from standing, or "". `why`: the sentence behind its word.
+/// Reason in a verdict, which need not be among the guards, not to verify a point, or "". `why`: the sentence after its word.
 std::string doubt(const std::string& word, double evidence, const std::string& why) {
   const std::string end = why.empty() ? "" : ": " + why;
   if (word == "infeasible") return "the verdict is infeasible" + end;
@@ -68,10 +68,10 @@ double evidence(const Plan& plan, const Row& row) {
   return row.quantities.at(static_cast<std::size_t>(at - plan.columns().begin()));
 }
 
-/// `in rubble: ` of a row, where the study has several scenarios.
+/// `in rubble: ` for a row, if the study has several scenarios.
 std::string in_scenario(const Row& row) { return row.scenario.empty() ? "" : "in " + row.scenario + ": "; }
 
-/// Why a point does not stand, or "".
+/// Reason not to verify a point, or "".
 std::string reason(const Plan& plan, const std::vector<Row>& rows, const PointResult& was, const PointResult& is) {
   std::string why;
   const auto add = [&](const std::string& text) { why += (why.empty() ? "" : "; ") + text; };
@@ -94,12 +94,12 @@ std::string reason(const Plan& plan, const std::vector<Row>& rows, const PointRe
     if (breaks) add(in_scenario(row) + fmt::format("{}", fmt::join(broken, ", ")));
     const bool said = breaks && std::ranges::find(broken, of_verdict) != broken.end();
     if (!doubted.empty() && !said) add(in_scenario(row) + doubted);
-    break;  // of several replicates the first
+    break;  // only the first of several replicates
   }
   return why;
 }
 
-/// What the point's own runs were.
+/// Entry for the original runs of a point.
 Verification as_run(const Plan& plan, Journal& journal, const PointResult& point) {
   Verification own{point.first_run, "as run", {}, point.score.violation, "", ""};
   const std::vector<std::string> names = journal.columns().all();
@@ -155,29 +155,20 @@ std::optional<std::vector<Verification>> verify(const Plan& plan, Journal& journ
         const std::uint64_t run = results.points[point].first_run + r;
         Job job{plan.row(run), plan.sets(run), plan.points().scenario(run)};
         job.row.run = jobs.size();
-        job.estimate = true;
         std::ranges::copy(way.sets(plan, run), std::back_inserter(job.sets));
         jobs.push_back(std::move(job));
       }
     }
   }
   std::vector<Row> rows(jobs.size());
-  std::mutex mutex;
-  std::size_t next = 0;
-  std::size_t done = 0;
-  const Work work{.next = [&]() -> std::optional<Job> {
-                    if (next == jobs.size()) return {};
-                    return jobs[next++];
-                  },
-                  .begin = [](std::span<const std::uint64_t>) {},
-                  .end =
-                      [&](std::vector<Row>&& ended) {
-                        const std::lock_guard lock(mutex);
-                        for (Row& row : ended) rows[row.run] = std::move(row);
-                        done += ended.size();
-                        told(done, rows.size());
-                      }};
-  if (!jobs.empty() && !executor(work, stop)) return {};
+  const Again again{.count = jobs.size(),
+                    .job = [&](std::size_t k) { return jobs[k]; },
+                    .take =
+                        [&](std::vector<Row>&& ended) {
+                          for (Row& row : ended) rows[row.run] = std::move(row);
+                        },
+                    .told = told};
+  if (!do_again(again, executor, stop)) return {};
   std::vector<Verification> all;
   std::size_t at = 0;
   for (const std::size_t number : points) {

@@ -13,13 +13,13 @@ namespace {
 
 constexpr const char* kSets = " sets ";
 
-/// A text in one line.
+/// Text on one line.
 std::string flat(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   return text;
 }
 
-/// What an expression may name: the parameters that are numbers, by their place.
+/// Names for expressions: the numeric parameters, by their index.
 Names numbers_of(const std::vector<Parameter>& parameters) {
   return [&parameters](const std::string& name, const std::string& joint) -> Naming {
     std::vector<std::string> known;
@@ -45,7 +45,7 @@ Followers::Followers(const std::vector<Parameter>& parameters, Problems& problem
 
 std::vector<std::pair<std::string, std::string>> Followers::settings(const std::vector<std::string>& values) const {
   std::vector<double> numbers;
-  for (const std::string& value : values) numbers.push_back(number_of(value));  // of a word no expression asks
+  for (const std::string& value : values) numbers.push_back(number_of(value));  // words are not used in expressions
   std::vector<std::pair<std::string, std::string>> settings;
   for (std::size_t k = 0; k < all_.size(); ++k) {
     if (all_[k].sets.empty()) settings.emplace_back(all_[k].key, values[k]);

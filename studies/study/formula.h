@@ -12,13 +12,13 @@
 
 namespace gaitlab::studies {
 
-/// Text of an expression, and where it stands.
+/// Text of an expression, with its place.
 struct Text {
   std::string text;
   Node node;  ///< a scalar, for places within it
 };
 
-/// What an expression may name: number of a quantity's column, or what is wrong with the name (`joint` empty: none was given).
+/// Result of looking up a name: number of a quantity's column, or an error message (`joint` empty: none was given).
 struct Naming {
   std::optional<std::size_t> column;
   std::string wrong = {};
@@ -29,19 +29,19 @@ using Names = std::function<Naming(const std::string& name, const std::string& j
 class Formula {
  public:
   Formula() = default;
-  /// Every fault is a problem at its place; then the formula is not to be used.
+  /// Every fault is added to the problems at its place; then the formula must not be used.
   Formula(const Text& text, const Names& names, Problems& problems);
-  /// `quantities` by column; NaN where one of those it needs is not known.
+  /// `quantities` by column; the result is NaN if one that it needs is not known.
   [[nodiscard]] double value(std::span<const double> quantities) const { return value(term_, quantities); }
-  /// Whether the expression is a comparison by this sign.
+  /// Whether the expression is a comparison with this sign.
   [[nodiscard]] bool compares(const char* sign) const {
     return term_.kind == expression::Term::Kind::call && term_.name == sign;
   }
-  /// Of an operator or call: one of its operands.
+  /// Value of one operand of an operator or call.
   [[nodiscard]] double operand(std::size_t number, std::span<const double> quantities) const {
     return value(term_.arguments[number], quantities);
   }
-  /// Whether it names this quantity, of whichever joint.
+  /// Whether it contains this quantity, of any joint.
   [[nodiscard]] bool names(const std::string& quantity) const { return names(term_, quantity); }
 
  private:
@@ -50,10 +50,10 @@ class Formula {
   [[nodiscard]] static double value(const Term& term, std::span<const double> quantities);
   [[nodiscard]] static bool names(const Term& term, const std::string& quantity);
 
-  Term term_;  ///< a quantity's column stands in `number` of its name
+  Term term_;  ///< `number` of a name is its quantity's column
 };
 
-/// The quantities per joint that a text names, as far as it can be read.
+/// Quantities per joint in a text, as far as it can be parsed.
 std::vector<std::pair<std::string, std::string>> named_joints(const std::string& text);
 
 }  // namespace gaitlab::studies

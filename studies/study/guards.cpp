@@ -13,7 +13,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// A name that guards had before they were checks.
+/// Old name of a guard, from before guards were checks.
 struct OldGuard {
   const char *name, *check;
   enum class Means { limit, at_most_a_flag, at_least_a_flag, nothing_new, other } means;
@@ -193,7 +193,7 @@ std::vector<std::string> Guards::broken(std::span<const double> quantities, cons
     texts.push_back(verdict + (why.empty() ? "" : ": " + why));
   for (const MarginGuard& guard : all_) {
     if (!guard.of_verdict && guard.broken(quantities) > 0)
-      texts.push_back(fmt::format("check {} has a margin of {:.4g}; the study asks for {}", guard.check,
+      texts.push_back(fmt::format("check {} has a margin of {:.4g}; the study requires {}", guard.check,
                                   quantities[guard.column], number_text(guard.least)));
   }
   return texts;

@@ -45,8 +45,7 @@ std::vector<Quantity> columns_of(const Study& study, const QuantityOffer& offer,
   std::vector<Quantity> columns = offer.common;
   const auto add = [&](const Quantity& quantity, const std::string& joint) {
     const std::string name = full(quantity.name, joint);
-    if (column_of(columns, name) == columns.size())
-      columns.push_back({name, quantity.unit, "Of this joint: " + quantity.meaning});
+    if (column_of(columns, name) == columns.size()) columns.push_back({name, quantity.unit, "This joint. " + quantity.meaning});
   };
   const auto add_named = [&](const Text& text) {
     for (const auto& [name, joint] : named_joints(text.text)) {

@@ -1,4 +1,4 @@
-// The parts of a study that say what changes: parameters, replicates, and options of the command line.
+// Parts of a study file that vary: parameters, replicates, and options of the command line.
 #include "studies/study/parameter_file.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// Scalars of a list of values, numbers or words, as for --set.
+/// Reads a list of values, numbers or words, in the form of --set.
 void read_values(const Node& list, const std::string& what, std::vector<std::string>& values, bool& words, Problems& problems) {
   if (list.kind != Node::Kind::list || list.items.empty()) {
     problems.add(list.place, what + " is " + (list.items.empty() && list.kind == Node::Kind::list ? "empty" : found(list)) +
@@ -47,15 +47,16 @@ void check_range(const Parameter& p, const SourceLocation& place, const std::str
   }
 }
 
-/// {cpg.offset: 0.3*legs - 0.1}
+/// Reads followers: {cpg.offset: 0.3*legs - 0.1}
 void read_followers_of(const Node& node, Parameter& parameter, Problems& problems) {
   const std::string& name = parameter.key;
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   constexpr std::array<std::string_view, 4> kTaken{"pi", "and", "or", "not"};  // in expressions
   if (!is_name(name, "_") || !letter(name[0]) || std::ranges::find(kTaken, name) != kTaken.end())
-    problems.add(parameter.place, in_quotes(name) +
-                                      " cannot be a number of one's own, which keys follow (sets); expected a "
-                                      "name of letters, digits and _, a letter first");
+    problems.add(
+        parameter.place,
+        in_quotes(name) +
+            " cannot be a parameter of the study with `sets`; expected a name of letters, digits and _, a letter first");
   if (node.kind != Node::Kind::map || node.keys.empty()) {
     problems.add(node.place, name + ".sets is " + (node.kind == Node::Kind::map ? "empty" : found(node)) +
                                  "; expected keys of the scenario with expressions: {cpg.offset: 0.3*" + clipped(name) + "}");
@@ -104,19 +105,29 @@ void read_parameters(const Node& node, Study& study, Problems& problems) {
 
 namespace {
 
-void read_law(const Node& node, Variation& v, Problems& problems) {
-  const auto pair = [&](const Node& list, const char* expected) {
-    const bool two = list.kind == Node::Kind::list && list.items.size() == 2;
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Reading<double> number = two ? read_number(list.items[k], "") : Reading<double>{0, ""};
-      if (two && number.ok()) {
-        (k == 0 ? v.a : v.b) = number.value;
-      } else {
-        problems.add(list.place, v.key + " is not " + expected);
-        return;
-      }
+/// Two numbers of a law, into v.a and v.b. expected: the law with names for them.
+void read_pair(const Node& list, Variation& v, const char* expected, Problems& problems) {
+  const bool two = list.kind == Node::Kind::list && list.items.size() == 2;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Reading<double> number = two ? read_number(list.items[k], "") : Reading<double>{0, ""};
+    if (!two || !number.ok()) {
+      problems.add(list.place, v.key + " is not " + expected);
+      return;
     }
-  };
+    (k == 0 ? v.a : v.b) = number.value;
+  }
+}
+
+/// A normal law on `node`, cut at low and high.
+void read_normal(const Node& node, const Node& normal, double low, double high, Variation& v, Problems& problems) {
+  v.law = Variation::Law::normal;
+  read_pair(normal, v, "normal: [MEAN, DEVIATION]", problems);
+  if (v.b < 0) problems.add(normal.place, v.key + " has a deviation of " + number_text(v.b) + "; expected at least 0");
+  if (!(low < high) || low > v.a || high < v.a)
+    problems.add(node.place, v.key + ": the mean, " + number_text(v.a) + ", is not between low and high");
+}
+
+void read_law(const Node& node, Variation& v, Problems& problems) {
   Reader reader(node, v.key, problems, nullptr);
   if (node.kind != Node::Kind::map) return;
   const Node* times = reader.take("times");
@@ -142,14 +153,10 @@ void read_law(const Node& node, Variation& v, Problems& problems) {
     problems.add(node.place, v.key + " has " + (given == 0 ? "no law" : "several laws") +
                                  "; expected one of normal: [MEAN, DEVIATION], uniform: [LOW, HIGH], values: [...]");
   } else if (normal != nullptr) {
-    v.law = Variation::Law::normal;
-    pair(*normal, "normal: [MEAN, DEVIATION]");
-    if (v.b < 0) problems.add(normal->place, v.key + " has a deviation of " + number_text(v.b) + "; expected at least 0");
-    if (!(low < high) || low > v.a || high < v.a)
-      problems.add(node.place, v.key + ": the mean, " + number_text(v.a) + ", is not between low and high");
+    read_normal(node, *normal, low, high, v, problems);
   } else if (uniform != nullptr) {
     v.law = Variation::Law::uniform;
-    pair(*uniform, "uniform: [LOW, HIGH]");
+    read_pair(*uniform, v, "uniform: [LOW, HIGH]", problems);
     if (!(v.a <= v.b)) problems.add(uniform->place, v.key + " is not uniform: [LOW, HIGH] with LOW up to HIGH");
   } else {
     v.law = Variation::Law::values;
@@ -199,6 +206,42 @@ void read_replicates(const Node& node, Replicates& replicates, Problems& problem
   reader.finish();
 }
 
+namespace {
+
+std::vector<std::string> split(const std::string& list, char by) {
+  std::vector<std::string> parts(1);
+  for (const char c : list) c == by ? parts.emplace_back() : parts.back().append(1, c);
+  return parts;
+}
+
+Node scalar(const std::string& text, const SourceLocation& place) {
+  Node node{Node::Kind::scalar, place};
+  node.text = text;
+  return node;
+}
+
+/// LOW, HIGH and, of a grid, N.
+void read_range(const std::vector<std::string>& parts, bool drawn, Parameter& parameter, Problems& problems) {
+  const Reading<double> low = read_number(scalar(parts[0], parameter.place), "");
+  const Reading<double> high = read_number(scalar(parts[1], parameter.place), "");
+  for (const Reading<double>* one : {&low, &high}) {
+    if (!one->ok()) problems.add(parameter.place, std::string(one == &low ? "LOW " : "HIGH ") + one->wrong);
+  }
+  if (!low.ok() || !high.ok()) return;
+  parameter.low = low.value;
+  parameter.high = high.value;
+  check_range(parameter, parameter.place, parameter.key, problems);
+  if (drawn) return;
+  const Reading<std::int64_t> count = read_integer(scalar(parts[2], parameter.place));
+  if (count.ok() && count.value >= 2 && count.value <= 1000000000) {
+    parameter.count = count.value;
+  } else {
+    problems.add(parameter.place, count.ok() ? "N is " + parts[2] + "; allowed are 2 to 1e9" : "N " + count.wrong);
+  }
+}
+
+}  // namespace
+
 Parameter read_parameter(const std::string& option, const std::string& text, bool drawn, Problems& problems) {
   Parameter parameter;
   parameter.place = SourceLocation{option + " " + clipped(text)};
@@ -210,20 +253,10 @@ Parameter read_parameter(const std::string& option, const std::string& text, boo
     problems.add(parameter.place, "expected " + expected);
     return parameter;
   }
-  const auto split = [](const std::string& list, char by) {
-    std::vector<std::string> parts(1);
-    for (const char c : list) c == by ? parts.emplace_back() : parts.back().append(1, c);
-    return parts;
-  };
   std::vector<std::string> parts = split(text.substr(equals + 1), ':');
-  const auto scalar = [&](const std::string& one) {
-    Node node{Node::Kind::scalar, parameter.place};
-    node.text = one;
-    return node;
-  };
   if (parts.size() == 1) {
     Node list{Node::Kind::list, parameter.place};
-    for (const std::string& one : split(parts[0], ',')) list.items.push_back(scalar(one));
+    for (const std::string& one : split(parts[0], ',')) list.items.push_back(scalar(one, parameter.place));
     read_values(list, parameter.key, parameter.values, parameter.words, problems);
     return parameter;
   }
@@ -233,22 +266,7 @@ Parameter read_parameter(const std::string& option, const std::string& text, boo
     problems.add(parameter.place, "expected " + expected);
     return parameter;
   }
-  const Reading<double> low = read_number(scalar(parts[0]), "");
-  const Reading<double> high = read_number(scalar(parts[1]), "");
-  for (const Reading<double>* one : {&low, &high}) {
-    if (!one->ok()) problems.add(parameter.place, std::string(one == &low ? "LOW " : "HIGH ") + one->wrong);
-  }
-  if (!low.ok() || !high.ok()) return parameter;
-  parameter.low = low.value;
-  parameter.high = high.value;
-  check_range(parameter, parameter.place, parameter.key, problems);
-  if (drawn) return parameter;
-  const Reading<std::int64_t> count = read_integer(scalar(parts[2]));
-  if (count.ok() && count.value >= 2 && count.value <= 1000000000) {
-    parameter.count = count.value;
-  } else {
-    problems.add(parameter.place, count.ok() ? "N is " + parts[2] + "; allowed are 2 to 1e9" : "N " + count.wrong);
-  }
+  read_range(parts, drawn, parameter, problems);
   return parameter;
 }
 

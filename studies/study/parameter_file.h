@@ -1,4 +1,4 @@
-// What changes from run to run, as the user writes it.
+// Reader of parameters and replicates in a study file or on the command line.
 #pragma once
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace gaitlab::studies {
 
-/// Keys `parameters` and `replicates` of a study. Every fault is a problem at its place.
+/// Reads the keys `parameters` and `replicates` of a study. Every fault is a problem at its place.
 void read_parameters(const Node& node, Study& study, Problems& problems);
 void read_replicates(const Node& node, Replicates& replicates, Problems& problems);
 
-/// `--grid KEY=A:B:N`, `KEY=log:A:B:N`, `KEY=v,v,v` (`drawn`: `--random KEY=A:B`, `log:A:B`, `v,v,v`).
+/// Reads `--grid KEY=A:B:N`, `KEY=log:A:B:N`, `KEY=v,v,v` (`drawn`: `--random KEY=A:B`, `log:A:B`, `v,v,v`).
 Parameter read_parameter(const std::string& option, const std::string& text, bool drawn, Problems& problems);
 
 }  // namespace gaitlab::studies

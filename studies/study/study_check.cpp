@@ -1,4 +1,4 @@
-// What the settings of a study rule out among themselves.
+// Checks for settings of a study that contradict one another.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ void check_search(const Study& study, const SourceLocation& place, Problems& pro
                                     least_runs(study)));
 }
 
-/// A key that follows a number has no other value.
+/// A key that follows a parameter must not be set otherwise.
 void check_followers(const Study& study, Problems& problems) {
   for (const Parameter& own : study.parameters) {
     for (const Follower& f : own.sets) {
@@ -51,7 +51,7 @@ void check_followers(const Study& study, Problems& problems) {
   }
 }
 
-/// The seed belongs to the replicates: what is set behind it would win.
+/// The replicates set the seed; a setting would override it.
 void check_seed(const Study& study, Problems& problems) {
   constexpr const char* kWhy = "seed cannot be chosen here; expected replicates: {count: N}, whose runs differ in their seed";
   for (const Parameter& p : study.parameters) {
@@ -86,7 +86,7 @@ void check_study(const Study& study, const SourceLocation& place, Problems& prob
   }
   if (study.asked) return;
   if (study.method == Method::grid && study.runs > 0)
-    problems.add(place, "a grid takes no budget of runs: it has as many as there are combinations");
+    problems.add(place, "method grid runs every combination; remove `budget: {{runs: ...}}`");
   if (study.of_sensitivity() && study.runs > 0)
     problems.add(place, fmt::format("method {} takes no budget of runs; expected method: {{{}: N}}", name_of(study.method),
                                     study.method == Method::morris ? "trajectories" : "samples"));

@@ -20,7 +20,7 @@ namespace gaitlab::studies {
 
 namespace {
 
-/// {flat: a.yaml, rubble: b.yaml}; `folder`: of the study.
+/// Reads {flat: a.yaml, rubble: b.yaml}; `folder`: of the study.
 void read_named_scenarios(const Node& node, const std::filesystem::path& folder, Study& study, Problems& problems) {
   constexpr std::size_t kMost = 1000;
   if (node.kind != Node::Kind::map || node.keys.empty() || node.keys.size() > kMost) {
@@ -49,7 +49,7 @@ void read_objective(const Node& node, Objective& objective, Problems& problems) 
   const Node* least = reader.take("minimize");
   reader.finish();
   const Node* chosen = most != nullptr ? most : least;
-  if (chosen == nullptr && problems.size() > before) return;  // a misspelt key says enough
+  if (chosen == nullptr && problems.size() > before) return;  // a misspelt key was reported
   if (chosen == nullptr || (most != nullptr && least != nullptr)) {
     problems.add(node.place, "objective is not one expression; expected {maximize: speed} or {minimize: ...}");
   } else if (chosen->kind != Node::Kind::scalar) {
@@ -59,7 +59,7 @@ void read_objective(const Node& node, Objective& objective, Problems& problems) 
   }
 }
 
-/// One, {maximize: speed}, or a list of up to three.
+/// Reads one objective, {maximize: speed}, or a list of up to three.
 void read_objectives(const Node& node, std::vector<Objective>& objectives, Problems& problems) {
   if (node.kind != Node::Kind::list) return read_objective(node, objectives.front(), problems);
   if (node.items.empty() || node.items.size() > kMostObjectives)
@@ -81,7 +81,7 @@ void read_constraints(const Node& node, Study& study, Problems& problems) {
   }
 }
 
-/// Texts, each an expression, with ` after SECONDS` behind it or without.
+/// Reads texts, each an expression, optionally followed by ` after SECONDS`.
 void read_stops(const Node& node, Study& study, Problems& problems) {
   if (node.kind != Node::Kind::list) problems.add(node.place, "stop is " + found(node) + "; expected a list of texts");
   for (const Node& item : node.items) {
@@ -105,7 +105,7 @@ void read_stops(const Node& node, Study& study, Problems& problems) {
   }
 }
 
-/// Gives keys of earlier editions their present names.
+/// Replaces old names of keys by their present names.
 void rename_old_keys(Node& root, Study& study, Problems& problems) {
   for (auto& [key, place] : root.keys) {
     if (key != "figures") continue;
@@ -120,45 +120,46 @@ Explainer study_keys() {
   Explainer explainer;
   Study study;
   std::string scenario;
-  explainer.row("gaitlab_study", "", "1", "1", "Format version; by this key a file is known as a study.");
+  explainer.row("gaitlab_study", "", "1", "1", "Format version; this key marks a file as a study.");
   PlainKeys{study, scenario}.fields(explainer);
   explainer.row("scenarios", "", "", "{NAME: FILE, ...}",
-                "Instead of `scenario`: several, in each of which every point runs, each a row; `combine` of `replicates` says "
-                "what they count for together.");
+                "Several scenarios instead of `scenario`: every point runs in each, with a row each; `combine` of `replicates` "
+                "sets how their results are combined.");
   explainer.row("parameters", "", "required", "", "Keys of the scenario, as for --set, that change from point to point.");
   explainer.row("  KEY.low", "", "", "", "Least value, in the unit of the scenario's key.");
   explainer.row("  KEY.high", "", "", "above low", "Largest value.");
-  explainer.row("  KEY.scale", "", "linear", "linear or log", "Whether values are even in themselves or in their logarithm.");
-  explainer.row("  KEY.count", "", "", "2 to 1e9", "Of a grid: number of values from low to high, both included.");
+  explainer.row("  KEY.scale", "", "linear", "linear or log",
+                "Spacing of the values: even (linear), or even in their logarithm (log).");
+  explainer.row("  KEY.count", "", "", "2 to 1e9", "Number of values of a grid from low to high, both included.");
   explainer.row("  KEY.values", "", "", "", "Instead of low and high: numbers or words, one by one.");
-  explainer.row("  KEY.sets", "", "none", "{KEY: EXPRESSION, ...}",
-                "KEY is a number of the study's own, and these keys of the scenario follow it: legs: {low: 0, high: 1, sets: "
-                "{cpg.offset: 0.3*legs - 0.1}}. Expressions are over all parameters that are numbers.");
   explainer.row(
-      "replicates", "", "none", "",
-      "Runs of each point that differ in their seed and in what `vary` draws; the draws are the same for every point.");
+      "  KEY.sets", "", "none", "{KEY: EXPRESSION, ...}",
+      "KEY is a parameter of the study, and these keys of the scenario are computed from it: legs: {low: 0, high: 1, sets: "
+      "{cpg.offset: 0.3*legs - 0.1}}. Expressions are over all parameters that are numbers.");
+  explainer.row("replicates", "", "none", "",
+                "Runs of each point that differ in their seed and in the values that `vary` draws; the draws are the same for "
+                "every point.");
   explainer.row("  count", "", "required", "1 to 1e6", "Runs of each point.");
   explainer.row("  vary.KEY", "", "", "normal: [MEAN, DEVIATION] (with low, high), uniform: [LOW, HIGH], values: [...]",
-                "How a key of the scenario is drawn; {times: LAW}: as a multiple of the value that the point has.");
+                "Distribution of a key of the scenario; {times: LAW}: of its multiple of the point's value.");
   explainer.row("  combine", "", "worst", "mean, worst, median or quantile(Q)",
-                "What the replicates of a point, in all its scenarios, count for together.");
-  explainer.row(
-      "objective", "", "{maximize: QUANTITY}", "{maximize: EXPRESSION} or {minimize: EXPRESSION}",
-      "What points are ordered by; without it by the first of `quantities`. A list of two or three: the points that no "
-      "other is better than in all.");
-  explainer.row("constraints", "", "[]", "texts a <= b, a >= b or a == b", "What a point must keep.");
+                "Combination of the replicates of a point, in all its scenarios, into one value.");
+  explainer.row("objective", "", "{maximize: QUANTITY}", "{maximize: EXPRESSION} or {minimize: EXPRESSION}",
+                "Order of the points; default: by the first of `quantities`. A list of two or three: the Pareto front, the "
+                "points that no other point beats in all objectives.");
+  explainer.row("constraints", "", "[]", "texts a <= b, a >= b or a == b", "Conditions that a point must satisfy.");
   explainer.row("guards", "", "verdict", "verdict, none or {CHECK: LIMIT, CHECK: {margin: M}, CHECK: true or false}",
-                "Checks of the verdict that a point must keep. verdict: the word `feasible`. Checks by id are asked for beside "
-                "it, or otherwise than it: with another limit, a least margin, at all, or not.");
-  explainer.row(
-      "stop", "", "[]", "texts EXPRESSION or EXPRESSION after SECONDS",
-      "Rules that end a run early, asked once every simulated second of quantities so far: fell, or what a joint did.");
+                "Checks of the verdict that a point must pass. verdict: the verdict must be `feasible`. Checks by id are added "
+                "to it or change it: another limit, a least margin, true (required) or false (ignored).");
+  explainer.row("stop", "", "[]", "texts EXPRESSION or EXPRESSION after SECONDS",
+                "Rules that end a run early, evaluated once every simulated second on quantities of the run so far: fell, or "
+                "those of a joint.");
   MethodKeys method{study};
-  explainer.group("method", method, "How points are chosen.");
+  explainer.group("method", method, "Choice of the points.");
   BudgetKeys budget{study.runs};
-  explainer.group("budget", budget, "How much is run.");
+  explainer.group("budget", budget, "Number of runs.");
   VerifyKeys verify{study.verify};
-  explainer.group("verify", verify, "How `gaitlab optimize` tries the best points again.");
+  explainer.group("verify", verify, "Verification of the best points by `gaitlab optimize`.");
   return explainer;
 }
 
@@ -168,9 +169,40 @@ bool is_study(const std::string& file) {
   Problems problems;
   const std::string text = read_file(file, kMostScenario);
   const std::optional<Node> root = parse_yaml(text, file, problems);
-  // What is not valid YAML is told by who reads it as what it seems to be.
+  // Invalid YAML is reported by the reader of the file's apparent kind.
   return root ? root->find("gaitlab_study") != nullptr : text.find("gaitlab_study:") != std::string::npos;
 }
+
+namespace {
+
+void check_name(const Study& study, const Node& root, Problems& problems) {
+  if (is_name(study.name, "_.-") && study.name[0] != '.') return;
+  const Node* name = root.find("name");
+  problems.add(name != nullptr ? name->place : root.place,
+               "name " + in_quotes(study.name) + " is not allowed; expected letters, digits, _ . and -, not a . first");
+}
+
+/// Places of the keys that later messages name.
+void take_places(const Node& root, Study& study) {
+  if (const Node* sets = root.find("set")) {
+    for (const Node& set : sets->items) study.set_places.push_back(set.place);
+  }
+  if (const Node* quantities = root.find("quantities")) study.quantities_place = quantities->place;
+  if (const Node* node = root.find("verify")) {
+    const Node* engine = node->kind == Node::Kind::map ? node->find("engine") : nullptr;
+    study.verify.place = engine != nullptr ? engine->place : node->place;
+  }
+}
+
+/// The method for a study that names none, or whose points come from another program.
+void choose_method(Study& study, bool named, Purpose purpose) {
+  const bool grid = std::ranges::all_of(study.parameters, &Parameter::in_grid);
+  const Method search = study.objectives.size() > 1 ? Method::nsga2 : Method::cma;
+  if (!named && !(grid && purpose == Purpose::sweep)) study.method = purpose == Purpose::optimize ? search : Method::random;
+  if (study.asked) study.method = Method::random;  // no method is used
+}
+
+}  // namespace
 
 Study read_study(const std::string& file, Purpose purpose) {
   Study study;
@@ -184,15 +216,8 @@ Study read_study(const std::string& file, Purpose purpose) {
   std::string scenario;
   study.name = std::filesystem::path(file).stem().string();
   PlainKeys{study, scenario}.fields(reader);
-  if (!is_name(study.name, "_.-") || study.name[0] == '.') {
-    const Node* name = root.find("name");
-    problems.add(name != nullptr ? name->place : root.place,
-                 "name " + in_quotes(study.name) + " is not allowed; expected letters, digits, _ . and -, not a . first");
-  }
-  if (const Node* sets = root.find("set")) {
-    for (const Node& set : sets->items) study.set_places.push_back(set.place);
-  }
-  if (const Node* quantities = root.find("quantities")) study.quantities_place = quantities->place;
+  check_name(study, root, problems);
+  take_places(root, study);
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   study.scenario = (folder / scenario).lexically_normal().string();
   if (const Node* node = reader.take("scenarios")) {
@@ -206,10 +231,6 @@ Study read_study(const std::string& file, Purpose purpose) {
   reader.group("budget", budget, "");
   VerifyKeys verify{study.verify};
   reader.group("verify", verify, "");
-  if (const Node* node = root.find("verify")) {
-    const Node* engine = node->kind == Node::Kind::map ? node->find("engine") : nullptr;
-    study.verify.place = engine != nullptr ? engine->place : node->place;
-  }
   if (const Node* node = reader.take("parameters")) read_parameters(*node, study, problems);
   if (const Node* node = reader.take("replicates")) read_replicates(*node, study.replicates, problems);
   if (const Node* node = reader.take("objective")) read_objectives(*node, study.objectives, problems);
@@ -219,10 +240,7 @@ Study read_study(const std::string& file, Purpose purpose) {
   if (!reader.has("scenarios")) reader.require({"scenario"});
   reader.require({"parameters"});
   reader.finish();
-  const bool grid = std::ranges::all_of(study.parameters, &Parameter::in_grid);
-  const Method search = study.objectives.size() > 1 ? Method::nsga2 : Method::cma;
-  if (!chosen && !(grid && purpose == Purpose::sweep)) study.method = purpose == Purpose::optimize ? search : Method::random;
-  if (study.asked) study.method = Method::random;  // whatever it says: none is used
+  choose_method(study, chosen, purpose);
   if (problems.empty()) check_study(study, root.place, problems);
   problems.raise();
   return study;
@@ -231,9 +249,8 @@ Study read_study(const std::string& file, Purpose purpose) {
 std::string explain_study() {
   return wrapped(
              "A study runs the points of a scenario: `gaitlab sweep STUDY.yaml`; `gaitlab optimize STUDY.yaml` searches the "
-             "best. Expressions name quantities as summary.json "
-             "does, with "
-             "dots; one per joint without the joint is its largest, torque.peak[m3/active] that of one. They take + - * / ^, "
+             "best. Expressions name quantities as summary.json does, with dots; of a quantity per joint, torque.peak is the "
+             "largest over the joints and torque.peak[m3/active] that of one joint. They take + - * / ^, "
              "comparisons, and, or, not, min, max, abs, sqrt, log, if and the other functions of CPG `equations`.") +
          "\n" + table(study_keys().rows());
 }
@@ -241,8 +258,8 @@ std::string explain_study() {
 std::string study_page() {
   return "# The file of a study\n\n"
          "<!-- Written by `tests/gates/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n"
-         "Every key of what `gaitlab sweep STUDY.yaml` and `gaitlab optimize STUDY.yaml` read, as `gaitlab explain study` "
-         "prints it; what is done with it:\n"
+         "All keys of the file that `gaitlab sweep STUDY.yaml` and `gaitlab optimize STUDY.yaml` read, as `gaitlab explain "
+         "study` prints them. Their use:\n"
          "[studies](../studies.md). Studies that come with the program: `scenarios/studies/`.\n\n" +
          markdown_table(study_keys().rows());
 }

@@ -1,4 +1,4 @@
-// STUDY.yaml, and its manual.
+// Study file STUDY.yaml, and its manual.
 #pragma once
 #include <span>
 #include <string>
@@ -8,24 +8,24 @@
 
 namespace gaitlab::studies {
 
-/// Whether the file is a study: it has a key `gaitlab_study`. InputError: it cannot be read as YAML.
+/// Whether the file is a study: it has a key `gaitlab_study`. Throws InputError if it cannot be read as YAML.
 bool is_study(const std::string& file);
 
-/// What a study is read for: a file that names no method is a grid or drawn at random, or a search. Of `evaluate` the points
+/// Command for which a study is read: without a method it is a grid or drawn at random, or a search. For `evaluate` the points
 /// come from another program; method and budget do not count.
 enum class Purpose { sweep, optimize, evaluate };
 
-/// Reads it as strictly as a scenario. InputError with every problem at FILE:LINE:COL; what needs the scenario (keys of
-/// parameters, quantities) is checked by Plan.
+/// Reads a study as strictly as a scenario. Throws InputError with every problem at FILE:LINE:COL; Plan checks the parts that
+/// need the scenario (keys of parameters, quantities).
 Study read_study(const std::string& file, Purpose purpose = Purpose::sweep);
 
-/// `gaitlab explain study` and docs/reference/study.md.
+/// Text of `gaitlab explain study` and docs/reference/study.md.
 std::string explain_study();
 std::string study_page();
-/// `gaitlab schema --study`: JSON Schema (draft 7). What it refuses, the reader refuses; the reader knows more.
+/// JSON Schema (draft 7) of `gaitlab schema --study`. The reader refuses everything that it refuses, and checks more.
 std::string study_schema(std::span<const CheckOffer> checks);
 
-/// Finds what a study's settings among themselves rule out.
+/// Adds a problem for settings that contradict one another.
 void check_study(const Study& study, const SourceLocation& place, Problems& problems);
 
 }  // namespace gaitlab::studies

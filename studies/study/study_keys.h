@@ -1,4 +1,4 @@
-// The keys of a study that are declared as fields: one walk over each reads it, explains it and makes its schema.
+// Keys of a study that are declared as fields: one walk over them reads, explains and writes the schema.
 #pragma once
 #include <array>
 #include <string>
@@ -8,24 +8,22 @@
 
 namespace gaitlab::studies {
 
-/// Keys that stand as they are in `fields`: one walk reads and explains them.
+/// Top-level keys that are read and explained by one walk over `fields`.
 struct PlainKeys {
   Study& study;
   std::string& scenario;
   void fields(Fields& f) const {
-    f.text("name", study.name, "Name of the study; without it that of the file.");
+    f.text("name", study.name, "Name of the study; default: the file's name.");
     f.text("scenario", scenario, "Scenario file, relative to this file; or `scenarios`.");
     f.texts("set", study.sets, "Settings of all runs, as for --set: physics.step=0.001.");
-    f.integer("seed", study.seed, {"", 0, 9e15, "Seed of what is drawn: points and replicates."});
-    f.integer(
-        "estimate_every", study.estimate_every,
-        {"", 0, 1e9,
-         "One point in so many, drawn by the seed, has the error of its torques estimated, which takes lanes of its own; 1: "
-         "all, 0: none. The best points that `gaitlab optimize` tries again always have."});
+    f.integer("seed", study.seed, {"", 0, 9e15, "Seed of the random numbers: points and replicates."});
+    f.integer("estimate_every", study.estimate_every,
+              {"", 0, 1e9,
+               "N: the torque error is estimated for one point in N, drawn by the seed, which takes additional lanes; 1: all, "
+               "0: none. The best points, which `gaitlab optimize` verifies, always have an estimate."});
     f.texts("quantities", study.quantities,
-            "Quantities of a run that are shown in tables and drawn, by name with * and ?; without any the speed. Those of one "
-            "joint, "
-            "torque.peak[m3/*], become columns.");
+            "Quantities of a run that tables and figures show, by name with * and ?; default: the speed. A quantity of one "
+            "joint, torque.peak[m3/*], becomes a column.");
   }
 };
 
@@ -38,16 +36,16 @@ struct MethodKeys {
         "sobol_indices: which parameters matter, by elementary effects or shares of the variance. The others search (gaitlab "
         "optimize): cma, xnes, sade, pso for one objective, nsga2 for two or three.");
     f.integer("trajectories", study.trajectories,
-              {"", 2, 1e6, "Of morris: each has one point more than there are parameters."});
+              {"", 2, 1e6, "Trajectories of morris; each has one point more than there are parameters."});
     f.integer("samples", study.samples,
-              {"", 2, 1e7, "Of sobol_indices, best a power of 2: each has two points more than there are parameters."});
+              {"", 2, 1e7, "Samples of sobol_indices, best a power of 2; each has two points more than there are parameters."});
     f.integer("population", study.search.population,
               {"", 0, 10000,
                "Points of a generation, at least 5 (sade 7; nsga2: a multiple of 4 from 8). 0: 4 + 3 ln n of n "
                "parameters, rounded up to a multiple of 8, at least 16."});
     f.integer("instances", study.search.instances, {"", 1, 1000, "Searches side by side, which share the budget."});
     f.integer("restarts", study.search.restarts,
-              {"", 0, 10, "How often a search that has converged starts again, each time with twice the population."});
+              {"", 0, 10, "Restarts of a search that has converged, each with twice the population."});
     f.number("sigma", study.search.sigma, {"", 1e-3, 1, "First step of cma and xnes, as a share of the box."});
   }
 };
@@ -55,10 +53,12 @@ struct MethodKeys {
 struct VerifyKeys {
   Verify& verify;
   void fields(Fields& f) {
-    f.integer("best", verify.best, {"", 1, 100, "How many of the best points are tried again."});
-    f.flag("halve_step", verify.halve_step, "With half the step (of integrators that choose it: half the accuracy's limit).");
-    f.text("engine", verify.engine, "In another engine, with its own step; none: in no other.");
-    f.number("change", verify.change, {"", 1e-6, 10, "Largest change of an objective, as a share, of a point that stands."});
+    f.integer("best", verify.best, {"", 1, 100, "Number of best points to verify."});
+    f.flag("halve_step", verify.halve_step,
+           "Run them again with half the step (with half of physics.accuracy if the integrator chooses its steps).");
+    f.text("engine", verify.engine, "Run them again in this engine, with its default step; none: no other engine.");
+    f.number("change", verify.change,
+             {"", 1e-6, 10, "Largest relative change of an objective for which a point counts as verified."});
   }
 };
 
@@ -72,7 +72,7 @@ struct BudgetKeys {
 inline constexpr std::array<const char*, 2> kScales{"linear", "log"};
 inline constexpr double kAny = 1e300;
 
-/// Of a parameter between two ends.
+/// Keys of a parameter with a range.
 struct RangeKeys {
   Parameter& parameter;
   bool& log;
@@ -80,9 +80,9 @@ struct RangeKeys {
     f.number("low", parameter.low, {"", -kAny, kAny, "Least value, in the unit of the scenario's key."});
     f.number("high", parameter.high, {"", -kAny, kAny, "Largest value."});
     int scale = log ? 1 : 0;
-    f.choice("scale", scale, kScales, "Whether values are even in themselves or in their logarithm.");
+    f.choice("scale", scale, kScales, "Spacing of the values: even (linear), or even in their logarithm (log).");
     log = scale == 1;
-    f.integer("count", parameter.count, {"", 2, 1e9, "Of a grid: number of values from low to high, both included."});
+    f.integer("count", parameter.count, {"", 2, 1e9, "Number of values of a grid from low to high, both included."});
   }
 };
 

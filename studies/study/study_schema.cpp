@@ -1,4 +1,5 @@
-// The JSON Schema of a study file, for editors: from the same walks as its reader, and what that reads piece by piece.
+// The JSON Schema of a study file, for editors: from the same walks as its reader, and from the parts that the reader reads one
+// by one.
 #include "core/settings/schema_fields.h"
 #include "studies/study/guards.h"
 #include "studies/study/study_file.h"
@@ -15,8 +16,8 @@ constexpr const char* kStudyParts = R"json({
     "description": "Instead of low and high: numbers or words, one by one."},
   "law": {"type": "object", "additionalProperties": false, "properties": {
     "normal": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2, "description": "Mean and deviation."},
-    "low": {"type": "number", "description": "Of normal: what is drawn below is drawn again."},
-    "high": {"type": "number", "description": "Of normal: what is drawn above is drawn again."},
+    "low": {"type": "number", "description": "Lower end of a normal distribution: values below are drawn again."},
+    "high": {"type": "number", "description": "Upper end of a normal distribution: values above are drawn again."},
     "uniform": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2, "description": "Its ends."},
     "values": {"$ref": "#/definitions/values"}},
     "oneOf": [{"required": ["normal"]},
@@ -24,35 +25,35 @@ constexpr const char* kStudyParts = R"json({
       {"required": ["values"], "not": {"anyOf": [{"required": ["low"]}, {"required": ["high"]}]}}]},
   "variation": {"anyOf": [{"$ref": "#/definitions/law"},
     {"type": "object", "additionalProperties": false, "required": ["times"], "properties": {
-      "times": {"$ref": "#/definitions/law", "description": "A multiple of the value that the point has."}}}]},
+      "times": {"$ref": "#/definitions/law", "description": "A multiple of the point's value."}}}]},
   "objective": {"type": "object", "additionalProperties": false, "minProperties": 1, "maxProperties": 1, "properties": {
     "maximize": {"$ref": "#/definitions/expression"}, "minimize": {"$ref": "#/definitions/expression"}}}
 })json";
 
 constexpr const char* kStudyHead = R"json({
-  "gaitlab_study": {"const": 1, "description": "Format version; by this key a file is known as a study."}
+  "gaitlab_study": {"const": 1, "description": "Format version; this key marks a file as a study."}
 })json";
 
 constexpr const char* kStudyRest = R"json({
   "scenarios": {"type": "object", "minProperties": 1, "maxProperties": 1000,
     "propertyNames": {"pattern": "^[A-Za-z0-9_.-]+$"}, "additionalProperties": {"$ref": "#/definitions/scalar"},
-    "description": "Instead of scenario: several by name, in each of which every point runs."},
+    "description": "Several scenarios by name instead of scenario: every point runs in each."},
   "parameters": {"type": "object", "minProperties": 1, "additionalProperties": {"$ref": "#/definitions/parameter"},
     "description": "Keys of the scenario, as for --set, that change from point to point."},
   "replicates": {"type": "object", "additionalProperties": false, "required": ["count"],
-    "description": "Runs of each point that differ in their seed and in what vary draws.", "properties": {
+    "description": "Runs of each point that differ in their seed and in the values that vary draws.", "properties": {
       "count": {"type": "integer", "minimum": 1, "maximum": 1000000, "description": "Runs of each point."},
       "vary": {"type": "object", "additionalProperties": {"$ref": "#/definitions/variation"},
         "description": "Keys of the scenario that are drawn, the same way for every point."},
       "combine": {"anyOf": [{"enum": ["mean", "worst", "median"]}, {"type": "string", "pattern": "^quantile\\(.+\\)$"}],
-        "default": "worst", "description": "What the replicates of a point, in all its scenarios, count for together."}}},
+        "default": "worst", "description": "Combination of the replicates of a point, in all its scenarios, into one value."}}},
   "objective": {"anyOf": [{"$ref": "#/definitions/objective"},
     {"type": "array", "minItems": 1, "maxItems": 3, "items": {"$ref": "#/definitions/objective"}}],
-    "description": "What points are ordered by; of two or three, the points that no other is better than in all."},
+    "description": "Order of the points; two or three: the Pareto front, the points that no other point beats in all objectives."},
   "constraints": {"type": "array", "items": {"$ref": "#/definitions/scalar"}, "default": [],
-    "description": "What a point must keep: a <= b, a >= b or a == b."},
+    "description": "Conditions that a point must satisfy: a <= b, a >= b or a == b."},
   "guards": {"anyOf": [{"enum": ["verdict", "none", "gait"]}, {"$ref": "#/definitions/guards"}], "default": "verdict",
-    "description": "Checks of the verdict that a point must keep. verdict: the word feasible; checks by id are asked for beside it, or otherwise than it."},
+    "description": "Checks of the verdict that a point must pass. verdict: the verdict must be feasible; checks by id are added to it or change it."},
   "stop": {"type": "array", "items": {"$ref": "#/definitions/scalar"}, "default": [],
     "description": "Rules that end a run early: EXPRESSION, or EXPRESSION after SECONDS."}
 })json";
@@ -76,10 +77,11 @@ Json parameter_schema() {
   Json properties = properties_of(RangeKeys{parameter, parameter.log});
   for (const char* key : {"low", "high", "count"}) properties[key].erase("default");
   properties["values"] = {{"$ref", "#/definitions/values"}};
-  properties["sets"] = {{"type", "object"},
-                        {"minProperties", 1},
-                        {"additionalProperties", {{"type", {"string", "number"}}}},
-                        {"description", "Keys of the scenario that follow this number of the study's own, by expressions."}};
+  properties["sets"] = {
+      {"type", "object"},
+      {"minProperties", 1},
+      {"additionalProperties", {{"type", {"string", "number"}}}},
+      {"description", "Keys of the scenario that are computed from this parameter of the study, by expressions."}};
   const auto needs = [](const char* key) { return Json{{"required", Json::array({key})}}; };
   Json schema = object_schema(std::move(properties));
   schema["oneOf"] = Json::array({{{"required", {"low", "high"}}, {"not", needs("values")}},
@@ -113,10 +115,10 @@ std::string study_schema(std::span<const CheckOffer> checks) {
   properties.update(Json::parse(kStudyRest));
   properties["figures"] = properties["quantities"];
   properties["figures"]["description"] = "Old name of quantities.";
-  properties["method"] = group_of(MethodKeys{study}, "How points are chosen.");
-  properties["budget"] = group_of(BudgetKeys{study.runs}, "How much is run.");
+  properties["method"] = group_of(MethodKeys{study}, "Choice of the points.");
+  properties["budget"] = group_of(BudgetKeys{study.runs}, "Number of runs.");
   properties["budget"]["properties"]["runs"].erase("default");
-  properties["verify"] = group_of(VerifyKeys{study.verify}, "How gaitlab optimize tries the best points again.");
+  properties["verify"] = group_of(VerifyKeys{study.verify}, "Verification of the best points by gaitlab optimize.");
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
               {"title", "gaitlab study"},
               {"description", "Written by `gaitlab schema --study`."}};

@@ -1,4 +1,4 @@
-// What users see of `gaitlab approve`: what it shows, what it keeps, what it refuses.
+// Output of `gaitlab approve`: changes shown, bands kept, runs refused.
 #include "tests/app/golden_command.h"
 
 namespace gaitlab::test {
@@ -98,7 +98,7 @@ TEST_F(ApproveCommand, ApproveLooksAtItsTargetFirst) {
   expect_contains(folder_with_it.out, "0 passed, 0 failed, ");
 }
 
-// Where a robot hardly moves, the cost of its transport is noise: on neither side of the limit is it a regression.
+// The cost of transport of a robot that hardly moves is noise: a change across the limit is not a regression.
 TEST_F(ApproveCommand, AStepAcrossTheLimitOfTransportIsNone) {
   const std::string text =
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\ncontact: {on: all}\n"

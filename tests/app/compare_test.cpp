@@ -1,4 +1,4 @@
-// What users see of compare and export, and of traces as HDF5: whole outputs, whole messages.
+// Output of compare and export, and traces as HDF5: whole outputs, whole messages.
 #include <nlohmann/json.hpp>
 
 #include "core/recording/csv.h"

@@ -130,9 +130,10 @@ TEST_F(Evaluate, AFolderBelongsToOneStudy) {
   EXPECT_EQ(studies::Journal(folder_ / "e/study.db").head().runs, 1U);
   const Result sweep = call("sweep two.yaml --grid cpg.phase_lag=1:2:3 --out e --quiet");
   EXPECT_EQ(sweep.code, 2);
-  EXPECT_TRUE(contains(sweep.err,
-                       "e/study.db: error: is of another study; take another folder (--out), or go on as it was begun: "
-                       "gaitlab evaluate study.yaml --out e"))
+  EXPECT_TRUE(
+      contains(sweep.err,
+               "e/study.db: error: belongs to another study; choose another folder (--out), or continue it as it was begun: "
+               "gaitlab evaluate study.yaml --out e"))
       << sweep.err;
 }
 

@@ -1,4 +1,4 @@
-// What users see of `export --to gltf`: files, notes, whole messages.
+// Output of `export --to gltf`: files, notes, whole messages.
 #include "tests/interchange/glb_file.h"
 #include "tests/program/fixture.h"
 

@@ -337,11 +337,11 @@ TEST_F(PaperFigure, LoadsThatAreNotThereAreAnError) {
   const std::string footfalls = "runs: {hexapod: legs}\npanels: [{kind: footfalls}]\n";
   ASSERT_EQ(draw(footfalls, "-o whole.svg").code, 0);
   fs::remove(folder / "legs/recording.h5");  // which has the loads
-  refused(footfalls, "figure.yaml:2:17: error: run 'hexapod' has no column load.9, by which a leg is known to stand");
+  refused(footfalls, "figure.yaml:2:17: error: run 'hexapod' lacks column load.9, which shows the stance of a leg");
   const Result stance =
       draw("runs: {hexapod: legs}\npanels: [{left: {columns: [com.x]}, stance: m9 front left}]\n", "-o f.svg");
   EXPECT_EQ(stance.code, 2);
-  EXPECT_TRUE(contains(stance.err, "run 'hexapod' has no column load.")) << stance.err;
+  EXPECT_TRUE(contains(stance.err, "run 'hexapod' lacks column load.")) << stance.err;
 }
 
 /// The last row of a run whose end is not a multiple of trace.period is at that end.

@@ -1,4 +1,4 @@
-// What the tests of `approve` and `test` share: a folder with a scenario and its golden.
+// Fixture of the tests of `approve` and `test`: a folder with a scenario and its golden.
 #pragma once
 #include "core/files/atomic_file.h"
 #include "golden/golden.h"

@@ -1,4 +1,4 @@
-// What a first user got wrong, and what the program says to it.
+// Mistakes of first users, and the program's messages for them.
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {

@@ -126,8 +126,8 @@ TEST_F(Plugins, WhatOneThrowsInTheRunEndsItAndKeepsWhatWasSimulated) {
     folder.write("s.yaml", throwing(kind, where));
     const Result result = gaitlab(fmt::format("run s.yaml --quiet --out {}{}", kind, where), folder / "");
     EXPECT_EQ(result.code, 1);
-    const std::string told = fmt::format("{0} 'throws' ({1}throws.so): {2}; what was simulated until then is in {0}{3}\n", kind,
-                                         kPlugins, what, where);
+    const std::string told =
+        fmt::format("{0} 'throws' ({1}throws.so): {2}; the rows up to that time are in {0}{3}\n", kind, kPlugins, what, where);
     EXPECT_NE(result.err.find(told), std::string::npos) << result.err;
     EXPECT_TRUE(std::filesystem::exists(folder / (kind + where + "/summary.json")));
   }

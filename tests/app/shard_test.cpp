@@ -88,7 +88,7 @@ TEST_F(Shard, ThatAreDamagedOrOthersAreRefusedAndNothingIsLost) {
 
   ASSERT_EQ(call("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:6 --out t2 --quiet --shard 0/2").code, 0);
   std::filesystem::copy(folder_ / "t2/shards/0-of-2.db", folder_ / "s/shards/0-of-2.db");
-  refused("study merge s", "s/shards: error: holds shards of 2 and of 3; expected those of one division");
+  refused("study merge s", "s/shards: error: holds shards of 2 and of 3; expected shards of one division");
 }
 
 // The largest budget counts, in whatever order they lie there.

@@ -1,4 +1,4 @@
-// What the program writes on its streams: help into a full disk, texts of strangers in messages, threads that have no room.
+// Output streams of the program: help into a full disk, foreign texts in messages, threads without memory.
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -11,7 +11,7 @@ class Streams : public ::testing::Test {
     folder_.write("ok.yaml", "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.1\n");
   }
   Result call(const std::string& arguments) { return gaitlab(arguments, folder_.path()); }
-  /// Of a shell: what stands before the program's name, and its arguments.
+  /// Command line of a shell: the text before the program's name, and its arguments.
   Result shell(const std::string& before, const std::string& arguments, const std::string& after = "") {
     const std::string command = "cd '" + folder_.path().string() + "' && " + before + " '" + std::string(GAITLAB_BINARY_DIR) +
                                 "/bin/gaitlab' " + arguments + " 2>err " + after;

@@ -3,6 +3,7 @@
 
 #include "app/study/study_quantities.h"
 #include "studies/journal/database.h"
+#include "studies/plan/definition.h"
 #include "studies/run/runner.h"
 #include "studies/study/study_file.h"
 #include "tests/app/study_fixture.h"
@@ -151,7 +152,7 @@ TEST_F(StudyFolder, ShardsThatNoDivisionHasAreRefused) {
     fs::copy(folder_ / "m/shards/1-of-2.db", folder_ / (std::string("m/shards/") + name));
     ends("study merge m", 2,
          std::string("m/shards/") + name +
-             ": error: is no shard of a study; expected I-of-N.db with I from 0 to N - 1, without zeros in front\n");
+             ": error: is not a shard of a study; expected I-of-N.db with I from 0 to N - 1, without zeros in front\n");
   }
 }
 
@@ -235,7 +236,7 @@ TEST_F(StudyFolder, MemoryThatIsNotEnoughIsToldWithARemedy) {
                 "method: {type: random}\nbudget: {runs: 8}\n");
   const studies::Plan plan(studies::read_study(folder_ / "study.yaml", studies::Purpose::sweep), app::quantity_offer(),
                            catalog());
-  studies::Journal journal(folder_ / "study.db", plan.head(), studies::Journal::Build::same);
+  studies::Journal journal(folder_ / "study.db", studies::journal_head(plan), studies::Journal::Build::same);
   const studies::Executor executor = [](const studies::Work&, std::atomic<bool>&) -> bool { throw std::bad_alloc(); };
   studies::Runner runner(plan, journal, {.executor = executor, .shard = {}, .jobs = 64});
   std::atomic<bool> stop = false;

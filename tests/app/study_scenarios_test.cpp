@@ -94,7 +94,7 @@ TEST_F(StudyScenarios, AreTheSameBytesHoweverTheyRun) {
   study("replicates: {count: 2}\n", "s.yaml", "{short: three.yaml, long: two.yaml}");
   const Result other = call("sweep s.yaml --out one");
   EXPECT_EQ(other.code, 2);
-  EXPECT_TRUE(contains(other.err, "one/study.db: error: is of another study")) << other.err;
+  EXPECT_TRUE(contains(other.err, "one/study.db: error: belongs to another study")) << other.err;
 }
 
 TEST_F(StudyScenarios, AnswerOneAnotherByName) {

@@ -60,7 +60,7 @@ TEST_F(SwapMatrix, IsATableOfCpgByScenario) {
                                                                                                            : "  -  ") +
                                                                       why))
       << result.out;
-  // What the verdict fails is told in its line.
+  // A failed check of the verdict is named in the row.
   const std::string tense = json.at("sine").at("two").at("why");
   EXPECT_EQ(json.at("sine").at("two").at("verdict"), "not judged");
   EXPECT_FALSE(tense.empty());
@@ -70,7 +70,7 @@ TEST_F(SwapMatrix, IsATableOfCpgByScenario) {
   EXPECT_EQ(csv.substr(0, 30), "cpg,scenario,verdict,why,name,");
   EXPECT_TRUE(contains(csv, "\nsine,two,not judged,"));
   EXPECT_EQ(std::ranges::count(csv, '\n'), 5);
-  // Of each scenario the files of a swap of it alone.
+  // Each scenario has the files of a swap of it alone.
   ASSERT_EQ(call("swap soft.yaml --cpg phase_oscillator,sine --out alone").code, 0);
   for (const char* file : {"overlay.svg", "swap.csv", "swap.json"})
     EXPECT_EQ(read(folder_.path() / "m/soft" / file), read(folder_.path() / "alone" / file)) << file;

@@ -31,54 +31,6 @@ TEST_F(Sweep, WhatTheVerdictFailsIsNotFeasible) {
   EXPECT_EQ(rows[1].at("kept"), "1");
 }
 
-/// The same points whatever is run beside them; what was not estimated counts as trusted as they are, and says so.
-TEST_F(Sweep, EstimatesSomePoints) {
-  const auto swept = [&](const char* every, const char* out, const char* how) {
-    folder_.write("study.yaml", "gaitlab_study: 1\nscenario: " + kScenarios +
-                                    "caterpillar.yaml\nset: [physics.engine=articulated, duration=12]\n" + every +
-                                    "parameters: {cpg.amplitude: {low: 0.2, high: 0.34, count: 8}}\n");
-    const Result made = call(fmt::format("sweep study.yaml --out {} {}", out, how));
-    EXPECT_EQ(made.code, 0) << made.err;
-    return made;
-  };
-  const auto estimated = [&](const char* out) {
-    std::string runs;
-    for (const auto& row : table(out)) {
-      EXPECT_EQ(row.at("verdict"), "feasible") << row.at("message");
-      if (!row.at("torque_error.worst").empty()) runs += row.at("run") + " ";
-    }
-    return runs;
-  };
-  const Result all = swept("estimate_every: 1\n", "all", "");
-  EXPECT_EQ(estimated("all"), "0 1 2 3 4 5 6 7 ");
-  EXPECT_TRUE(contains(all.out, "torque error estimated in 8 runs: 0 beyond 1 %")) << all.out;
-  EXPECT_EQ(all.err.find("own gait"), std::string::npos) << "its torque error is below 1 %: " << all.err;
-  swept("estimate_every: 3\n", "some", "-j 1 --lanes 1 --quiet");
-  const std::string some = estimated("some");
-  EXPECT_NE(some, "");
-  EXPECT_LT(some.size(), 10U);
-  swept("estimate_every: 3\n", "again", "-j 2 --lanes 4 --quiet");
-  EXPECT_EQ(estimated("again"), some);
-  const Result none = swept("estimate_every: 0\n", "none", "");
-  EXPECT_EQ(estimated("none"), "");
-  EXPECT_TRUE(contains(none.out, "the error of the torques was estimated in none of the runs")) << none.out;
-  const Result rerun = call("study rerun none 3");
-  EXPECT_EQ(rerun.code, 0) << rerun.err;
-  EXPECT_TRUE(contains(rerun.out, "the quantities are those of the journal")) << rerun.out;
-}
-
-/// A step of 2.5 ms costs the caterpillar of engine articulated some of its speed, and says so before the first run.
-TEST_F(Sweep, TellsWhatTheStepCosts) {
-  const Result swept =
-      call("sweep " + kScenarios +
-           "caterpillar.yaml --set physics.engine=articulated --set physics.step=0.0025 --set duration=6 --grid "
-           "cpg.amplitude=0.3 --out s");
-  EXPECT_EQ(swept.code, 0) << swept.err;
-  EXPECT_TRUE(contains(swept.err, "note: step 0.0025 s costs ")) << swept.err;
-  EXPECT_TRUE(contains(swept.err, " of speed on the scenario's own gait, auto ")) << swept.err;
-  EXPECT_TRUE(contains(swept.err, ": take physics.step: auto")) << swept.err;
-}
-
 /// One word, one meaning: a study without guards keeps what its verdict calls infeasible, and does not call it feasible.
 TEST_F(Sweep, WithoutGuardsInfeasibleGaitsAreKeptAndNotFeasible) {
   folder_.write("study.yaml", "gaitlab_study: 1\nscenario: " + kScenarios +
@@ -180,7 +132,8 @@ TEST_F(Sweep, TheSameCommandGoesOnInItsFolder) {
   ASSERT_EQ(call("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:3 --quiet").code, 0);  // another study: another folder
   EXPECT_TRUE(std::filesystem::exists(folder_ / "runs/sweep-two-2/study.db"));
   refused("sweep two.yaml --grid cpg.phase_lag=0.5:1.5:3 --out runs/sweep-two",
-          "runs/sweep-two/study.db: error: is of another study; take another folder (--out), or go on as it was begun: gaitlab "
+          "runs/sweep-two/study.db: error: belongs to another study; choose another folder (--out), or continue it as it was "
+          "begun: gaitlab "
           "sweep "
           "two.yaml --grid cpg.phase_lag=0.5:1.5:2 --out runs/sweep-two\n"
           "  study, line 3: \"parameter cpg.phase_lag: 0.5 to 1.5, 3 values\", was \"parameter cpg.phase_lag: 0.5 to 1.5, 2 "
@@ -325,7 +278,7 @@ TEST_F(Sweep, TakesAnswersOfOtherStudies) {
   const Result other = call("sweep cost.yaml --out cost --answers nine");
   EXPECT_TRUE(contains(other.out, "9 of 9 runs were answered by other studies")) << other.out << other.err;
   for (const auto& row : table("cost")) EXPECT_EQ(row.at("objective.1"), row.at("torque.rms"));
-  // Of another step nothing is taken; replicates have other seeds.
+  // Rows of another step are not taken; replicates have other seeds.
   EXPECT_TRUE(contains(sweep("--grid cpg.phase_lag=0.4:2:9 --set duration=0.31 --out longer --answers nine"), "0 of 9 runs"));
   EXPECT_TRUE(contains(sweep("--grid cpg.phase_lag=0.4:2:9 --seeds 1 --out seeds --answers nine"), "0 of 9 runs"));
   refused("sweep two.yaml --grid cpg.phase_lag=0.4:2:9 --out x --answers nowhere.db",

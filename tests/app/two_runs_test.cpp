@@ -7,7 +7,7 @@
 namespace gaitlab::test {
 namespace {
 
-/// What a page knows of its run.
+/// Data of a run in its page.
 nlohmann::json meta_of(const std::string& page) {
   const std::string mark = "<script type=\"application/json\" id=\"meta\">";
   const std::size_t from = page.find(mark) + mark.size();

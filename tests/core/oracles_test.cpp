@@ -80,7 +80,7 @@ TEST(Oracle, FreeTopObeysEulersEquations) {
 TEST(Oracle, HeavyTopHangsTogether) {
   const HeavyTop top{0.3, 0.1, 2};
   EXPECT_NEAR(top.lean(0.7, 1.5, top.spin_for(1.5, 0.7)), 0, kOracleRounding);
-  // Where it turns back its energy is what it was: (A W^2 sin^2 - 2 mgl (cos theta0 - cos theta)) / 2 = 0, with the
+  // Its energy at the turning point is that of the start: (A W^2 sin^2 - 2 mgl (cos theta0 - cos theta)) / 2 = 0, with the
   // precession from the angular momentum about the vertical.
   const double w3 = 30;
   const double end = top.turns_back(0.7, w3);

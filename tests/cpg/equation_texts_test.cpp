@@ -17,7 +17,7 @@ class EquationTexts : public fakes::ScenarioTest {
  protected:
   EquationTexts() { add_cpg<Equations>(catalog_, "equations", Equations::kManual); }
 
-  /// What is said of a model's lines; the model's first line is line 7.
+  /// Messages about the lines of a model, whose first line is line 7.
   std::string wrong(const std::string& lines, const std::vector<std::string>& sets = {}) {
     std::string text = fakes::kTwo + "cpg:\n  type: equations\n  model:\n";
     std::istringstream stream(lines);
@@ -69,14 +69,14 @@ TEST_F(EquationTexts, OfWrongGrammarNameTheCharacter) {
 }
 
 TEST_F(EquationTexts, KnowWhereAWordMayStand) {
-  EXPECT_EQ(output("x + angle"), "8:17: error: 'angle' may not stand in the output; only in a derivative");
+  EXPECT_EQ(output("x + angle"), "8:17: error: 'angle' may not be used in the output; only in a derivative");
   EXPECT_EQ(wrong("initial: {phi: r}"),
-            "8:20: error: 'r' may not stand in an initial value; only in a derivative or the output");
+            "8:20: error: 'r' may not be used in an initial value; only in a derivative or the output");
   EXPECT_EQ(wrong("parameters: {a: b, b: 2}"), "8:21: error: 'b' stands below; a parameter may name those above it");
-  EXPECT_EQ(wrong("parameters: {a: t}"), "8:21: error: 't' may not stand in a parameter; only in a derivative or the output");
+  EXPECT_EQ(wrong("parameters: {a: t}"), "8:21: error: 't' may not be used in a parameter; only in a derivative or the output");
   EXPECT_EQ(wrong("initial: {phy: 1}"), "8:15: error: 'phy' is not a state; did you mean 'phi'?");
-  EXPECT_EQ(wrong("parameters: {sin: 1}"), "8:18: error: 'sin' has a meaning of its own in equations; take another name");
-  EXPECT_EQ(wrong("parameters: {depth: 1}"), "8:18: error: 'depth' has a meaning of its own in equations; take another name");
+  EXPECT_EQ(wrong("parameters: {sin: 1}"), "8:18: error: 'sin' has a fixed meaning in equations; choose another name");
+  EXPECT_EQ(wrong("parameters: {depth: 1}"), "8:18: error: 'depth' has a fixed meaning in equations; choose another name");
   EXPECT_EQ(wrong("parameters: {phi: 1}"), "8:18: error: 'phi' is a parameter and a state; give one of them another name");
   EXPECT_EQ(wrong("parameters: {1a: 1}"), "8:18: error: '1a' is not a name; expected a letter, then letters, digits and _");
 }

@@ -1,5 +1,5 @@
-// Everything that reads what a user or a stranger wrote, each as one function of bytes. Bad input is an InputError; anything
-// else that happens is a finding. The fuzz target and the test of the corpus call the same functions.
+// Readers of files that may be hostile, each as one function of bytes. Bad input is an InputError; anything else that happens
+// is a finding. The fuzz target and the test of the corpus call the same functions.
 #pragma once
 #include <array>
 #include <cstdio>
@@ -23,6 +23,7 @@
 #include "report/figures/paper/recipe.h"
 #include "studies/journal/results.h"
 #include "studies/journal/study_folder.h"
+#include "studies/plan/definition.h"
 #include "studies/plan/plan.h"
 #include "studies/run/question.h"
 #include "studies/study/study_file.h"
@@ -60,7 +61,7 @@ inline std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-/// What is taken can be resolved, and resolved again is itself.
+/// An accepted scenario can be resolved, and resolving it again changes nothing.
 inline Scenario read_whole(const std::string& scenario) {
   Scenario read = read_scenario(folder().write("scenario.yaml", scenario), {}, catalog());
   const std::string once = resolved(read);
@@ -80,6 +81,14 @@ inline void build(const std::string& text) {
 inline void module(const std::string& text) {
   folder().write("module.yaml", text);
   (void)read_whole("gaitlab: 1\nrobot: {modules: module.yaml}\nduration: 1\n");
+}
+
+/// Text, a matrix of NumPy or a grey PNG.
+inline void heights(const std::string& bytes) {
+  folder().write("heights", bytes);
+  (void)read_whole(
+      "gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\nground: {type: heightfield, heightfield: {file: heights, scale: "
+      "1e-3}}\n");
 }
 
 /// Read, and one tick of the CPG: whatever its equations give, it comes back.
@@ -166,7 +175,7 @@ inline const std::string& good_journal() {
                              app::quantity_offer(), catalog());
     const std::string file = folder() / "good.db";
     {
-      studies::Journal made(file, plan.head(), studies::Journal::Build::same);
+      studies::Journal made(file, studies::journal_head(plan), studies::Journal::Build::same);
       std::vector<studies::Row> rows;
       for (std::uint64_t run = 0; run < plan.points().runs(); ++run) {
         studies::Row& row = rows.emplace_back(plan.row(run));
@@ -342,6 +351,8 @@ inline void state(const std::string& text) {
 inline constexpr std::array kReaders{Reader{"scenario", scenario},
                                      Reader{"build", build},
                                      Reader{"module", module},
+                                     Reader{"heights", heights},
+                                     Reader{"grey_heights", heights},
                                      Reader{"equations", equations},
                                      Reader{"study", study},
                                      Reader{"question", question},

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The report page: its committed bundle is what its sources give, they type-check, and in a browser it does what it says.
+# The report page: types, eslint and prettier pass, the committed bundle is what the sources give, and in a browser it does what it says.
 # usage: page.sh PROGRAM_BUILD_DIR     (exit code 77: no node, npm, Chromium or packages here; with CI=true that is an error)
 source "$(dirname -- "${BASH_SOURCE[0]}")/../prelude.sh"
 (($#)) || usage
@@ -14,23 +14,24 @@ left_out() {
 for tool in node npm; do
   command -v "$tool" >/dev/null || left_out "no $tool (Debian: nodejs, npm)"
 done
-(($(node -p 'process.versions.node.split(".")[0]') >= 18)) || left_out "node $(node --version) is older than 18"
+(($(node -p 'const [major, minor] = process.versions.node.split("."); 1000 * major + +minor') >= 18018)) ||
+  left_out "node $(node --version) is older than 18.18"
 export CHROMIUM=${CHROMIUM:-$(command -v chromium || true)}
 [[ -n $CHROMIUM ]] || left_out "no Chromium (Debian: chromium)"
 
 # Outside of the sources: what is built there must not be what is compared.
 page=$work/page
-mkdir -p "$page/test"
-(cd -- "$root/report/page" && cp -r -- package.json package-lock.json tsconfig.json build.mjs src "$page")
-cp -- "$root"/tests/page/*.mjs "$page/test"
+mkdir -p "$page"
+(cd -- "$root/report/page" && cp -r -- package.json package-lock.json tsconfig.json eslint.config.mjs .prettierrc.json .prettierignore build.mjs \
+  src "$page")
 cd -- "$page"
 if ! npm ci --ignore-scripts --no-audit --no-fund >"$work/log" 2>&1; then
   show_log
   ! grep -qE 'ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|ENETUNREACH|ETIMEDOUT' "$work/log" || left_out "the package registry cannot be reached"
   fail "npm ci"
 fi
-expect 0 npx --no-install tsc --noEmit
-ok "report/page type-checks"
+expect 0 npm run --silent check
+ok "report/page: types, eslint, prettier"
 expect 0 node build.mjs
 for file in dist/page.html LICENSES.txt; do
   cmp -- "$root/report/page/$file" "$file" ||
@@ -40,6 +41,8 @@ size=$(stat --format=%s dist/page.html)
 ((size <= 760000)) || fail "the page without a run has $size bytes, more than 760000"
 ok "report/page/dist/page.html is what its sources give, $size bytes"
 
+mkdir test
+cp -- "$root"/tests/page/*.mjs test
 cd -- "$work"
 walk=("$root/scenarios/hexapod.yaml" --set duration=4 --set physics.engine=articulated --quiet)
 expect 0 "$program" run "${walk[@]}" --set duration=8 --set 'trace.columns=[joint.*, base.*, com.*, contact.*, body.*]' --out feasible

@@ -73,7 +73,7 @@ expect 0 sweep --out "$work/more" -j 2
 diff <(rows "$work/killed") <(rows "$work/more") || bad "96 runs and then 112 are not 112 at once"
 sed -i 's/high: 1.2/high: 1.3/' "$work/study.yaml"
 expect 2 sweep --out "$work/more"
-said "is of another study"
+said "belongs to another study"
 [[ $(rows "$work/more" | wc -l) == 112 ]] || bad "a study that was refused lost rows"
 sed -i 's/high: 1.3/high: 1.2/' "$work/study.yaml"
 ok "a larger budget goes on, another study is refused"

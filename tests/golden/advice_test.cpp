@@ -1,4 +1,4 @@
-// What is said of bands that are too wide. Whether the advice for columns helps: tests/app/approve_test.cpp.
+// Advice on bands that are too wide. tests/app/approve_test.cpp shows that the advice for columns helps.
 #include "golden/advice.h"
 
 #include <gtest/gtest.h>

@@ -82,7 +82,7 @@ TEST(GoldenCompare, NamesJointsAndNotTheirNumbers) {
   EXPECT_EQ(d.numbers[1].label, "m0/active torque peak");
   run.trace.values[3 * 5 + 2] = kNan;
   EXPECT_EQ(compare(golden, run).findings, Sentences{"m0/passive torque is not finite at t = 0.06 s"});
-  run.trace.columns[2].name = "joint.7.torque";
+  run.trace.columns.change([](auto& columns) { columns[2].name = "joint.7.torque"; });
   d = compare(golden, run);
   EXPECT_EQ(d.findings,
             (Sentences{"1 column only in the golden: m0/passive torque", "1 column only in this run: joint.7.torque"}));
@@ -130,7 +130,7 @@ TEST(GoldenCompare, FormComesFirst) {
   EXPECT_FALSE(d.passed());
 
   run = run_of(golden);
-  run.trace.columns[2].name = "joint.7.torque";
+  run.trace.columns.change([](auto& columns) { columns[2].name = "joint.7.torque"; });
   EXPECT_EQ(compare(golden, run).findings, (Sentences{"1 column only in the golden: joint.1.torque",
                                                       "1 column only in this run: "
                                                       "joint.7.torque"}));

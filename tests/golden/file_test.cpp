@@ -72,7 +72,7 @@ TEST(GoldenFile, RefusesWhatItCannotHold) {
   trace = walk();
   trace.values[5] += 0.001;  // t of the second row
   EXPECT_THROW(pack(trace), std::invalid_argument);
-  trace.columns[0].name = "x";
+  trace.columns.change([](auto& columns) { columns[0].name = "x"; });
   EXPECT_THROW(pack(trace), std::invalid_argument);
   EXPECT_THROW(pack({}), std::invalid_argument);
 }

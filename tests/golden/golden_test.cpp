@@ -192,7 +192,7 @@ class GoldenFolder : public ::testing::Test {
     text.replace(text.find(what), what.size(), by);
     put("golden.json", text);
   }
-  // What reading says, with the folder left out.
+  // Message of reading, without the folder.
   [[nodiscard]] std::string complaint() const {
     std::string text = refusal([&] { (void)read_golden(folder_.path()); });
     const std::string path = folder_.path().string();
@@ -267,7 +267,7 @@ TEST_F(GoldenFolder, ChecksumsThatAreRightOnOtherContent) {
   put_checked(content + ",\n  \"resolved\": [1]");
   EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: an entry is missing or of another type");
   put_checked(content + ",\n  \"resolved\": [\"Kp: 100\"]");
-  EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: its resolved scenario is not the one that was approved");
+  EXPECT_EQ(complaint(), "G/golden.json: error: is corrupt: its resolved scenario differs from the approved one");
 }
 
 TEST_F(GoldenFolder, TheTwoFilesBelongTogether) {

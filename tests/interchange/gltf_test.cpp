@@ -199,9 +199,11 @@ duration: 0.6
   EXPECT_LT(angle(file.pose("ground.boxes[1]", 0).R, rpy({0, 0, 0.5})), kDoubles);
   EXPECT_EQ(file.json()["nodes"][file.node("ground.boxes[0]")]["scale"], (std::vector<double>{0.1, 0.2, 0.1}));
   Recording older = recording;
-  for (Column& column : older.rest.columns) {
-    if (column.name.starts_with("box.")) column.name.insert(0, "lost.");
-  }
+  older.rest.columns.change([](auto& columns) {
+    for (Column& column : columns) {
+      if (column.name.starts_with("box.")) column.name.insert(0, "lost.");
+    }
+  });
   EXPECT_EQ(boxes_without_way(s, older), std::vector<std::size_t>{0});
   EXPECT_LT((exported(s, &older).pose("ground.boxes[0]", times.size() - 1).p - Vec3(0, 0, 0.05)).norm(), kDoubles);
 }

@@ -136,5 +136,26 @@ TEST(Mesh, TilesLieOnTheHeightfieldAndReachOverTheArea) {
   for (const Mesh& one : both_kinds(made)) sums_of(one, 0.5);  // no normal is farther than twice 30 degrees from a triangle's
 }
 
+// 4096 x 4096 heights would be half a gigabyte.
+TEST(Mesh, OfALargeHeightfieldOneHeightOfEveryFewIsDrawn) {
+  Heightfield field{{1, 2, 0}, 0.1, 1101, {}};
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < 1101UL * 900UL; ++i) heights.push_back(1e-3 * static_cast<double>(i % 1101));
+  field.values = std::move(heights);
+  EXPECT_EQ(drawn_stride(field), 2U);
+  const Tiles made = tiles(field, {2, 3, 3, 4});
+  std::set<double> xs;
+  for (const Vec3& p : made.light.places) {
+    EXPECT_EQ(p.z(), field.at(p.x(), p.y()).z);
+    xs.insert(p.x());
+  }
+  EXPECT_NEAR(static_cast<double>(xs.size()), 551, 551 / 10.0) << "and tiles";
+  EXPECT_NEAR(*xs.begin(), 1, kRounding);
+  EXPECT_NEAR(*xs.rbegin(), 111, kRounding);
+  field.columns = 2;  // long, but few
+  field.values = Heights(std::vector<double>(2UL * 600UL));
+  EXPECT_EQ(drawn_stride(field), 1U);
+}
+
 }  // namespace
 }  // namespace gaitlab::interchange

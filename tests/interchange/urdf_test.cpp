@@ -23,7 +23,7 @@ Pose pose(const urdf::Pose& p) {
   return {Quat(r.w, r.x, r.y, r.z).toRotationMatrix(), {p.position.x, p.position.y, p.position.z}};
 }
 
-/// Of a URDF link's frame in the frame of the URDF's root, all joints at 0.
+/// Pose of a URDF link's frame in the frame of the URDF's root, all joints at 0.
 Pose frame(const urdf::Link& link) {
   if (link.parent_joint == nullptr) return {};
   return frame(*link.getParent()) * pose(link.parent_joint->parent_to_joint_origin_transform);

@@ -1,4 +1,4 @@
-// What moves the joints: a motor that spins up an inertia, the PID of the paper as its equations stand, phases that lock.
+// Oracles of the drives: a motor that spins up an inertia, the PID of the paper by its equations, phases that lock.
 #pragma once
 #include <array>
 #include <cmath>

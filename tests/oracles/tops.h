@@ -48,7 +48,7 @@ struct HeavyTop {
   /// Spin (component of the angular velocity along the axis) with which it precesses steadily at rate W, inclined by theta.
   [[nodiscard]] double spin_for(double W, double theta) const { return (A * W * W * std::cos(theta) + mgl) / (C * W); }
 
-  /// How far it nutates, let go at theta with spin w3 and its axis at rest: the angle where it turns back.
+  /// Largest angle of the nutation after a release at theta with spin w3 and the axis at rest.
   [[nodiscard]] double turns_back(double theta, double w3) const {
     const double p = C * C * w3 * w3 / (4 * A * mgl);
     return std::acos(p - std::sqrt(p * p - 2 * p * std::cos(theta) + 1));

@@ -404,7 +404,7 @@ for (const name of ["jointless", "built_ball"]) {
 on("castor: what a joint without a motor does not have, the others do", pages.castor, {}, async (page, meta) => {
   assert.deepEqual(meta.joints.map((j) => j.motor === null), [true, false]);
   for (const id of ["#envelope canvas", "#heat canvas", "#power canvas"]) assert.ok(await page.isVisible(id), id);
-  assert.match(await page.textContent("#heat-note"), /of what the motor can give/);
+  assert.match(await page.textContent("#heat-note"), /of the torque available/);
   assert.ok(await page.evaluate(() => window.gaitlab.page.loads.limited && Math.max(...window.gaitlab.page.loads.share(1)) > 0));
   assert.deepEqual(await page.$$eval("[data-gender]:not([hidden])", (all) => all.map((e) => e.textContent)), ["face without gender"]);
   await page.selectOption("#joint", "0");
@@ -487,7 +487,7 @@ on("robots: a joint that one of them lacks", pages.robots, {}, async (page, meta
 on("strayed: what left its band first, when, how far", pages.strayed, {}, async (page, meta) => {
   const { strays, strayed, labels } = meta.overlay, [first] = strays;
   assert.deepEqual(labels, ["golden", "now"]);
-  assert.equal(await page.textContent("#said"), "It strayed from its golden");
+  assert.equal(await page.textContent("#said"), "The run left the bands of its golden");
   assert.equal(await page.textContent("#why"), `${strayed}.`);
   const { t, joint } = await state(page);
   near(t, first.from, 1e-9, "the first divergence is shown");

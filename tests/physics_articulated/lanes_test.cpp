@@ -115,8 +115,8 @@ TEST_P(Lanes, GiveEveryRolloutTheBitsItHasAlone) {
       for (std::size_t l = 0; l < width; ++l) {
         lanes.push_back(lane(random, first, base, l));
         if (i == 3) {  // grounds of every kind in one pack
-          lanes[l].settings.ground.kind = std::array{Ground::Kind::none, Ground::Kind::boxes, Ground::Kind::plane}[l % 3];
-          lanes[l].settings.ground.boxes = {Box{.center = {0.1, 0, 0}, .size = {0.4, 0.4, 0.02}, .friction = 0.4}};
+          const Boxes box{Box{.center = {0.1, 0, 0}, .size = {0.4, 0.4, 0.02}, .friction = 0.4}};
+          lanes[l].settings.ground.shape = std::array<Ground::Shape, 3>{NoGround{}, box, Plane{}}[l % 3];
         }
         fastest = std::max(fastest, rate(engine(), lanes[l], base));
       }

@@ -1,3 +1,3 @@
-// What a library built for another gaitlab looks like.
+// A library that was built for another version of gaitlab.
 extern "C" const char* gaitlab_abi() { return "gaitlab-0, cc 1, libc 1"; }
 extern "C" void gaitlab_register(void*) {}

@@ -1,4 +1,4 @@
-// Counts what the program takes from the heap.
+// Counter of the program's heap allocations.
 #pragma once
 
 namespace gaitlab::test {

@@ -24,7 +24,7 @@ TEST(Engines, AccelerateAlikeAtRandomStates) {
     settings.robot = std::make_shared<const Robot>(random.robot());
     settings.base = std::array{Base::floating, Base::fixed, Base::planar}[static_cast<std::size_t>(i % 3)];
     settings.gravity = random.vector(10);
-    settings.ground.kind = Ground::Kind::none;
+    settings.ground.shape = NoGround{};
     const RobotState state = random.state(*settings.robot, settings.base);
     std::vector<double> tau;
     for (std::size_t j = 0; j < settings.robot->joints.size(); ++j) tau.push_back(random.uniform(-1, 1));

@@ -1,4 +1,4 @@
-// What a run gave, as a text that shows every bit.
+// Results of a run as a text that shows every bit.
 #pragma once
 #include <fmt/format.h>
 

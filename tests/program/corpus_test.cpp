@@ -1,4 +1,4 @@
-// What the fuzzer found worth keeping, read again: tests/fuzz/corpus/READER/.
+// Inputs that the fuzzer kept, read again: tests/fuzz/corpus/READER/.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Walk, WalkUnder,
                                            "equations", "wave"),
                          [](const auto& param) { return std::string(param.param); });
 
-/// How a run of one module under these equations ends.
+/// Outcome of a run of one module under these equations.
 std::string end_of_run(const std::string& model) {
   const Scenario s =
       scenario("gaitlab: 1\nrobot: {modules: mtran}\nduration: 0.1\ncpg:\n  type: equations\n  model:\n" + model);
@@ -89,7 +89,8 @@ TEST(EquationRuns, ThatLeaveTheNumbersNameJointAndState) {
 }
 
 TEST(EquationRuns, TheFileWithItsEquationsWalksAsTheNativeModel) {
-  const Recording native = run(shipped("caterpillar.yaml", {"duration=1"}));
+  const Recording native =
+      run(shipped("caterpillar.yaml", {"duration=1", "physics.engine=articulated", "physics.accuracy=0.001"}));
   const Recording written = run(shipped("caterpillar-equations.yaml", {"duration=1"}));
   ASSERT_EQ(native.trace.rows(), 201U);
   EXPECT_EQ(native.trace.values, written.trace.values);  // to the bit: the same operations in the same order

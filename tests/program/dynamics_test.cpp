@@ -139,7 +139,7 @@ Acceleration accelerate(const std::string& engine, const std::shared_ptr<const R
   settings.robot = robot;
   settings.base = base;
   settings.gravity = gravity;
-  settings.ground.kind = Ground::Kind::none;
+  settings.ground.shape = NoGround{};
   const std::unique_ptr<Plant> plant = catalog().engine(engine)->make(settings);
   Acceleration out;
   out.joints.resize(tau.size());

@@ -1,5 +1,5 @@
-// What acts while something slips, rolls or hits a stop, in every engine, by what comes out: closed forms, balances, and the
-// engines against each other.
+// Forces during slip, rolling and hits at a stop, in every engine, by their results: closed forms, balances, and the engines
+// against each other.
 #include "tests/program/engines.h"
 
 #include <cmath>

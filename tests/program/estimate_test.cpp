@@ -1,10 +1,13 @@
 // The estimate of the torque error: a twin with commands of its own sees what steps miss, and changes no bit of the run.
+#include <filesystem>
+
 #include "report/analysis/collisions.h"
 #include "report/verdict/spread.h"
 #include "report/verdict/trust.h"
 #include "tests/program/bits.h"
 #include "tests/program/engines.h"
 #include "tests/program/torque_error.h"
+#include "tests/validation.h"
 
 namespace gaitlab::test {
 namespace {
@@ -27,20 +30,56 @@ TEST_P(EstimateOf, ChangesNoBitOfTheRun) {
   EXPECT_EQ(bits(full, "done"), bits(off, "done"));
 }
 
-/// 2.6 % off at the default accuracy; a twin under the run's own commands, in windows, said 0.48.
-TEST(Estimate, TellsWhatTheStepsMissed) {
-  const std::string file = std::string(GAITLAB_SOURCE_DIR) + "/tests/data/events/falling-tree.yaml";
-  const auto made = [&](const std::vector<std::string>& sets) { return read_scenario(file, sets, catalog()); };
+/// A run whose steps miss something at the default accuracy.
+struct Missed {
+  const char* file;
+  std::vector<std::string> sets = {};
+};
+void PrintTo(const Missed& m, std::ostream* out) { *out << m.file; }
+
+class WhatTheStepsMissed : public testing::TestWithParam<Missed> {};
+
+/// The worst with a sure reference of tests/tools/estimate.py, seed 1, and one of 2.6 %, of which a twin under the run's own
+/// commands, in windows, said 0.48. References at 50 and 20 us differ by 1.2 % of a torque's peak at most (tilted-tree).
+TEST_P(WhatTheStepsMissed, IsTold) {
+  const double trace_period = 0.005;
+  const auto made = [&](std::vector<std::string> sets) {
+    sets.insert(sets.end(), GetParam().sets.begin(), GetParam().sets.end());
+    sets.insert(sets.end(), {"physics.engine=articulated", "trace.period=0.005"});
+    return read_scenario(std::string(GAITLAB_SOURCE_DIR) + "/" + GetParam().file, sets, catalog());
+  };
   const Recording truth = run(made({"physics.integrator=extrapolated", "physics.step=5e-5"}));
-  const Scenario s = made({});
+  const Scenario s = made({"physics.integrator=adaptive", "physics.step=auto"});
   const Recording ours = run(s);
   const double error = torque_error(ours, truth);
   const double said = report::torque_error(ours).share;
-  EXPECT_GT(said, error / 2);
-  EXPECT_LT(said, error * 3);
-  EXPECT_GT(ours.tally.event.time, 0);
+  EXPECT_GT(error, 0.02) << "nothing is missed: take a harder case";
+  validate({"limits.estimate", "estimate of the torque error over the error, where steps miss events",
+            "engine articulated at 50 us, order 2", ""},
+           said / error, 1.75, 1.25, "required: 0.5 to 3");
+  // Between the moments at which the error exceeds a third of the accuracy and the whole: an estimate is up to 3 times the
+  // error.
+  const double event = ours.tally.event.time;
+  EXPECT_GE(event, first_error(ours, truth, s.physics.accuracy / 3) - trace_period);
+  EXPECT_LE(event, first_error(ours, truth, s.physics.accuracy) + trace_period);
   EXPECT_TRUE(contains(report::steps_text(s, ours), ", beyond the accuracy first at ")) << report::steps_text(s, ours);
 }
+
+INSTANTIATE_TEST_SUITE_P(Of, WhatTheStepsMissed,
+                         testing::Values(Missed{"tests/data/events/falling-tree.yaml"},
+                                         Missed{"tests/data/events/slow-control-tree.yaml"},
+                                         Missed{"tests/data/events/tilted-tree.yaml"},
+                                         Missed{"tests/data/events/hard-ground-tree.yaml"},
+                                         Missed{"tests/data/events/hard-ground-long-tree.yaml"},
+                                         Missed{"scenarios/rubble.yaml", {"duration=1.5", "contact.stiffness=1e5"}},
+                                         Missed{"scenarios/hexapod.yaml",
+                                                {"duration=2.5", "cpg.frequency=0.7615", "cpg.amplitude=0.5628",
+                                                 "contact.stiffness=3e5", "physics.gravity=[-0.587, 0, -9.7924]"}}),
+                         [](const auto& info) {
+                           std::string name = std::filesystem::path(info.param.file).stem().string();
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 /// On a processor without four lanes the rollouts beside a run are simulations of one lane.
 TEST(Estimate, HasTheSameBitsWithoutLanes) {

@@ -167,7 +167,7 @@ TEST(ForeignRobot, TheExampleInTheManualRuns) {
   EXPECT_EQ(run(two_rods).steps, 2000);
 }
 
-/// What the program says of a robot whose middle body has no mass.
+/// Output for a robot whose middle body has no mass.
 std::string said_of(const std::string& axis, const std::string& angle) {
   const Folder folder;
   folder.write("s.yaml", fmt::format(R"(gaitlab: 1

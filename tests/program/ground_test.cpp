@@ -72,7 +72,7 @@ TEST_P(OnGround, LetsABlockSlideWhereFrictionIsTooSmall) {
            "of the swing normal to it, 0.05 m/s at first, exp(-48 * 0.3) is left: 3e-8 m/s over 0.1 s");
 }
 
-// What floor and wall push adds up as a vector.
+// The forces of floor and wall add up as vectors.
 TEST_P(OnGround, CarriesABallOnAFloorAndAgainstAWall) {
   const Scenario s = scenario(fmt::format(R"(
 gaitlab: 1
@@ -177,14 +177,12 @@ TEST(GroundProperty, ABoxIsTheSameFromEverySide) {
   };
   const auto vector = [&](double size) { return Vec3(number(-size, size), number(-size, size), number(-size, size)); };
   const auto check = [&] {
-    Ground ground;
-    ground.kind = Ground::Kind::boxes;
     Box box;
     box.center = Vec3(0, 0, 20) + vector(5);
     box.size = Vec3(0.5, 0.5, 0.5) + vector(0.45);
     box.rpy = vector(3);
     box.R = rpy(box.rpy);
-    ground.boxes = {box};
+    const Ground ground{.shape = Boxes{box}};
     const Vec3 local = vector(0.8);
     const double radius = number(0, 0.2);
     const Vec3 centre = box.center + box.R * local;
@@ -193,11 +191,12 @@ TEST(GroundProperty, ABoxIsTheSameFromEverySide) {
     RC_ASSERT((touch.point - (centre - radius * touch.normal)).norm() < 1e-12);
     RC_ASSERT(std::abs(touch.penetration - radius - ground.query(centre, 0).penetration) < 1e-12);
     // Mirrored in the box's own planes, and turned with it.
-    Ground other = ground;
-    other.boxes[0].rpy = vector(3);
-    other.boxes[0].R = rpy(other.boxes[0].rpy);
+    Box turned = box;
+    turned.rpy = vector(3);
+    turned.R = rpy(turned.rpy);
+    const Ground other{.shape = Boxes{turned}};
     const Vec3 signs(*rc::gen::element(-1.0, 1.0), *rc::gen::element(-1.0, 1.0), *rc::gen::element(-1.0, 1.0));
-    const Ground::Touch seen = other.query(box.center + other.boxes[0].R * signs.cwiseProduct(local), radius);
+    const Ground::Touch seen = other.query(box.center + turned.R * signs.cwiseProduct(local), radius);
     RC_ASSERT(std::abs(seen.penetration - touch.penetration) < 1e-12);
     // A distance has a slope of 1.
     const Vec3 step = vector(0.01);

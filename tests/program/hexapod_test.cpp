@@ -185,8 +185,8 @@ TEST(Walk, CentralSpineTorqueBalancesWeightsContactsAndInertia) {
     const double torque = w.table(t, "joint.5.torque");
     std::printf("t = %.1f s: joint 5 %.4f N m; weights and contacts %.4f, with inertia %.4f (static alone off by %.1f %%)\n", t,
                 torque, -moment, inertia - moment, 100 * std::abs((torque + moment) / moment));
-    // What is left is the central difference over 2 ms of a motion that a 15 ms loop shakes: 2 % of the joint's peak of 0.4 N
-    // m.
+    // The remainder is the error of a central difference over 2 ms of a motion that a 15 ms loop shakes: 2 % of the joint's
+    // peak of 0.4 N m.
     EXPECT_NEAR(torque, inertia - moment, 0.02 * 0.4) << t;
     // The body falls from its highest point at 0.15 m/s^2: 1.5 % of the weights' and contacts' moments, which nearly cancel.
     EXPECT_NEAR(torque, -moment, 0.15 * std::abs(moment)) << t;

@@ -13,8 +13,10 @@ Ledger ledger(const Scenario& s) { return run(s).ledger; }
 class LedgerOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(LedgerOf, ExplainsTheElectricalEnergy) {
-  const Ledger at_default = ledger(shipped(GetParam(), {kShort, kColumns}));
-  const Ledger halved = ledger(shipped(GetParam(), {kShort, kColumns, "physics.step=1.25e-5"}));
+  Scenario s = shipped(GetParam(), {kShort, kColumns});
+  const Ledger at_default = ledger(s);
+  s.physics.refine(2);
+  const Ledger halved = ledger(s);
   EXPECT_GT(at_default.electrical, 0.5);
   const std::string robot = std::string(GetParam()).substr(0, std::string(GetParam()).find('.'));
   validate_below(

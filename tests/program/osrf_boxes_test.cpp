@@ -92,7 +92,7 @@ constexpr std::array<Errors, 10> kOdeComplex{{{0.0049, 1.14738e-10, 0.0012715, 0
 const std::string kSource = "github.com/scpeters/benchmark, BENCHMARK_boxes_dt.csv: least of ODE, Bullet, Simbody, DART";
 
 void no_worse(const std::string& scene, int tenths, const Errors& best) {
-  // Of all entries the one that is missed: kThreeTenths.
+  // The only entry of the table that is missed: kThreeTenths.
   const bool missed = scene == "simple" && tenths == 3;
   const Errors ours = errors(scene, "rk4", tenths * 1e-4);
   const std::string id = "published.osrf_boxes." + scene + ".";
@@ -114,7 +114,7 @@ TEST(OsrfBoxes, RungeKuttaIsNoWorseThanTheBestOnTheSimpleThrow) {
   for (int tenths = 1; tenths <= 10; ++tenths) no_worse("simple", tenths, kBestSimple[static_cast<std::size_t>(tenths - 1)]);
 }
 
-/// What x += h v, added up 33,334 times in doubles, gives: the velocity is constant, so all of it is rounding.
+/// Error of x += h v after 33,334 additions in doubles: the velocity is constant, so that all of it is rounding.
 TEST(OsrfBoxes, RungeKuttaErrsAsThreeOfFourOnTheSimpleThrowAtThreeTenths) {
   validate_below({"published.osrf_boxes.simple.position_0.3_ms",
                   "thrown box of 10 kg, rk4, 0.3 ms, 10 s: worst error of position; Simbody's, the best, is 2.22e-12",

@@ -96,7 +96,7 @@ TEST_P(PassiveHinges, DryFrictionHoldsButForACreep) {
   const Recording record = run(rod.read());
   const double tau = kWeight * std::sin(end(record, "joint.0.angle"));
   ASSERT_LT(tau, 5);
-  // What moves changes tau by 5e-4 of it a second, and what follows lags by I w_s / F: 1e-7 of the speed.
+  // The moving part changes tau by 5e-4 of it a second, and the following part lags by I w_s / F: 1e-7 of the speed.
   EXPECT_NEAR(end(record, "joint.0.speed"), -0.001 * std::atanh(tau / 5), 1e-6 * 0.001);
   EXPECT_NEAR(end(record, "joint.0.passive_torque"), tau, 1e-5);
 }
@@ -116,7 +116,7 @@ TEST_P(PassiveHinges, TheLedgerKnowsSpringDamperAndFriction) {
   EXPECT_NEAR(fine.residual() / coarse.ledger.residual(), 0.5, 0.1) << "first order";
   EXPECT_EQ(fine.stops, 0);
   EXPECT_EQ(end(coarse, "energy.hinges"), coarse.ledger.hinges);
-  // What a spring holds is stored: without gravity, damper and friction nothing else happens.
+  // The work of a spring is stored: without gravity, damper and friction there is no other term.
   Rod alone{GetParam(), "stiffness: 2, rest: 0.3"};
   alone.gravity = "[0, 0, 0]";
   alone.angle = "1.2";
@@ -254,7 +254,7 @@ TEST(PassiveHinge, HasNoMotorAmongOthersThatHave) {
   EXPECT_GT(r.joints[2].torque_peak, 0);
   // The last hinge follows the first one, which is before it among those with motors.
   EXPECT_NEAR(end(r, "cpg.phi.2") - end(r, "cpg.phi.0"), 1, 1e-9);
-  // What the parent exerts along the axis is the damper's torque.
+  // The parent's torque along the axis is the damper's.
   EXPECT_NEAR(end(r, "reaction.1.my"), end(r, "joint.1.passive_torque"), 1e-9);
   EXPECT_NEAR(end(r, "joint.1.passive_torque"), -0.01 * end(r, "joint.1.speed"), 1e-15);
 }

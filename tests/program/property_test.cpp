@@ -1,5 +1,5 @@
-// What holds for every robot, on random assemblies of 1 to 30 modules, the shipped type and types made up here: laws of
-// mechanics and symmetries, none of which knows how the accelerations were found. They come from engine `bullet`.
+// Properties of every robot, on random assemblies of 1 to 30 modules of the shipped type and of types made up here: laws of
+// mechanics and symmetries, which are independent of the algorithm for the accelerations. They come from engine `bullet`.
 #include <rapidcheck.h>
 
 #include <cstdlib>
@@ -26,7 +26,7 @@ struct Acted {
     settings.robot = robot;
     settings.base = base;
     settings.gravity = gravity;
-    settings.ground.kind = Ground::Kind::none;
+    settings.ground.shape = NoGround{};
     Acceleration a;
     a.joints.resize(robot->joints.size());
     catalog().engine("bullet")->make(settings)->accelerate(0, state, torque, wrenches, a);
@@ -155,7 +155,7 @@ TEST(Property, ForwardOfInverseIsTheIdentity) {
     InverseDynamics inverse(*c.robot);
     inverse.update(k, wanted, c.gravity, c.wrenches);
     c.torque.assign(inverse.torques().begin(), inverse.torques().end());
-    // What holds the base acts on the body that carries it.
+    // The force that holds the base acts on the body that contains it.
     const std::size_t root = c.robot->modules[0].reference;
     c.wrenches.push_back({root, c.state.position, inverse.base().force, inverse.base().moment});
     return difference(wanted, c.accelerate());
@@ -229,7 +229,8 @@ Robot rerooted(const Robot& robot, std::size_t root, const std::vector<std::size
   for (std::size_t m = 1; m < robot.modules.size(); ++m) {
     Dock d = robot.modules[m].dock;
     if (turned[m]) {
-      // The child turns by o about its own outward normal; seen from it, the parent turns by o about the opposite one: its own.
+      // The child turns by o about its outward normal. Seen from the child, the parent turns by o about the opposite direction,
+      // which is the outward normal of the parent.
       std::swap(d.child_face, d.parent_face);
       std::swap(d.child_module, d.parent_module);
     }

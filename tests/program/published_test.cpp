@@ -123,7 +123,7 @@ TEST(Published, ChronoRevoluteAgainstAdams) {
     double t;
     Vec3 position, spin, force, moment;  // of the COM; of the joint on the ground
   };
-  // Of the files' 501 rows each; 1e-14 and less is 0.
+  // Error over the files' 501 rows each; 1e-14 and less is 0.
   const std::array<std::vector<Sample>, 2> adams{{
       {{0.5, {1.660810, 0, -1.114320}, {0, 2.308810, 0}, {13.27970, 0, -9.149250}, {0, 0, 0}},
        {1, {-0.8923810, 0, -1.789880}, {0, 2.926140, 0}, {-11.46120, 0, -23.22730}, {0, 0, 0}},

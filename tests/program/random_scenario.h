@@ -20,7 +20,7 @@ inline Scenario random_scenario(RandomRobots& random, Base base, double still = 
   s.file = s.name = "random";
   s.base = base;
   s.robot = std::make_shared<const Robot>(std::move(robot));
-  s.ground.kind = Ground::Kind::none;
+  s.ground.shape = NoGround{};
   s.contact.on = ContactSet::none;
   s.on_ground = false;
   s.position = state.position;
@@ -65,9 +65,10 @@ inline Scenario random_run(RandomRobots& random, Base base, int ticks, double sh
   s.contact.on = ContactSet::all;
   s.contact.penalty = random.contact();
   if (base != Base::fixed) s.initial.base_velocity.z() = -random.uniform(0.1, 0.5);
-  s.ground.kind = random.below(2) == 0 ? Ground::Kind::plane : Ground::Kind::boxes;
+  const bool with_boxes = random.below(2) != 0;
   s.ground.friction = random.friction();
-  for (int i = 0; s.ground.kind == Ground::Kind::boxes && i < 5; ++i) {
+  std::vector<Box> boxes;
+  for (int i = 0; with_boxes && i < 5; ++i) {
     Box box;
     box.center = s.position + random.vector(0.3);
     box.center.z() = random.uniform(0, 0.05);
@@ -75,8 +76,9 @@ inline Scenario random_run(RandomRobots& random, Base base, int ticks, double sh
     box.rpy = random.vector(0.2);
     box.R = rpy(box.rpy);
     box.friction = random.friction();
-    s.ground.boxes.push_back(box);
+    boxes.push_back(box);
   }
+  if (with_boxes) s.ground.shape = Boxes(std::move(boxes));
   s.on_ground = true;
   s.position = start_state(s).position;
   s.on_ground = false;

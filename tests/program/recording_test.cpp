@@ -6,6 +6,7 @@
 #include "core/recording/recording_file.h"
 #include "core/recording/run_files.h"
 #include "core/scenario/resolved.h"
+#include "core/simulation/probes.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -132,7 +133,7 @@ TEST(Ticks, AreAtLeastTwoMillisecondsApart) {
   EXPECT_NEAR(r.ticks.at(1, 0), 2e-3, 1e-12);
 }
 
-/// What a CSV file does not say of its columns is known by their names.
+/// Units and definitions, which a CSV file lacks, follow from the names of its columns.
 TEST(Columns, KnownByNameAreThoseOfARun) {
   for (const char* name : {"hexapod.yaml", "rubble.yaml", "pendulum.yaml"}) {
     const Scenario s = shipped(name, {"duration=0.01", "physics.engine=articulated", "trace.columns=[\"*\"]"});
@@ -224,7 +225,7 @@ TEST(Recordings, ThatDoNotFitTogetherAreRefused) {
   beside[0].table.values.resize(beside[0].table.columns.size());
   EXPECT_EQ(complaint(beside), file + ": error: is corrupt: 1 rows in /recording/rest, 11 in the trace");
   beside = good.beside;
-  table("joints").columns[0].name = "torque";
+  table("joints").columns.change([](auto& columns) { columns[0].name = "torque"; });
   EXPECT_EQ(complaint(beside), file + ": error: is corrupt: there is no number torque_peak");
   beside = good.beside;
   Trace& numbers = table("run");
@@ -325,7 +326,7 @@ TEST(Recordings, OfAnotherRobotAreRefused) {
   EXPECT_EQ(complaint(forged, "hexapod.yaml"),
             ".: error: its recording does not fit its scenario: stability.index is beyond its joints and contacts" + kRemedy);
   forged = walked;
-  forged.trace.columns[forged.trace.find("base.x")].name = "base.u";
+  forged.trace.columns.change([&](auto& columns) { columns[forged.trace.find("base.x")].name = "base.u"; });
   EXPECT_EQ(complaint(forged, "hexapod.yaml"),
             ".: error: its recording does not fit its scenario: columns that every recording has are not there" + kRemedy);
 }

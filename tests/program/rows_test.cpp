@@ -44,7 +44,7 @@ std::vector<double> row(const Recording& r, std::size_t k) {
   return all;
 }
 
-/// How many rows of two runs are of one time, exactly or but for rounding; those must be the same bits.
+/// Number of rows of two runs at equal times, exactly or up to rounding; these must have the same bits.
 int same_rows(const Recording& a, const Recording& b) {
   int same = 0;
   const std::vector<double> ta = times(a.trace);
@@ -191,7 +191,7 @@ TEST(Rows, AreTheSameBesideOthers) {
   }
 }
 
-/// What a run that ends early reports is as of its end, not of its last row.
+/// The report of a run that ends early is that of its end, not of its last row.
 TEST(Rows, ChangeNothingOfARunThatDiverges) {
   std::vector<std::string> ends;
   for (const char* period : {"1e-3", "5e-3", "0.0113", "1"}) {

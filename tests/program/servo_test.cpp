@@ -153,7 +153,7 @@ TEST(Servo, DefaultLimitsFollowTheVoltage) {
   EXPECT_NEAR(limits(kAx12, {"actuator.u_max=5"}).second, 5, 1e-14);
 }
 
-/// Of a module type with two hinges, what holds with what the scenario says instead.
+/// Limits of a module type with two hinges under other settings of the scenario.
 class ServoModule : public testing::Test {
  protected:
   static std::vector<DcMotor> motors(const std::string& servo, const std::string& of_second,
@@ -190,7 +190,7 @@ TEST_F(ServoModule, DefaultLimitsFollowWhereHingesHaveOthers) {
   const double rounding = 3 * 4 * std::numeric_limits<double>::epsilon();  // of u / (V / I0), two operations
   for (const DcMotor& m : motors(small, "stall_torque: 1", {"actuator.stall_current=3"})) EXPECT_NEAR(m.i_max, 3, rounding);
   for (const DcMotor& m : motors(small, "stall_torque: 1", {"actuator.voltage=12"})) EXPECT_EQ(m.u_max, 12);
-  // What one hinge states holds there, and there alone.
+  // A setting of one hinge applies to this hinge alone.
   const std::vector<DcMotor> one = motors(small, "i_max: 0.4", {"actuator.stall_current=3"});
   EXPECT_NEAR(one[0].i_max, 3, rounding);
   EXPECT_EQ(one[1].i_max, 0.4);
@@ -270,7 +270,7 @@ TEST(Servo, TooLargeAGainIsTold) {
   EXPECT_TRUE(told("26").empty());
 }
 
-/// What a module type states is its source's, also of limits that follow from it.
+/// Ratings of a module type are attributed to its source, and so are limits that follow from them.
 TEST(Servo, SourcesAreOfWhatTheModuleTypeStates) {
   const Folder folder;
   std::string type = read(kScenarios + "modules/mtran.yaml");

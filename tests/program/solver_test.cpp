@@ -298,8 +298,9 @@ TEST(Solver, RefusesWhatItCannotDo) {
             std::string::npos);
   EXPECT_NE(reading({"physics.integrator=rk4"}).find("takes steps of its own; expected semi_implicit"), std::string::npos);
   EXPECT_NE(reading({"actuator.rotor_inertia=1e-8"}).find("cannot add rotor inertia"), std::string::npos);
-  EXPECT_NE(reading({"ground.type=heightfield", "ground.heightfield.values=[[0, 0], [0, 0]]"}).find("knows no heightfield"),
-            std::string::npos);
+  EXPECT_NE(
+      reading({"ground.type=heightfield", "ground.heightfield.values=[[0, 0], [0, 0]]"}).find("does not support a heightfield"),
+      std::string::npos);
   EXPECT_NE(reading({"contact.stiffness=1e5"}).find("unknown key 'stiffness'"), std::string::npos);
   const Scenario reactions = shipped("hexapod.yaml", {"contact.law=bullet", "trace.columns=[reaction.*]"});
   EXPECT_NE(refusal([&] { Simulation({&reactions, 1}); }).find("remove the columns reaction.*"), std::string::npos);

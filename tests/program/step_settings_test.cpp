@@ -1,4 +1,4 @@
-// What may be asked of the steps: physics.step, integrator and accuracy, as read, printed and halved.
+// Settings of the steps: physics.step, integrator and accuracy, as read, printed and halved.
 #include <regex>
 
 #include "core/recording/convergence.h"
@@ -13,7 +13,7 @@ const std::string kHead = "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4,
 
 Physics physics(const std::string& keys) { return scenario(kHead + "physics: {" + keys + "}\n").physics; }
 
-/// Of `gaitlab check`.
+/// Output of `gaitlab check`.
 std::string error(const std::string& keys, const std::string& more = "") {
   const Folder folder;
   std::filesystem::create_directory_symlink(kScenarios + "modules", folder / "modules");
@@ -73,7 +73,7 @@ TEST(StepSettings, AStepIsAWholeShareOfTheControlPeriod) {
 
 TEST(StepSettings, AutoIsRefusedWhereNothingChoosesSteps) {
   EXPECT_EQ(
-      error("engine: bullet, step: auto"),
+      error("engine: bullet, step: auto", "contact: {law: bullet, on: all}\n"),
       "s.yaml:4:33: error: integrator 'semi_implicit' of engine 'bullet' chooses no steps; expected a number of seconds, or "
       "engine: articulated, integrator: adaptive\n");
   for (const char* integrator : {"implicit", "extrapolated", "rk4"}) {
@@ -87,6 +87,41 @@ TEST(StepSettings, AutoIsRefusedWhereNothingChoosesSteps) {
   EXPECT_EQ(error("engine: articulated, step: often"),
             "s.yaml:4:38: error: step is 'often'; expected a number in s, or auto\n");
   EXPECT_EQ(error("engine: articulated, step: 0"), "s.yaml:4:38: error: step is 0 s; allowed are 1e-09 to 1 s\n");
+}
+
+double h_lambda(const Scenario& s) { return s.physics.step * Simulation({&s, 1}).standing().rate; }
+
+/// Up to 5e-5 s, h lambda at most 0.8, of contacts 0.45; the next step of the series would be beyond.
+TEST(StepSettings, BulletChoosesTheLongestStepThatIsStable) {
+  const Scenario caterpillar = shipped("caterpillar.yaml");
+  EXPECT_EQ(caterpillar.physics.step, 5e-5);
+  EXPECT_LT(h_lambda(caterpillar), 0.8) << "its motors set it";
+  const Scenario hexapod = shipped("hexapod.yaml");
+  EXPECT_EQ(hexapod.physics.step, 2.5e-5);
+  EXPECT_LT(h_lambda(hexapod), 0.45) << "its feet set it";
+  EXPECT_GT(2 * h_lambda(hexapod), 0.45);
+  const Scenario stiff = shipped("caterpillar.yaml", {"actuator.gear=3000"});
+  EXPECT_LT(stiff.physics.step, 1e-5) << "was refused, with a step to write";
+  EXPECT_LE(h_lambda(stiff), 0.8);
+  EXPECT_GT(2.5 * h_lambda(stiff), 0.8);
+  EXPECT_EQ(shipped("caterpillar.yaml", {"physics.step=auto"}).physics.step, 5e-5);
+  EXPECT_EQ(shipped("caterpillar.yaml", {"physics.step=2.5e-5"}).physics.step, 2.5e-5);
+  EXPECT_EQ(shipped("pendulum.yaml", {"physics.engine=bullet", "physics.step=auto"}).physics.step, 5e-5) << "nothing limits it";
+}
+
+TEST(StepSettings, AStepThatBulletChoosesDividesThePeriods) {
+  EXPECT_EQ(shipped("caterpillar.yaml", {"trace.period=0.00499"}).physics.step, 1e-5);
+  EXPECT_EQ(shipped("caterpillar.yaml", {"trace.period=2e-5"}).physics.step, 2e-5);
+  EXPECT_EQ(error("engine: bullet", "trace: {period: 0.0049999999}\n").substr(0, 23), "s.yaml:5:17: error: tra");
+}
+
+/// As `sweep` makes the scenarios of its points.
+TEST(StepSettings, AStepThatBulletChoosesFollowsWhatIsSet) {
+  const ScenarioTemplate caterpillar(kScenarios + "caterpillar.yaml", {}, catalog());
+  EXPECT_EQ(caterpillar.with({"cpg.amplitude=0.3"}).physics.step, 5e-5);
+  EXPECT_EQ(caterpillar.with({"actuator.gear=3000"}).physics.step,
+            shipped("caterpillar.yaml", {"actuator.gear=3000"}).physics.step);
+  EXPECT_EQ(caterpillar.with({"trace.period=2e-5"}).physics.step, 2e-5);
 }
 
 TEST(StepSettings, AccuracyIsANumberWithinItsRange) {
@@ -147,7 +182,7 @@ TEST(StepSettings, RefiningDividesWhatChoosesTheSteps) {
 }
 
 struct Converge : testing::Test {
-  /// What `gaitlab converge` prints.
+  /// Output of `gaitlab converge`.
   [[nodiscard]] std::string of(const std::string& arguments) const {
     const Result r = gaitlab("converge " + arguments + " --quiet -j 2", folder / "");
     EXPECT_EQ(r.code, 0) << r.err;

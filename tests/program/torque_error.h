@@ -1,4 +1,4 @@
-// How far the torques of one run are from another's.
+// Torque error of one run against another.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -10,23 +10,43 @@
 
 namespace gaitlab::test {
 
+/// Largest torque of each joint, at least 2 % of the largest of all, N m.
+inline std::vector<double> torque_peaks(const Recording& record) {
+  std::vector<double> peaks(record.joints.size());
+  for (std::size_t j = 0; j < peaks.size(); ++j) {
+    const Series torque = record.joint(j, "torque");
+    for (std::size_t row = 0; row < torque.size(); ++row) peaks[j] = std::max(peaks[j], std::abs(torque[row]));
+  }
+  const double largest = *std::max_element(peaks.begin(), peaks.end());
+  for (double& peak : peaks) peak = std::max(peak, 0.02 * largest);
+  return peaks;
+}
+
 /// RMS over the rows over the joint's peak, which counts as at least 2 % of the largest of all; of the worst joint.
 inline double torque_error(const Recording& measured, const Recording& truth) {
-  const std::size_t joints = truth.joints.size();
   EXPECT_EQ(measured.rows(), truth.rows());
-  std::vector<double> peak(joints), square(joints);
-  for (std::size_t j = 0; j < joints; ++j) {
+  const std::vector<double> peaks = torque_peaks(truth);
+  double worst = 0;
+  for (std::size_t j = 0; j < peaks.size(); ++j) {
     const Series one = measured.joint(j, "torque");
     const Series other = truth.joint(j, "torque");
-    for (std::size_t row = 0; row < other.size(); ++row) {
-      peak[j] = std::max(peak[j], std::abs(other[row]));
-      square[j] += std::pow(one[row] - other[row], 2) / static_cast<double>(truth.rows());
+    double square = 0;
+    for (std::size_t row = 0; row < other.size(); ++row) square += std::pow(one[row] - other[row], 2);
+    worst = std::max(worst, std::sqrt(square / static_cast<double>(truth.rows())) / peaks[j]);
+  }
+  return worst;
+}
+
+/// Time of the first row in which a torque is off by more than this share of its peak, s; -1: none.
+inline double first_error(const Recording& measured, const Recording& truth, double share) {
+  const std::vector<double> peaks = torque_peaks(truth);
+  for (std::size_t row = 0; row < truth.rows(); ++row) {
+    for (std::size_t j = 0; j < peaks.size(); ++j) {
+      if (std::abs(measured.joint(j, "torque")[row] - truth.joint(j, "torque")[row]) > share * peaks[j])
+        return truth.series("t")[row];
     }
   }
-  const double largest = *std::max_element(peak.begin(), peak.end());
-  double worst = 0;
-  for (std::size_t j = 0; j < joints; ++j) worst = std::max(worst, std::sqrt(square[j]) / std::max(peak[j], 0.02 * largest));
-  return worst;
+  return -1;
 }
 
 }  // namespace gaitlab::test

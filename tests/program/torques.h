@@ -1,4 +1,4 @@
-// How far the torques of two runs are apart.
+// Difference between the torques of two runs.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -64,7 +64,7 @@ TEST(Versus, ARobotThatFallsThroughTheGroundIsLeftOut) {
   Engine falling = *with_mujoco().engine("mujoco");
   falling.make = [](const PlantSettings& s) -> std::unique_ptr<Plant> {
     PlantSettings without = s;
-    without.ground.kind = Ground::Kind::none;
+    without.ground.shape = NoGround{};
     return with_mujoco().engine("mujoco")->make(without);
   };
   catalog.add(falling);

@@ -45,7 +45,7 @@ defect "hinge stop: damping drives" core/laws/hinge_stop.h 's/excess - kDamping 
 defect "fusion: parallel axes forgotten" core/model/assembly.cpp 's/t\.mass \* \(d\.squaredNorm/0 * (d.squaredNorm/'
 defect "docking turns the other way" core/model/assembly.cpp 's/kQuarter\[static_cast<std::size_t>\(orientation\)\]/kQuarter[static_cast<std::size_t>((4 - orientation) % 4)]/'
 defect "PID: the derivative forgets" controllers/pid.cpp 's/\(kd \* derivative \+ kd \* n/(kd * n/'
-defect "Runge-Kutta: equal weights" core/simulation/integrator.h 's/kWeight\{1\.0 \/ 6, 1\.0 \/ 3, 1\.0 \/ 3, 1\.0 \/ 6\}/kWeight{0.25, 0.25, 0.25, 0.25}/'
+defect "Runge-Kutta: equal weights" core/math/runge_kutta.h 's/kWeight\{1\.0 \/ 6, 1\.0 \/ 3, 1\.0 \/ 3, 1\.0 \/ 6\}/kWeight{0.25, 0.25, 0.25, 0.25}/'
 defect "no gravity on one link" physics_bullet/multibody.cpp 's/robot_\.links\[i\]\.mass \* gravity/(i == 1 ? 0.0 : robot_.links[i].mass) * gravity/'
 defect "efficiency twice" core/laws/dc_motor.h 's/torque = share\.eta \* Kt/torque = share.eta * share.eta * Kt/'
 defect "anti-windup looks at this tick's error" controllers/pid.cpp 's/last_error \* last_command > 0/error * last_command > 0/'

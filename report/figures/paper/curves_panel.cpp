@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/model/pattern.h"
 #include "core/scenario/sections.h"
@@ -16,8 +17,9 @@ namespace {
 constexpr double kCurvesHeight = 45;  // mm
 constexpr double kTitleAway = 8;      // px, between tick labels and the title of the axis
 constexpr double kAscent = 10;        // px, of 13 px text
+constexpr std::string_view kStanceFill = "#E4E4E4";
 
-/// A column of a recording, with what it is of.
+/// A column of a recording, with its quantity and joint.
 struct FoundColumn {
   std::string name, alias;      ///< joint.7.torque, joint.m3/passive.torque
   std::string quantity, joint;  ///< torque, m3/passive; com.x and nothing
@@ -76,37 +78,29 @@ class CurvesOfPanel final : public PaperPanel {
   }
 
   [[nodiscard]] Margins margins() const override {
-    const auto margin = [](const Ticks& ticks, const std::string& title) {
-      return 8 + label_width(ticks) + (title.empty() ? 0 : kTitleAway + kAscent + 2);
-    };
-    const double half_label = 0.5 * paper_width(time().label(time().values().back()), 13) + 1;
-    return {margin(ticks_.a, title(Side::left)),
-            has(Side::right) ? margin(ticks_.b, title(Side::right)) + 2 : std::max(8.0, half_label)};
+    const double half_label = 0.5 * regular_width(time_axis(from_, to_).ticks.marks.back().text, kPrint.text) + 1;
+    const double left = beside(Side::left) + (title(Side::left).empty() ? 0 : kTitleAway + kAscent + 2);
+    const double right = beside(Side::right) + (title(Side::right).empty() ? 0 : kTitleAway + kAscent + 2) + 2;
+    return {left, has(Side::right) ? right : std::max(8.0, half_label)};
   }
-  [[nodiscard]] double head(const Edges& edges) const override {
-    const std::vector<LegendEntry> entries = legend();
-    return entries.empty() ? 8 : draw_legend(nullptr, entries, edges.left, edges.right, 13, kPrintLegend) + 11;
-  }
+  [[nodiscard]] double head(const Edges& edges) const override { return legend_head(legend(), edges); }
   [[nodiscard]] double body(const Edges&) const override { return height_; }
 
   void draw(Canvas& canvas, const PlotArea& area) const override {
-    const Scale x{from_, to_, area.left, area.right};
-    for (const Stance& stance : stances_) {
-      const double begin = x(std::max(stance.from, from_));
-      const double end = x(std::min(stance.to, to_));
-      if (end > begin) canvas.rectangle({begin, area.top}, end - begin, area.bottom - area.top, {.fill = kStanceFill});
+    const auto side_axis = [&](Side side) -> Axis {
+      const double away = beside(side) + kTitleAway + (side == Side::left ? 0 : kAscent);
+      return {.ticks = side == Side::left ? ticks_.a : ticks_.b, .title = title(side), .away = away};
+    };
+    Plot plot(canvas, area, time_axis(from_, to_), has(Side::left) ? side_axis(Side::left) : Axis{}, kPrint);
+    if (has(Side::right)) {
+      Axis right = side_axis(Side::right);
+      if (has(Side::left)) right.lines = TickLines::outside;
+      plot.right_axis(std::move(right));
     }
-    const Ticks& main = has(Side::left) ? ticks_.a : ticks_.b;
-    Panel panel(canvas, area, time(), has(Side::left) ? main : Ticks{main.lo, main.hi, 10 * (main.hi - main.lo)}, kPrint);
-    if (has(Side::right)) panel.right_axis(ticks_.b);
-    for (const PaperCurve& curve : curves_) panel.curve(curve.time, curve.values, curve.style, curve.side);
-    panel.time_axis();
-    for (const Side side : {Side::left, Side::right}) {
-      const double labels = 8 + label_width(side == Side::left ? ticks_.a : ticks_.b) + kTitleAway;
-      if (has(side)) panel.side_title(title(side), side, side == Side::left ? labels : labels + kAscent);
-    }
-    const std::vector<LegendEntry> entries = legend();
-    draw_legend(&canvas, entries, area.left, area.right, area.top - head({area.left, area.right}) + 13, kPrintLegend);
+    for (const Stance& stance : stances_) plot.band(stance.from, stance.to, kStanceFill);
+    plot.draw_axes();
+    for (const PaperCurve& curve : curves_) plot.curve(curve.time, curve.values, curve.style, curve.side);
+    draw_legend_above(canvas, legend(), area);
   }
 
   [[nodiscard]] Trace data() const override {
@@ -125,15 +119,12 @@ class CurvesOfPanel final : public PaperPanel {
   }
 
  private:
-  static constexpr std::string_view kStanceFill = "#E4E4E4";
-
+  /// Adds the curves of an axis.
   void find(const PanelSource& source, const std::vector<const PaperRun*>& runs, const AxisRecipe& axis, Side side,
             const std::string& key) {
     const std::size_t first = curves_.size();
     for (const PaperRun* run : runs) {
       const std::vector<FoundColumn> all = columns_of(*run);
-      const std::vector<double> time = row_times(run->recording);
-      const Rows rows = rows_within(time, from_, to_);
       for (std::size_t k = 0; k < axis.columns.size(); ++k) {
         const std::string& pattern = axis.columns[k];
         bool any = false;
@@ -141,27 +132,12 @@ class CurvesOfPanel final : public PaperPanel {
           if (!glob(pattern, column.name) && !glob(pattern, column.alias)) continue;
           any = true;
           const auto same = [&](const PaperCurve& c) { return c.run == run && c.side == side && c.column.name == column.name; };
-          if (std::ranges::any_of(curves_, same)) continue;
-          PaperCurve curve{run, column, side};
-          const Series series = run->recording.series(column.name);
-          for (std::size_t row = rows.first; row < rows.last && row < series.size(); ++row) {
-            curve.time.push_back(time[row]);
-            curve.values.push_back(series[row]);
-          }
-          curves_.push_back(std::move(curve));
+          if (std::ranges::none_of(curves_, same)) curves_.push_back(curve_of(*run, column, side));
         }
         if (!any) refuse(source, *run, all, pattern, {key, "columns", std::to_string(k)});
       }
     }
-    for (std::size_t k = first + 1; k < curves_.size(); ++k) {
-      const FoundColumn& a = curves_[first].column;
-      const FoundColumn& b = curves_[k].column;
-      if (a.unit == b.unit) continue;
-      source.problem({key, "columns"},
-                     fmt::format("{} is in {}, {} in {}: an axis has one unit; draw one of them on the other axis", a.name,
-                                 a.unit.empty() ? "no unit" : a.unit, b.name, b.unit.empty() ? "no unit" : b.unit));
-      break;
-    }
+    check_units(source, first, key);
     if (!axis.names.empty() && axis.names.size() != curves_.size() - first) {
       source.problem(
           {key, "names"},
@@ -170,6 +146,30 @@ class CurvesOfPanel final : public PaperPanel {
       return;
     }
     for (std::size_t k = 0; k < axis.names.size(); ++k) curves_[first + k].name = axis.names[k];
+  }
+
+  [[nodiscard]] PaperCurve curve_of(const PaperRun& run, const FoundColumn& column, Side side) const {
+    PaperCurve curve{&run, column, side};
+    const std::vector<double> time = row_times(run.recording);
+    const Rows rows = rows_within(time, from_, to_);
+    const Series series = run.recording.series(column.name);
+    for (std::size_t row = rows.first; row < rows.last && row < series.size(); ++row) {
+      curve.time.push_back(time[row]);
+      curve.values.push_back(series[row]);
+    }
+    return curve;
+  }
+
+  void check_units(const PanelSource& source, std::size_t first, const std::string& key) const {
+    for (std::size_t k = first + 1; k < curves_.size(); ++k) {
+      const FoundColumn& a = curves_[first].column;
+      const FoundColumn& b = curves_[k].column;
+      if (a.unit == b.unit) continue;
+      source.problem({key, "columns"},
+                     fmt::format("{} is in {}, {} in {}: an axis has one unit; draw one of them on the other axis", a.name,
+                                 a.unit.empty() ? "no unit" : a.unit, b.name, b.unit.empty() ? "no unit" : b.unit));
+      return;
+    }
   }
 
   static void refuse(const PanelSource& source, const PaperRun& run, const std::vector<FoundColumn>& all,
@@ -202,14 +202,14 @@ class CurvesOfPanel final : public PaperPanel {
     const std::size_t number = static_cast<std::size_t>(leg - names.begin());
     if (const std::string lacks = lacking_load(run.scenario, run.recording, {legs[number]}); !lacks.empty()) {
       source.problem({"stance"},
-                     fmt::format("run {} has no column {}, by which a leg is known to stand", in_quotes(run.name), lacks));
+                     fmt::format("run {} lacks column {}, which shows the stance of a leg", in_quotes(run.name), lacks));
       return;
     }
     const std::vector<double> time = row_times(run.recording);
     stances_ = footfalls(run.scenario, run.recording, {legs[number]}, time, 0).front().stances;
   }
 
-  /// What distinguishes the curves: run, joint, quantity.
+  /// Names the curves by the parts in which they differ: run, joint, quantity.
   void name_curves() {
     const auto differs = [&](const auto& part) {
       return std::ranges::any_of(curves_, [&](const PaperCurve& c) { return part(c) != part(curves_.front()); });
@@ -250,14 +250,14 @@ class CurvesOfPanel final : public PaperPanel {
       if (!range.empty()) ticks = ticks_within(range[0], range[1], 5);
     };
     const bool both = has(Side::left) && has(Side::right) && panel_.left.range.empty() && panel_.right.range.empty();
-    ticks_ = both ? twin_ticks(a.lo, a.hi, b.lo, b.hi) : TwinTicks{a.ticks(5), b.ticks(5)};
+    ticks_ = both ? twin_ticks(a.lo, a.hi, b.lo, b.hi) : TwinTicks{ticks_around(a, 5), ticks_around(b, 5)};
     given(panel_.left.range, ticks_.a);
     given(panel_.right.range, ticks_.b);
   }
 
-  [[nodiscard]] Ticks time() const { return time_ticks(from_, to_); }
+  [[nodiscard]] double beside(Side side) const { return texts_beside(side == Side::left ? ticks_.a : ticks_.b); }
 
-  /// Of an axis: the quantities where there are one or two, and the unit.
+  /// Title of an axis: its quantities if there are one or two, and the unit.
   [[nodiscard]] std::string title(Side side) const {
     const AxisRecipe& axis = side == Side::left ? panel_.left : panel_.right;
     if (!axis.label.empty() || !has(side)) return axis.label;
@@ -275,9 +275,10 @@ class CurvesOfPanel final : public PaperPanel {
   [[nodiscard]] std::vector<LegendEntry> legend() const {
     std::vector<LegendEntry> entries;
     if (curves_.size() > 1) {
-      for (const PaperCurve& curve : curves_) entries.push_back({curve.name, curve.style});
+      for (const PaperCurve& curve : curves_) entries.push_back(line_entry(curve.name, curve.style, kPrintLine));
     }
-    if (!panel_.stance.empty()) entries.push_back({"stance of " + panel_.stance, {.stroke = kStanceFill, .width = 11}});
+    if (!panel_.stance.empty())
+      entries.push_back(line_entry("stance of " + panel_.stance, {.stroke = kStanceFill, .width = 11}, kPrintLine));
     return entries;
   }
 
@@ -290,8 +291,27 @@ class CurvesOfPanel final : public PaperPanel {
   TwinTicks ticks_;
 };
 
+void curves_fields(PanelRecipe& panel, Fields& f) {
+  f.texts("runs", panel.runs, "Runs whose curves are drawn, by name; default: all.");
+  f.group("left", panel.left, "Curves of the left axis.");
+  f.group("right", panel.right, "Curves of the right axis; the zeros of both meet where that wastes little paper.");
+  f.text("stance", panel.stance, "Leg whose stance is shaded, named as in the footfalls of figure.svg: m5 front left.");
+  panel.time_fields(f);
+  panel.height_field(f);
+}
+
+const char* no_curves(const PanelRecipe& panel) {
+  const bool none = panel.left.columns.empty() && panel.right.columns.empty();
+  return none ? "nothing is drawn; expected left: {columns: [...]}, or right" : nullptr;
+}
+
 }  // namespace
 
-std::unique_ptr<PaperPanel> curves_panel(const PanelSource& source) { return std::make_unique<CurvesOfPanel>(source); }
+const PanelKind kCurvesPanel{.name = "curves",
+                             .about = "Columns of the trace over time, on one axis or two.",
+                             .one_run = false,
+                             .fields = curves_fields,
+                             .lacking = no_curves,
+                             .make = made<CurvesOfPanel>};
 
 }  // namespace gaitlab::report

@@ -1,4 +1,4 @@
-// Kind `envelope`: torque over speed, in front of what the motors have.
+// Kind `envelope`: torque over speed, in front of the motors' limits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kEnvelopeHeight = 55;  // mm
-constexpr std::size_t kNamed = 7;       // joints that have a line of their own
-constexpr double kApart = 0.25;         // px: a path keeps points as far apart
-constexpr double kPadding = 1.06;       // of the range, beside what is drawn
+constexpr std::size_t kNamed = 7;       // joints with a separate line
+constexpr double kApart = 0.25;         // px: least distance of a path's points
+constexpr double kPadding = 1.06;       // factor on the range of the data
 constexpr std::string_view kAvailable = "#E8E8E8";
 
 struct JointPath {
@@ -34,71 +34,41 @@ class EnvelopeOfPanel final : public PaperPanel {
     const Rows rows = source.rows(time);
     for (const std::size_t j : joints) {
       JointPath path{names[j], {}, {}};
-      const Series speed = run.recording.joint(j, "speed");
-      const Series torque = run.recording.joint(j, "torque");
-      if (speed.empty() || torque.empty()) {
-        source.problem({"kind"}, fmt::format("run {} has no joint.{}.{}: simulate it with trace.columns: [joint.*]",
-                                             in_quotes(run.name), j, torque.empty() ? "torque" : "speed"));
-        return;
-      }
+      const std::optional<JointLoad> load = source.load(j);
+      if (!load) return;
       for (std::size_t row = rows.first; row < rows.last; ++row) {
-        path.speed.push_back(speed[row]);
-        path.torque.push_back(torque[row]);
+        path.speed.push_back(load->speed[row]);
+        path.torque.push_back(load->torque[row]);
       }
       paths_.push_back(std::move(path));
     }
     if (!source.problems.empty()) return;
     find_envelopes(run.scenario, joints);
-    Bounds x;
-    Bounds y;
-    for (const JointPath& path : paths_) {
-      x.add(path.speed);
-      y.add(path.torque);
-    }
-    for (const Envelope& envelope : envelopes_) {
-      x.add(envelope.speed);
-      for (const std::vector<double>* torque : {&envelope.most, &envelope.least})
-        y.add(1.15 * (*torque)[torque->size() / 2]);  // at rest
-    }
-    x_ = ticks_within(kPadding * x.lo, kPadding * x.hi, 8);
-    y_ = ticks_within(kPadding * y.lo, kPadding * y.hi, 6);
+    set_ticks();
   }
 
-  [[nodiscard]] Margins margins() const override { return {8 + label_width(y_) + 20, 12}; }
-  [[nodiscard]] double head(const Edges& edges) const override {
-    return draw_legend(nullptr, legend(), edges.left, edges.right, 13, kPrintLegend) + 11;
-  }
+  [[nodiscard]] Margins margins() const override { return {texts_beside(left_.ticks) + 20, 12}; }
+  [[nodiscard]] double head(const Edges& edges) const override { return legend_head(legend(), edges); }
   [[nodiscard]] double body(const Edges&) const override { return height_; }
 
   void draw(Canvas& canvas, const PlotArea& area) const override {
-    const Scale x{x_.lo, x_.hi, area.left, area.right};
-    const Scale y{y_.lo, y_.hi, area.bottom, area.top};
-    const auto paper = [&](double speed, double torque) {
-      return Point{x(speed), std::clamp(y(torque), area.top, area.bottom)};
-    };
+    const Plot plot(canvas, area, below_, left_, kPrint);
     for (const Envelope& envelope : envelopes_) {
       Polygon all;
-      for (std::size_t k = 0; k < envelope.speed.size(); ++k) all.push_back(paper(envelope.speed[k], envelope.most[k]));
-      for (std::size_t k = envelope.speed.size(); k-- > 0;) all.push_back(paper(envelope.speed[k], envelope.least[k]));
+      const auto add = [&](double speed, double torque) {
+        const Point at = plot.at(speed, torque);
+        all.push_back({at.x, std::clamp(at.y, area.top, area.bottom)});
+      };
+      for (std::size_t k = 0; k < envelope.speed.size(); ++k) add(envelope.speed[k], envelope.most[k]);
+      for (std::size_t k = envelope.speed.size(); k-- > 0;) add(envelope.speed[k], envelope.least[k]);
       canvas.polygons(std::vector<Polygon>{std::move(all)}, {.fill = kAvailable});
     }
-    Panel panel(canvas, area, x_, y_, kPrint);
+    plot.draw_axes();
     for (const Envelope& envelope : envelopes_) {
-      for (const std::vector<double>* limit : {&envelope.most, &envelope.least})
-        panel.curve(envelope.speed, *limit, {.stroke = colour::kInk, .width = 1.2});
+      for (const std::vector<double>* limit : {&envelope.most, &envelope.least}) plot.curve(envelope.speed, *limit, kAxisLine);
     }
-    for (std::size_t k = 0; k < paths_.size(); ++k) {
-      std::vector<Point> points;
-      for (std::size_t row = 0; row < paths_[k].speed.size(); ++row) {
-        const Point p = panel.at(paths_[k].speed[row], paths_[k].torque[row]);
-        const bool last = row + 1 == paths_[k].speed.size();
-        if (points.empty() || last || std::hypot(p.x - points.back().x, p.y - points.back().y) >= kApart) points.push_back(p);
-      }
-      canvas.polyline(points, style(k));
-    }
-    panel.axis_below("speed (rad/s)");
-    panel.side_title("torque (N m)", Side::left, 8 + label_width(y_) + 8);
-    draw_legend(&canvas, legend(), area.left, area.right, area.top - head({area.left, area.right}) + 13, kPrintLegend);
+    for (std::size_t k = 0; k < paths_.size(); ++k) canvas.polyline(line(plot, paths_[k]), style(k));
+    draw_legend_above(canvas, legend(), area);
   }
 
   [[nodiscard]] Trace data() const override {
@@ -118,6 +88,34 @@ class EnvelopeOfPanel final : public PaperPanel {
   [[nodiscard]] std::vector<std::string> notes() const override { return notes_; }
 
  private:
+  /// Not `thinned`: the speed rises and falls.
+  static std::vector<Point> line(const Plot& plot, const JointPath& path) {
+    std::vector<Point> points;
+    for (std::size_t row = 0; row < path.speed.size(); ++row) {
+      const Point p = plot.at(path.speed[row], path.torque[row]);
+      const bool last = row + 1 == path.speed.size();
+      if (points.empty() || last || std::hypot(p.x - points.back().x, p.y - points.back().y) >= kApart) points.push_back(p);
+    }
+    return points;
+  }
+
+  void set_ticks() {
+    Bounds x;
+    Bounds y;
+    for (const JointPath& path : paths_) {
+      x.add(path.speed);
+      y.add(path.torque);
+    }
+    for (const Envelope& envelope : envelopes_) {
+      x.add(envelope.speed);
+      for (const std::vector<double>* torque : {&envelope.most, &envelope.least})
+        y.add(1.15 * (*torque)[torque->size() / 2]);  // at rest
+    }
+    below_ = {.ticks = ticks_within(kPadding * x.lo, kPadding * x.hi, 8), .title = "speed (rad/s)"};
+    left_ = {.ticks = ticks_within(kPadding * y.lo, kPadding * y.hi, 6), .title = "torque (N m)"};
+    left_.away = texts_beside(left_.ticks) + 8;
+  }
+
   void find_envelopes(const Scenario& scenario, const std::vector<std::size_t>& joints) {
     Bounds drawn;
     for (const JointPath& path : paths_) drawn.add(path.speed);
@@ -139,9 +137,10 @@ class EnvelopeOfPanel final : public PaperPanel {
 
   [[nodiscard]] std::vector<LegendEntry> legend() const {
     std::vector<LegendEntry> entries;
-    if (!envelopes_.empty()) entries.push_back({"available", {.stroke = kAvailable, .width = 11}});
-    for (std::size_t k = 0; k < paths_.size() && paths_.size() <= kNamed; ++k) entries.push_back({paths_[k].name, style(k)});
-    if (paths_.size() > kNamed) entries.push_back({fmt::format("{} joints", paths_.size()), style(0)});
+    if (!envelopes_.empty()) entries.push_back(line_entry("available", {.stroke = kAvailable, .width = 11}, kPrintLine));
+    for (std::size_t k = 0; k < paths_.size() && paths_.size() <= kNamed; ++k)
+      entries.push_back(line_entry(paths_[k].name, style(k), kPrintLine));
+    if (paths_.size() > kNamed) entries.push_back(line_entry(fmt::format("{} joints", paths_.size()), style(0), kPrintLine));
     return entries;
   }
 
@@ -149,11 +148,17 @@ class EnvelopeOfPanel final : public PaperPanel {
   std::vector<JointPath> paths_;
   std::vector<Envelope> envelopes_;
   std::vector<std::string> notes_;
-  Ticks x_, y_;
+  Axis below_, left_;
 };
 
 }  // namespace
 
-std::unique_ptr<PaperPanel> envelope_panel(const PanelSource& source) { return std::make_unique<EnvelopeOfPanel>(source); }
+const PanelKind kEnvelopePanel{
+    .name = "envelope",
+    .about = "Torque of joints over their speed, in front of the largest torque of their motors at each speed.",
+    .one_run = true,
+    .fields = [](PanelRecipe& panel, Fields& f) { panel.joint_fields(f); },
+    .lacking = nothing_lacks,
+    .make = made<EnvelopeOfPanel>};
 
 }  // namespace gaitlab::report

@@ -3,45 +3,29 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "core/scenario/sections.h"
 #include "core/settings/wording.h"
 #include "report/analysis/envelope.h"
 #include "report/figures/paper/paper_panel.h"
-#include "report/plot/helvetica.h"
 
 namespace gaitlab::report {
 
 namespace {
 
 constexpr double kHeatRow = 14;                 // px
-constexpr double kLeastLabel = 13;              // px, of a row that has a name
-constexpr double kCells = 240;                  // of a row
+constexpr double kLeastLabel = 13;              // px, of a row with a name
+constexpr double kCells = 240;                  // per row
 constexpr int kLevels = 20;                     // of the ramp: 5 % each
 constexpr double kBarGap = 12, kBarWidth = 10;  // px
 
-/// From white to nearly black by hues of Okabe and Ito, ever darker, so that it is read in grey, too.
-std::string ramp(double share) {
-  struct Stop {
-    double at;
-    std::array<double, 3> rgb;
-  };
-  constexpr std::array<Stop, 5> kStops{
-      {{0, {255, 255, 255}}, {0.25, {250, 221, 150}}, {0.5, {230, 145, 20}}, {0.75, {190, 70, 0}}, {1, {70, 15, 0}}}};
-  std::size_t k = 1;
-  while (k + 1 < kStops.size() && share > kStops[k].at) ++k;
-  const double part = std::clamp((share - kStops[k - 1].at) / (kStops[k].at - kStops[k - 1].at), 0.0, 1.0);
-  std::array<int, 3> mixed{};
-  for (std::size_t c = 0; c < 3; ++c)
-    mixed[c] = static_cast<int>(std::lround(kStops[k - 1].rgb[c] + part * (kStops[k].rgb[c] - kStops[k - 1].rgb[c])));
-  return fmt::format("#{:02X}{:02X}{:02X}", mixed[0], mixed[1], mixed[2]);
-}
+/// From white to nearly black by hues of Okabe and Ito, steadily darker, so that it is readable in grey also.
+constexpr std::array<Rgb, 5> kHeat{{{255, 255, 255}, {250, 221, 150}, {230, 145, 20}, {190, 70, 0}, {70, 15, 0}}};
 
 int level(double share) { return std::clamp(static_cast<int>(std::floor(share * kLevels)), 0, kLevels - 1); }
 
-std::string level_colour(int level) { return ramp((level + 0.5) / kLevels); }
+std::string level_colour(int level) { return ramp(kHeat, (level + 0.5) / kLevels); }
 
 class HeatOfPanel final : public PaperPanel {
  public:
@@ -57,51 +41,46 @@ class HeatOfPanel final : public PaperPanel {
     if (source.problems.size() > before) return;
     from_ = time[rows.first];
     to_ = time[rows.last - 1];
-    std::vector<Series> speed(all.size());
-    std::vector<Series> torque(all.size());
+    std::vector<JointLoad> load;
     for (const std::size_t j : joints_) {
-      speed[j] = run.recording.joint(j, "speed");
-      torque[j] = run.recording.joint(j, "torque");
-      if (!speed[j].empty() && !torque[j].empty()) continue;
-      source.problem({"kind"}, fmt::format("run {} has no joint.{}.{}: simulate it with trace.columns: [joint.*]",
-                                           in_quotes(run.name), j, torque[j].empty() ? "torque" : "speed"));
-      return;
+      const std::optional<JointLoad> one = source.load(j);
+      if (!one) return;
+      load.push_back(*one);
     }
-    fill(run.scenario, time, rows, speed, torque);
+    fill(run.scenario, time, rows, load);
   }
 
   [[nodiscard]] Margins margins() const override {
-    double names = 0;
-    for (const std::string& name : names_) names = std::max(names, helvetica_width(name, 13));
-    return {11 + names, kBarGap + kBarWidth + 6 + helvetica_width("100", 13) + 20};
+    return {texts_beside(row_ticks(names_)) + 3, kBarGap + kBarWidth + texts_beside(percent()) + 18};
   }
   [[nodiscard]] double head(const Edges&) const override { return 8; }
   [[nodiscard]] double body(const Edges&) const override { return height_; }
 
   void draw(Canvas& canvas, const PlotArea& area) const override {
-    const Ticks time = time_ticks(from_, to_);
     const double row = (area.bottom - area.top) / static_cast<double>(joints_.size());
     const auto every = static_cast<std::size_t>(std::ceil(kLeastLabel / row));
+    Axis below = time_axis(from_, to_);
+    below.lines = TickLines::outside;
+    const Plot plot(canvas, area, below, {.ticks = row_ticks(names_, every), .lines = TickLines::none}, kPrint);
     const double gap = row > 6 ? 1 : 0;
-    const Scale x{0, static_cast<double>(cell_.size()), area.left, area.right};
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const double top = area.top + row * static_cast<double>(j);
-      // Each colour up to the end of the row, covered by the next one: else a thin line shows between neighbours.
+      // Each colour extends to the end of the row and is covered by the next one: otherwise a thin line shows between
+      // neighbours.
       int before = -1;
       for (std::size_t c = 0; c < cell_.size(); ++c) {
         const int now = level(share_[j][c]);
         if (now == before) continue;
-        const double begin = x(static_cast<double>(c));
+        const double begin = plot.at(cell_[c], 0).x;
         canvas.rectangle({begin, top + gap / 2}, area.right - begin, row - gap, {.fill = level_colour(now)});
         before = now;
       }
-      if (j % every == 0) canvas.text({area.left - 8, top + row / 2 + 4.5}, names_[j], {.anchor = Anchor::end});
     }
-    canvas.rectangle({area.left, area.top}, area.right - area.left, area.bottom - area.top, kAxisLine);
-    const Scale seconds{from_, to_, area.left, area.right};
-    for (const double t : time.values()) canvas.line({seconds(t), area.bottom}, {seconds(t), area.bottom + 4}, kAxisLine);
-    draw_axis_below(canvas, area, time, "time (s)", true);
-    bar(canvas, area);
+    plot.draw_axes();
+    std::vector<std::string> colours;
+    for (int k = 0; k < kLevels; ++k) colours.push_back(level_colour(k));
+    draw_colours(canvas, {area.right + kBarGap, area.right + kBarGap + kBarWidth, area.top, area.bottom}, colours,
+                 {.ticks = percent(), .title = title_, .away = texts_beside(percent()) + 14}, kPrint);
   }
 
   [[nodiscard]] Trace data() const override {
@@ -112,13 +91,14 @@ class HeatOfPanel final : public PaperPanel {
   [[nodiscard]] std::vector<std::string> notes() const override { return notes_; }
 
  private:
-  void fill(const Scenario& scenario, const std::vector<double>& time, const Rows& rows, const std::vector<Series>& speed,
-            const std::vector<Series>& torque) {
+  static Ticks percent() { return ticks_within(0, 100, 2); }
+
+  void fill(const Scenario& scenario, const std::vector<double>& time, const Rows& rows, const std::vector<JointLoad>& load) {
     const AvailableTorque available(scenario);
     const bool known = std::ranges::all_of(joints_, [&](std::size_t j) { return available.known(j); });
     double largest = 0;
     for (std::size_t k = rows.first; k < rows.last && !known; ++k) {
-      for (const std::size_t j : joints_) largest = std::max(largest, std::abs(torque[j][k]));
+      for (const JointLoad& one : load) largest = std::max(largest, std::abs(one.torque[k]));
     }
     if (!known) {
       title_ = "torque (% of the largest)";
@@ -129,39 +109,22 @@ class HeatOfPanel final : public PaperPanel {
     const double width = (to_ - from_) / static_cast<double>(count);
     for (std::size_t c = 0; c < count; ++c) cell_.push_back(from_ + width * static_cast<double>(c));
     share_.assign(joints_.size(), std::vector<double>(count, 0.0));
-    std::vector<double> w(speed.size());
-    std::vector<double> most(speed.size());
-    std::vector<double> least(speed.size());
+    std::vector<double> w(scenario.robot->joints.size());
+    std::vector<double> most(w.size());
+    std::vector<double> least(w.size());
     for (std::size_t k = rows.first; k < rows.last; ++k) {
       const auto c = std::min(count - 1, static_cast<std::size_t>((time[k] - from_) / width + 1e-9));
-      for (const std::size_t j : joints_) w[j] = speed[j][k];
+      for (std::size_t i = 0; i < joints_.size(); ++i) w[joints_[i]] = load[i].speed[k];
       available.at(w, most, least);
       for (std::size_t i = 0; i < joints_.size(); ++i) {
         const std::size_t j = joints_[i];
-        const double needed = torque[j][k];
+        const double needed = load[i].torque[k];
         const double has = !known ? largest : needed >= 0 ? most[j] : -least[j];
-        // A joint faster than its motor idles has nothing left: its share is whole.
+        // For a joint faster than its motor without load nothing is available: its share is 1.
         const double share = needed == 0 ? 0 : has > 0 ? std::abs(needed) / has : 1;
         share_[i][c] = std::max(share_[i][c], share);
       }
     }
-  }
-
-  void bar(Canvas& canvas, const PlotArea& area) const {
-    const double left = area.right + kBarGap;
-    const Scale y{0, 1, area.bottom, area.top};
-    for (int k = 0; k < kLevels; ++k) {
-      const double top = y(1 - k / static_cast<double>(kLevels));
-      canvas.rectangle({left, top}, kBarWidth, area.bottom - top, {.fill = level_colour(kLevels - 1 - k)});
-    }
-    canvas.rectangle({left, area.top}, kBarWidth, area.bottom - area.top, {.stroke = colour::kInk, .width = 0.8});
-    for (const int percent : {0, 50, 100}) {
-      // At both ends within the height of the frame.
-      const double shift = percent == 0 ? 0 : percent == 100 ? 9.5 : 4.5;
-      canvas.text({left + kBarWidth + 6, y(0.01 * percent) + shift}, std::to_string(percent));
-    }
-    canvas.text({left + kBarWidth + 6 + helvetica_width("100", 13) + 14, (area.top + area.bottom) / 2}, title_,
-                {.anchor = Anchor::middle, .upwards = true});
   }
 
   std::vector<std::size_t> joints_;
@@ -174,6 +137,14 @@ class HeatOfPanel final : public PaperPanel {
 
 }  // namespace
 
-std::unique_ptr<PaperPanel> heat_panel(const PanelSource& source) { return std::make_unique<HeatOfPanel>(source); }
+const PanelKind kHeatPanel{
+    .name = "heat",
+    .about =
+        "Joints over time: each cell shows the largest torque of the joint as a share of its motor's largest torque at that "
+        "speed (if no motor states a limit, of the largest torque drawn).",
+    .one_run = true,
+    .fields = [](PanelRecipe& panel, Fields& f) { panel.joint_fields(f); },
+    .lacking = nothing_lacks,
+    .make = made<HeatOfPanel>};
 
 }  // namespace gaitlab::report

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/settings/wording.h"
+#include "report/figures/paper/panel_kinds.h"
 
 namespace gaitlab::report {
 
@@ -18,22 +19,6 @@ constexpr double kLetterHeight = 18;     // px, least head of a panel with a let
 constexpr double kLeastFrame = 10;       // mm
 constexpr double kLeastFrameWidth = 25;  // mm
 
-std::unique_ptr<PaperPanel> made(const PanelSource& source) {
-  switch (source.panel().kind) {
-    case PanelKind::curves:
-      return curves_panel(source);
-    case PanelKind::envelope:
-      return envelope_panel(source);
-    case PanelKind::heat:
-      return heat_panel(source);
-    case PanelKind::footfalls:
-      return footfall_panel(source);
-    case PanelKind::views:
-      return views_panel(source);
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 PaperFigure::PaperFigure(const Recipe& recipe, std::span<const PaperRun> runs)
@@ -41,51 +26,53 @@ PaperFigure::PaperFigure(const Recipe& recipe, std::span<const PaperRun> runs)
   paper_.mm = recipe.font * kPointMm / kTextSize;
   paper_.width = recipe.width / paper_.mm;
   Problems problems;
-  for (std::size_t i = 0; i < recipe.panels.size(); ++i) panels_.push_back({made({recipe, i, runs, 1 / paper_.mm, problems})});
+  for (std::size_t i = 0; i < recipe.panels.size(); ++i)
+    panels_.push_back({recipe.panels[i].kind->make({recipe, i, runs, 1 / paper_.mm, problems})});
   problems.raise();
   place(recipe);
 }
 
-void PaperFigure::place(const Recipe& recipe) {
-  Edges edges{0, paper_.width};
+Edges PaperFigure::edges(const Recipe& recipe) const {
+  double left = 0;
   double right = 0;
   for (const Placed& placed : panels_) {
-    edges.left = std::max(edges.left, placed.panel->margins().left);
+    left = std::max(left, placed.panel->margins().left);
     right = std::max(right, placed.panel->margins().right);
   }
-  edges.right -= right;
-  if ((edges.right - edges.left) * paper_.mm < kLeastFrameWidth) {
+  const double width = (paper_.width - left - right) * paper_.mm;
+  if (width < kLeastFrameWidth) {
     throw InputError(
         recipe.place({"size"}),
         fmt::format("a width of {} leaves {:.1f} mm for the frames beside their labels; at least {:g} mm are needed",
-                    with_unit(recipe.width, "mm"), (edges.right - edges.left) * paper_.mm, kLeastFrameWidth));
+                    with_unit(recipe.width, "mm"), width, kLeastFrameWidth));
   }
+  return {left, paper_.width - right};
+}
+
+void PaperFigure::place(const Recipe& recipe) {
+  const Edges frame = edges(recipe);
   double fixed = kTopMargin + kBetweenPanels * static_cast<double>(panels_.size() - 1);
   double stretching = 0;
-  const auto head = [&](const Placed& placed) { return std::max(placed.panel->head(edges), letters_ ? kLetterHeight : 0.0); };
+  double least = 0;
+  const auto head = [&](const Placed& placed) { return std::max(placed.panel->head(frame), letters_ ? kLetterHeight : 0.0); };
   for (const Placed& placed : panels_) {
     fixed += head(placed) + placed.panel->foot();
-    (placed.panel->stretches() ? stretching : fixed) += placed.panel->body(edges);
+    (placed.panel->stretches() ? stretching : fixed) += placed.panel->body(frame);
+    least += placed.panel->stretches() ? kLeastFrame / paper_.mm : 0;
   }
-  double factor = 1;
-  if (recipe.height > 0) {
-    paper_.height = recipe.height / paper_.mm;
-    if (stretching > 0) factor = (paper_.height - fixed) / stretching;
-    double least = fixed;
-    for (const Placed& placed : panels_) least += placed.panel->stretches() ? kLeastFrame / paper_.mm : 0;
-    if (least > paper_.height) {
-      throw InputError(recipe.place({"size", "1"}), fmt::format("a height of {} is too small: the panels need {:.0f} mm",
-                                                                with_unit(recipe.height, "mm"), least * paper_.mm + 0.5));
-    }
-  } else {
-    paper_.height = fixed + stretching;
+  paper_.height = recipe.height > 0 ? recipe.height / paper_.mm : fixed + stretching;
+  if (recipe.height > 0 && fixed + least > paper_.height) {
+    throw InputError(recipe.place({"size", "1"}),
+                     fmt::format("a height of {} is too small: the panels need {:.0f} mm", with_unit(recipe.height, "mm"),
+                                 (fixed + least) * paper_.mm + 0.5));
   }
+  const double factor = recipe.height > 0 && stretching > 0 ? (paper_.height - fixed) / stretching : 1;
   double y = kTopMargin;
   for (Placed& placed : panels_) {
     placed.top = y;
     y += head(placed);
-    const double body = placed.panel->body(edges) * (placed.panel->stretches() ? factor : 1);
-    placed.area = {edges.left, edges.right, y, y + body};
+    const double body = placed.panel->body(frame) * (placed.panel->stretches() ? factor : 1);
+    placed.area = {frame.left, frame.right, y, y + body};
     y += body + placed.panel->foot() + kBetweenPanels;
   }
 }

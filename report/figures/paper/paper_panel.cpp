@@ -8,7 +8,6 @@
 #include "core/model/pattern.h"
 #include "core/scenario/sections.h"
 #include "core/settings/wording.h"
-#include "report/plot/helvetica.h"
 
 namespace gaitlab::report {
 
@@ -77,6 +76,14 @@ std::vector<std::size_t> PanelSource::joints() const {
   return numbers;
 }
 
+std::optional<JointLoad> PanelSource::load(std::size_t joint) const {
+  JointLoad load{run().recording.joint(joint, "speed"), run().recording.joint(joint, "torque")};
+  if (!load.speed.empty() && !load.torque.empty()) return load;
+  problem({"kind"}, fmt::format("run {} has no joint.{}.{}: simulate it with trace.columns: [joint.*]", in_quotes(run().name),
+                                joint, load.torque.empty() ? "torque" : "speed"));
+  return {};
+}
+
 Style curve_style(std::size_t n) {
   struct Line {
     std::string_view colour, dash;
@@ -122,14 +129,19 @@ std::string with_unit_after(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + " [" + unit + "]";
 }
 
-double paper_width(std::string_view text, double size) { return helvetica_width(text, size); }
+double regular_width(std::string_view text, double size) { return helvetica_width(text, size); }
 
-double label_width(const Ticks& ticks) {
-  double width = 0;
-  for (const double value : ticks.values()) width = std::max(width, helvetica_width(with_minus(ticks.label(value)), 13));
-  return width;
+Axis time_axis(double from, double to) { return {.ticks = ticks_within(from, to, 8), .title = "time (s)"}; }
+
+double texts_beside(const Ticks& ticks) { return 8 + widest_text(ticks, kPrint.text, regular_width); }
+
+double legend_head(std::span<const LegendEntry> entries, const Edges& edges) {
+  return entries.empty() ? 8 : draw_legend(nullptr, entries, edges.left, edges.right, 13, kPrintLegend) + 11;
 }
 
-Ticks time_ticks(double from, double to) { return ticks_within(from, to, 8); }
+void draw_legend_above(Canvas& canvas, std::span<const LegendEntry> entries, const PlotArea& area) {
+  const double head = legend_head(entries, {area.left, area.right});
+  draw_legend(&canvas, entries, area.left, area.right, area.top - head + 13, kPrintLegend);
+}
 
 }  // namespace gaitlab::report

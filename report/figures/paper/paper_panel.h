@@ -1,46 +1,48 @@
-// What a panel of a figure for a paper is to its layout.
+// Interface of a panel of a figure for a paper: margins, height, drawing.
 #pragma once
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
-#include "report/figures/paper/recipe.h"
+#include "report/figures/paper/panel_kinds.h"
 #include "report/figures/run/views.h"
+#include "report/plot/helvetica.h"
 #include "report/plot/legend.h"
-#include "report/plot/panel.h"
+#include "report/plot/plot.h"
 
 namespace gaitlab::report {
 
-/// A run that a recipe names.
+/// A run named by a recipe.
 struct PaperRun {
   std::string name;
   Scenario scenario;
   Recording recording;
 };
 
-/// A frame and what stands around it, px. It is made once, with what it draws; InputError is collected where it is made.
+/// A frame with its surroundings, px. It is made once, with its contents, when InputError is collected.
 class PaperPanel {
  public:
   virtual ~PaperPanel() = default;
-  /// Beside the frame, for ticks and titles.
+  /// Width beside the frame, for ticks and titles.
   struct Margins {
     double left = 0, right = 0;
   };
   [[nodiscard]] virtual Margins margins() const = 0;
-  /// Above the frame, for a legend.
+  /// Height above the frame, for a legend.
   [[nodiscard]] virtual double head(const Edges& edges) const = 0;
-  /// The frame; `stretches`: it may have another height.
+  /// Height of the frame; `stretches`: another height is possible.
   [[nodiscard]] virtual double body(const Edges& edges) const = 0;
   [[nodiscard]] virtual bool stretches() const { return true; }
-  /// Below it, for an axis.
+  /// Height below it, for an axis.
   [[nodiscard]] virtual double foot() const { return 44; }
   virtual void draw(Canvas& canvas, const PlotArea& area) const = 0;
-  /// The numbers drawn: columns named with their units. Of columns of other lengths the shorter ones end in NaN.
+  /// The data drawn: columns named with their units. If columns differ in length the shorter ones end in NaN.
   [[nodiscard]] virtual Trace data() const = 0;
-  /// What a reader of the figure should know and does not see.
+  /// Notes for readers on facts that the figure does not show.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
 
@@ -50,7 +52,12 @@ struct Rows {
 };
 Rows rows_within(std::span<const double> time, double from, double to);
 
-/// Where a panel is in its recipe, with the runs.
+/// Speed (rad/s) and torque (N m) of a joint, by rows.
+struct JointLoad {
+  Series speed, torque;
+};
+
+/// Place of a panel in its recipe, with the runs.
 struct PanelSource {
   const Recipe& recipe;
   std::size_t number = 0;
@@ -59,34 +66,36 @@ struct PanelSource {
   Problems& problems;
 
   [[nodiscard]] const PanelRecipe& panel() const { return recipe.panels[number]; }
-  /// A problem at a value of the panel.
+  /// Adds a problem at a value of the panel.
   void problem(std::vector<std::string> path, const std::string& text) const;
   /// The run of `run:`, or the only one.
   [[nodiscard]] const PaperRun& run() const;
-  /// s: from where to where the panel shows runs that end at `end`; a problem where they do not hold that.
+  /// Interval of the panel, s, for runs that end at `end`; adds a problem if they do not contain it.
   struct Stretch {
     double from = 0, to = 0;
   };
   [[nodiscard]] Stretch stretch(double end) const;
-  /// The rows of `run()` within the stretch; a problem where it has no two.
+  /// Rows of `run()` within the interval; a problem if there are less than two.
   [[nodiscard]] Rows rows(std::span<const double> time) const;
-  /// Numbers of the joints of `run()` with a motor that a pattern of `joints:` matches, in their order; a problem where one
-  /// matches none.
+  /// Numbers of the joints of `run()` with a motor that match a pattern of `joints:`, in their order; a problem for a pattern
+  /// without a match.
   [[nodiscard]] std::vector<std::size_t> joints() const;
-  /// Of the frame, px.
+  /// Load of a joint of `run()`; none, and a problem, if the run lacks it.
+  [[nodiscard]] std::optional<JointLoad> load(std::size_t joint) const;
+  /// Height of the frame, px.
   [[nodiscard]] double height(double mm) const { return (panel().height > 0 ? panel().height : mm) * px_per_mm; }
 };
 
-std::unique_ptr<PaperPanel> curves_panel(const PanelSource& source);
-std::unique_ptr<PaperPanel> envelope_panel(const PanelSource& source);
-std::unique_ptr<PaperPanel> heat_panel(const PanelSource& source);
-std::unique_ptr<PaperPanel> footfall_panel(const PanelSource& source);
-std::unique_ptr<PaperPanel> views_panel(const PanelSource& source);
+template <class Panel>
+std::unique_ptr<PaperPanel> made(const PanelSource& source) {
+  return std::make_unique<Panel>(source);
+}
+inline const char* nothing_lacks(const PanelRecipe&) { return nullptr; }
 
-/// Line of the nth curve of a panel: colours of Okabe and Ito, each with a dash of its own, so that they differ in grey, too.
+/// Style of the nth curve of a panel: colours of Okabe and Ito, each with a different dash, so that they differ in grey also.
 Style curve_style(std::size_t n);
 
-/// Of a recording, s.
+/// Times of a recording's rows, s.
 std::vector<double> row_times(const Recording& recording);
 
 /// Columns side by side as a table.
@@ -98,13 +107,18 @@ Trace data_table(const std::vector<DataColumn>& columns);
 /// `torque [N m]`
 std::string with_unit_after(const std::string& name, const std::string& unit);
 
-/// Widest label of an axis in Helvetica, px.
-double label_width(const Ticks& ticks);
-/// About as many ticks as have room on a time axis.
-Ticks time_ticks(double from, double to);
-/// In Helvetica, px.
-double paper_width(std::string_view text, double size);
-/// Of legends in print: narrower than on the screen.
-inline constexpr LegendLook kPrintLegend{.sample = 28, .name = 34, .gap = 14, .width = paper_width};
+/// Width in Helvetica, px.
+double regular_width(std::string_view text, double size);
+/// Axis over time, with about as many ticks as there is room for.
+Axis time_axis(double from, double to);
+/// Width of the texts at an axis with the gap to the frame, px.
+double texts_beside(const Ticks& ticks);
+/// Look of legends in print: narrower than on the screen, names in Helvetica.
+inline constexpr LegendLook kPrintLegend{.before = 6, .behind = 14, .width = regular_width};
+inline constexpr double kPrintLine = 28;  ///< px, length of a line in a legend
+
+/// Height of a legend above a frame, px, and the legend.
+double legend_head(std::span<const LegendEntry> entries, const Edges& edges);
+void draw_legend_above(Canvas& canvas, std::span<const LegendEntry> entries, const PlotArea& area);
 
 }  // namespace gaitlab::report

@@ -10,12 +10,12 @@
 #include "core/settings/reader.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
+#include "report/figures/paper/panel_kinds.h"
 
 namespace gaitlab::report {
 
 namespace {
 
-constexpr double kLongestTime = 1e9;  // s
 constexpr Spec kLength{"mm", 20, 500, ""};
 
 struct NamedSize {
@@ -64,7 +64,7 @@ void read_size(const Node& node, Recipe& recipe, Problems& problems) {
   problems.add(node.place, fmt::format("size is {}; expected {}{}", what, names_of_sizes(), near));
 }
 
-Explainer recipe_keys(PanelKind kind) {
+Explainer recipe_keys(const PanelKind& kind) {
   Explainer explainer;
   explainer.row("gaitlab", "", "1", "1", "Format version.");
   explainer.row(
@@ -73,7 +73,7 @@ Explainer recipe_keys(PanelKind kind) {
       "and height.");
   Recipe recipe;
   recipe.panels.resize(1);
-  recipe.panels.front().kind = kind;
+  recipe.panels.front().kind = &kind;
   recipe.fields(explainer);
   return explainer;
 }
@@ -85,44 +85,43 @@ void AxisRecipe::fields(Fields& f) {
       "columns", columns,
       "Columns of the trace to draw, by name with * and ?; a joint by number or name: joint.7.torque, joint.m3/*.torque. All "
       "of an axis have one unit.");
-  f.texts("names", names, "Names in the legend, one per curve; without them those of the columns.");
-  f.text("label", label, "Title of the axis; without it quantity and unit of the columns.");
-  f.numbers("range", range, {"", -1e300, 1e300, "Ends of the axis, [from, to]; without them chosen by the curves."});
+  f.texts("names", names, "Names in the legend, one per curve; default: the names of the columns.");
+  f.text("label", label, "Title of the axis; default: quantity and unit of the columns.");
+  f.numbers("range", range, {"", -1e300, 1e300, "Ends of the axis, [from, to]; default: chosen to fit the curves."});
   if (!range.empty() && (range.size() != 2 || !(range[0] < range[1])))
     f.problem("range", "range is not [from, to] with from below to");
 }
 
+PanelRecipe::PanelRecipe() : kind(kPanelKinds[0]) {}
+
 void PanelRecipe::fields(Fields& f) {
-  f.choice("kind", kind, enum_names<PanelKind>(), "What is drawn; the other keys of a panel depend on it.");
-  const bool curves = kind == PanelKind::curves;
-  if (curves) {
-    f.texts("runs", runs, "Runs whose curves are drawn, by name; without them all.");
-    f.group("left", left, "Curves of the left axis.");
-    f.group("right", right, "Curves of the right axis; the zeros of both meet where that wastes little paper.");
-    f.text("stance", stance, "Leg whose stance is shaded, named as in the footfalls of figure.svg: m5 front left.");
-  } else {
-    f.text("run", run, "Run that is drawn, by name; needed where there are several.");
-  }
-  if (kind == PanelKind::envelope || kind == PanelKind::heat)
-    f.texts("joints", joints, "Joints to draw, by name or number with * and ?: m3/active, m3/*.");
-  if (kind == PanelKind::views) {
-    f.numbers("times", times, {"s", 0, kLongestTime, "When the robot is drawn, from top to bottom."});
-    f.text("joint", joint, "Joint that an arrow points out.");
-    f.flag("legend", legend, "Whether a legend explains the colours of the bodies.");
-    return;
-  }
-  f.number("from", from, {"s", 0, kLongestTime, "Start of what is drawn."});
-  f.number_or("to", to, "end", {"s", kPositive, kLongestTime, "End of what is drawn."});
+  std::string name = kind->name;
+  f.one_of("kind", name, panel_names(), "Kind of panel; the other keys depend on it.");
+  kind = &panel_kind(name);
+  if (kind->one_run) f.text("run", run, "Run that is drawn, by name; required if there are several.");
+  kind->fields(*this, f);
+}
+
+void PanelRecipe::time_fields(Fields& f) {
+  f.number("from", from, {"s", 0, kLongestTime, "Start of the drawn time."});
+  f.number_or("to", to, "end", {"s", kPositive, kLongestTime, "End of the drawn time."});
   if (to > 0 && from >= to)
     f.problem("to", fmt::format("to is {} s, not behind from, {} s", number_text(to), number_text(from)));
-  if (kind != PanelKind::footfalls) f.number_or("height", height, "auto", {"mm", 10, 500, "Height of the frame."});
+}
+
+void PanelRecipe::height_field(Fields& f) { f.number_or("height", height, "auto", {"mm", 10, 500, "Height of the frame."}); }
+
+void PanelRecipe::joint_fields(Fields& f) {
+  f.texts("joints", joints, "Joints to draw, by name or number with * and ?: m3/active, m3/*.");
+  time_fields(f);
+  height_field(f);
 }
 
 void Recipe::fields(Fields& f) {
   f.named("runs", runs, NamedValues::texts, "Names of runs and their folders, relative to this file.");
-  f.number("font", font, {"pt", 7, 20, "Size of all text on paper; lines are as thick as suits it."});
-  f.flag("letters", letters, "Whether several panels are lettered (a), (b), ...");
-  f.list("panels", panels, "What is drawn, from top to bottom.");
+  f.number("font", font, {"pt", 7, 20, "Font size on paper; line widths scale with it."});
+  f.flag("letters", letters, "Letters (a), (b), ... on the panels if there are several.");
+  f.list("panels", panels, "Panels, from top to bottom.");
 }
 
 SourceLocation Recipe::place(const std::vector<std::string>& path) const {
@@ -139,6 +138,28 @@ SourceLocation Recipe::place(const std::vector<std::string>& path) const {
   return node->place;
 }
 
+namespace {
+
+void check_panel(const Recipe& recipe, std::size_t number, const std::vector<std::string>& names, bool whole,
+                 Problems& problems) {
+  const PanelRecipe& panel = recipe.panels[number];
+  const std::vector<std::string> place{"panels", std::to_string(number)};
+  const auto check = [&](const std::string& name, const std::vector<std::string>& path) {
+    if (std::ranges::find(names, name) != names.end()) return;
+    std::vector<std::string> at = place;
+    at.insert(at.end(), path.begin(), path.end());
+    problems.add(recipe.place(at), "run " + in_quotes(name) + " is not one of `runs`" + offer(name, names, "runs"));
+  };
+  if (const char* const lacking = panel.kind->lacking(panel); whole && lacking != nullptr)
+    problems.add(recipe.place(place), lacking);
+  for (std::size_t k = 0; k < panel.runs.size(); ++k) check(panel.runs[k], {"runs", std::to_string(k)});
+  if (!panel.run.empty()) check(panel.run, {"run"});
+  if (panel.kind->one_run && panel.run.empty() && names.size() > 1)
+    problems.add(recipe.place(place), "missing key 'run': there are several, " + joined(names));
+}
+
+}  // namespace
+
 Recipe read_recipe(const std::string& file) {
   Recipe recipe;
   recipe.file = file;
@@ -152,70 +173,50 @@ Recipe read_recipe(const std::string& file) {
   reader.finish();
   std::vector<std::string> names;
   for (const Named& run : recipe.runs) names.push_back(run.name);
-  const auto check = [&](const std::string& name, const std::vector<std::string>& path) {
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      problems.add(recipe.place(path), "run " + in_quotes(name) + " is not one of `runs`" + offer(name, names, "runs"));
-  };
   if (recipe.root.find("runs") != nullptr && names.empty() && problems.empty())
     problems.add(recipe.place({"runs"}), "runs is empty; expected NAME: FOLDER");
   if (recipe.root.find("panels") != nullptr && recipe.panels.empty() && problems.empty())
     problems.add(recipe.place({"panels"}), "panels is empty; nothing would be drawn");
-  constexpr std::size_t kLetters = 26;  // panels and their data files are told apart by a letter
+  constexpr std::size_t kLetters = 26;  // panels and their data files are distinguished by a letter
   if (recipe.panels.size() > kLetters)
     problems.add(recipe.place({"panels"}),
                  fmt::format("panels has {} entries; allowed are up to {}", recipe.panels.size(), kLetters));
-  // A panel of an unknown kind has been refused already: what it lacks is not known.
+  // A panel of an unknown kind has been refused already: its missing keys are not known.
   const bool whole = problems.empty();
-  for (std::size_t i = 0; i < recipe.panels.size(); ++i) {
-    const std::string item = std::to_string(i);
-    const PanelRecipe& panel = recipe.panels[i];
-    const bool curves = panel.kind == PanelKind::curves;
-    if (whole && curves && panel.left.columns.empty() && panel.right.columns.empty())
-      problems.add(recipe.place({"panels", item}), "nothing is drawn; expected left: {columns: [...]}, or right");
-    if (whole && panel.kind == PanelKind::views && panel.times.empty())
-      problems.add(recipe.place({"panels", item}), "missing key 'times', a list of times in s");
-    for (std::size_t k = 0; k < panel.runs.size(); ++k) check(panel.runs[k], {"panels", item, "runs", std::to_string(k)});
-    if (!panel.run.empty()) check(panel.run, {"panels", item, "run"});
-    if (panel.kind != PanelKind::curves && panel.run.empty() && names.size() > 1)
-      problems.add(recipe.place({"panels", item}), "missing key 'run': there are several, " + joined(names));
-  }
+  for (std::size_t i = 0; i < recipe.panels.size(); ++i) check_panel(recipe, i, names, whole, problems);
   problems.raise();
   return recipe;
 }
 
-std::string about_panel(PanelKind kind) {
-  switch (kind) {
-    case PanelKind::curves:
-      return "Columns of the trace over time, on one axis or two.";
-    case PanelKind::envelope:
-      return "Torque of joints over their speed, in front of what their motors have at most at each speed.";
-    case PanelKind::heat:
-      return "Joints over time: of each cell the largest torque of the joint, as a share of what its motor has at that speed. "
-             "Where no motor states a limit, as a share of the largest torque drawn.";
-    case PanelKind::footfalls:
-      return "When each leg of a robot stands, with its duty factor.";
-    case PanelKind::views:
-      return "The robot from the side of its way at some instants.";
-  }
-  return {};
+std::span<const char* const> panel_names() {
+  static const std::vector<const char*> kNames = [] {
+    std::vector<const char*> names;
+    for (const PanelKind* kind : kPanelKinds) names.push_back(kind->name);
+    return names;
+  }();
+  return kNames;
 }
 
-std::string explain_panel(PanelKind kind) { return wrapped(about_panel(kind)) + "\n" + table(recipe_keys(kind).rows()); }
+const PanelKind& panel_kind(std::string_view name) {
+  return **std::ranges::find_if(kPanelKinds, [&](const PanelKind* kind) { return kind->name == name; });
+}
+
+std::string explain_panel(const PanelKind& kind) { return wrapped(kind.about) + "\n" + table(recipe_keys(kind).rows()); }
 
 std::string recipe_page() {
   std::string page =
       "# The recipe of a figure\n\n"
       "<!-- Written by `tests/gates/reference.sh build/release --renew`; CI fails where it is stale. -->\n\n"
-      "Every key of what `gaitlab figure` reads, as `gaitlab explain figure KIND` prints it; what is drawn how:\n"
+      "All keys that `gaitlab figure` reads, as `gaitlab explain figure KIND` prints them. Rules of drawing:\n"
       "[conventions](../conventions.md). Recipes that come with the program: `scenarios/figures/`.\n";
-  for (const auto& [kind, name] : enum_table<PanelKind>()) {
-    const std::vector<KeyRow> rows = recipe_keys(kind).rows();
-    const bool first = kind == PanelKind::curves;
+  for (const PanelKind* kind : kPanelKinds) {
+    const std::vector<KeyRow> rows = recipe_keys(*kind).rows();
+    const bool first = kind == kPanelKinds[0];
     const auto begin =
         first ? rows.begin()
               : std::find_if(rows.begin(), rows.end(), [](const KeyRow& row) { return row.key.starts_with("panels[]."); });
     page +=
-        fmt::format("\n## A panel of kind `{}`{}\n\n{}\n\n", name, first ? ", and the recipe itself" : "", about_panel(kind));
+        fmt::format("\n## A panel of kind `{}`{}\n\n{}\n\n", kind->name, first ? ", and the recipe itself" : "", kind->about);
     page += markdown_table({begin, rows.end()});
   }
   return page;

@@ -1,4 +1,4 @@
-// Kinds `footfalls` and `views`: how the robot walks.
+// Kinds `footfalls` and `views`: the gait as footfalls and pictures.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,6 @@
 #include "report/figures/paper/paper_panel.h"
 #include "report/figures/run/run_footfalls.h"
 #include "report/figures/run/run_views.h"
-#include "report/plot/helvetica.h"
 
 namespace gaitlab::report {
 
@@ -29,7 +28,7 @@ class FootfallsOfPanel final : public PaperPanel {
     }
     if (const std::string lacks = lacking_load(run.scenario, run.recording, legs); !lacks.empty()) {
       source.problem({"kind"},
-                     fmt::format("run {} has no column {}, by which a leg is known to stand", in_quotes(run.name), lacks));
+                     fmt::format("run {} lacks column {}, which shows the stance of a leg", in_quotes(run.name), lacks));
       return;
     }
     const std::size_t before = source.problems.size();
@@ -47,7 +46,7 @@ class FootfallsOfPanel final : public PaperPanel {
   [[nodiscard]] Margins margins() const override {
     double names = 0;
     for (const Footfall& row : rows_) names = std::max(names, helvetica_width(row.name, 13));
-    return {11 + names, 8 + text_width("0.00", 13) + 1};  // as draw_footfalls measures it
+    return {11 + names, 8 + text_width("0.00", 13) + 1};  // as in draw_footfalls
   }
   [[nodiscard]] double head(const Edges&) const override { return kFootfallHead; }
   [[nodiscard]] double body(const Edges&) const override {
@@ -56,9 +55,7 @@ class FootfallsOfPanel final : public PaperPanel {
   [[nodiscard]] bool stretches() const override { return false; }
 
   void draw(Canvas& canvas, const PlotArea& area) const override {
-    const Ticks time = time_ticks(from_, to_);
-    draw_footfalls(canvas, {rows_, "", "duty factor", 13}, time, {from_, to_, area.left, area.right}, area.top - kFootfallHead);
-    draw_axis_below(canvas, area, time, "time (s)", true);
+    draw_footfalls(canvas, {rows_, "", "duty factor", kPrint}, time_axis(from_, to_), area);
   }
 
   [[nodiscard]] Trace data() const override {
@@ -82,7 +79,7 @@ class FootfallsOfPanel final : public PaperPanel {
   double from_ = 0, to_ = 0;
 };
 
-/// Of two rows equally far away the earlier one; there is a row.
+/// Index of the nearest row, the earlier one if two are equally near; requires a row.
 std::size_t nearest_row(const std::vector<double>& time, double at) {
   std::size_t nearest = 0;
   for (std::size_t row = 1; row < time.size(); ++row) {
@@ -115,7 +112,6 @@ class ViewsOfPanel final : public PaperPanel {
     input_ = views_input(run.scenario, run.recording, from);
     input_.views_title = from.view;
     input_.views_legend = panel.legend;
-    input_.minus = true;
     for (std::size_t k = 0; k < panel.times.size(); ++k) {
       if (panel.times[k] > run.recording.simulated + 1e-9) {
         source.problem({"times", std::to_string(k)},
@@ -146,7 +142,7 @@ class ViewsOfPanel final : public PaperPanel {
     draw_views(canvas, input_, {area.left, area.right}, area.top);
   }
 
-  /// What the pictures are drawn from.
+  /// Data of the pictures.
   [[nodiscard]] Trace data() const override {
     std::vector<DataColumn> columns{{"t [s]", {}},   {"base.x [m]", {}}, {"base.y [m]", {}}, {"base.z [m]", {}},
                                     {"base.qw", {}}, {"base.qx", {}},    {"base.qy", {}},    {"base.qz", {}}};
@@ -167,9 +163,30 @@ class ViewsOfPanel final : public PaperPanel {
   std::vector<std::string> names_;
 };
 
+void views_fields(PanelRecipe& panel, Fields& f) {
+  f.numbers("times", panel.times, {"s", 0, kLongestTime, "Times at which the robot is drawn, from top to bottom."});
+  f.text("joint", panel.joint, "Joint that an arrow marks.");
+  f.flag("legend", panel.legend, "Legend of the colours of the bodies.");
+}
+
+const char* no_times(const PanelRecipe& panel) {
+  return panel.times.empty() ? "missing key 'times', a list of times in s" : nullptr;
+}
+
 }  // namespace
 
-std::unique_ptr<PaperPanel> footfall_panel(const PanelSource& source) { return std::make_unique<FootfallsOfPanel>(source); }
-std::unique_ptr<PaperPanel> views_panel(const PanelSource& source) { return std::make_unique<ViewsOfPanel>(source); }
+const PanelKind kFootfallsPanel{.name = "footfalls",
+                                .about = "Stance phases of each leg of a robot, with its duty factor.",
+                                .one_run = true,
+                                .fields = [](PanelRecipe& panel, Fields& f) { panel.time_fields(f); },
+                                .lacking = nothing_lacks,
+                                .make = made<FootfallsOfPanel>};
+
+const PanelKind kViewsPanel{.name = "views",
+                            .about = "Side views of the robot at some instants.",
+                            .one_run = true,
+                            .fields = views_fields,
+                            .lacking = no_times,
+                            .make = made<ViewsOfPanel>};
 
 }  // namespace gaitlab::report

@@ -6,16 +6,17 @@
 #include <array>
 
 #include "report/figures/run/coincide.h"
+#include "report/figures/run/run_sheet.h"
 #include "report/plot/legend.h"
-#include "report/plot/panel.h"
+#include "report/plot/plot.h"
 #include "report/plot/svg.h"
 
 namespace gaitlab::report {
 
 namespace {
 
-constexpr double kLeft = 90, kRight = 970;  // px
-constexpr double kHead = 30, kHeight = 190, kFoot = 52;
+constexpr double kRunsLeft = 90, kRunsRight = 970;                   // px
+constexpr double kRunsHead = 30, kRunsHeight = 190, kRunsFoot = 52;  // px
 
 struct CurveStyle {
   std::string_view colour;
@@ -23,8 +24,8 @@ struct CurveStyle {
   [[nodiscard]] Style style() const { return {.stroke = colour, .width = 1.6, .dash = dash}; }
 };
 
-/// Seven colours, then again with dashes. Of n curves on each other, the first is whole and each further one, drawn over it,
-/// leaves 1/n of every 28 px to the one before.
+/// Styles: seven colours, then the same with dashes. The first of n coinciding curves is solid, and each further one, drawn
+/// over it, leaves 1/n of every 28 px to the previous one.
 std::vector<CurveStyle> styles(const CurvesInput& input) {
   constexpr std::array kColours{colour::kBlue, colour::kVermillion, colour::kGreen, colour::kPurple,
                                 colour::kSky,  colour::kOrange,     colour::kBlack};
@@ -49,40 +50,46 @@ double end_of(const CurvesInput& input) {
 }
 
 /// Draws the legend, or only measures it: the y below it.
-double legend(Svg* svg, const CurvesInput& input, const std::vector<CurveStyle>& styles) {
+double runs_legend(Canvas* canvas, const CurvesInput& input, const std::vector<CurveStyle>& styles) {
   std::vector<LegendEntry> entries;
-  for (std::size_t run = 0; run < input.names.size(); ++run) entries.push_back({input.names[run], styles[run].style()});
-  double y = draw_legend(svg, entries, kLeft, kRight, kTitleHeight + 10);
+  for (std::size_t run = 0; run < input.names.size(); ++run)
+    entries.push_back(line_entry(input.names[run], styles[run].style(), 38));
+  double y = draw_legend(canvas, entries, kRunsLeft, kRunsRight, kTitleHeight + 10);
   for (const std::vector<std::size_t>& group : input.coincide) {
     y += kLegendLine;
-    if (svg != nullptr) svg->text({kLeft, y}, "coincide: " + run_names(group, input.names));
+    if (canvas != nullptr) canvas->text({kRunsLeft, y}, "coincide: " + run_names(group, input.names));
   }
   return y + kLegendLine / 2;
+}
+
+Bounds shown_bounds(const CurvesInput& input, const CurvesPanel& shown) {
+  Bounds bounds;
+  for (std::size_t run = 0; run < shown.values.size(); ++run) {
+    for (std::size_t k = 0; k < shown.values[run].size(); ++k) {
+      if (input.time[run][k] >= shown.from) bounds.add(shown.values[run][k]);
+    }
+  }
+  return bounds;
 }
 
 }  // namespace
 
 std::string curves_svg(const CurvesInput& input) {
   const std::vector<CurveStyle> style = styles(input);
-  double top = legend(nullptr, input, style);
-  Svg svg(kWidth, top + (kHead + kHeight + kFoot) * static_cast<double>(input.panels.size()));
-  svg.text({kWidth / 2, 28}, input.title, {.size = 18, .anchor = Anchor::middle, .bold = true});
-  legend(&svg, input, style);
-  const double end = end_of(input);
+  double top = runs_legend(nullptr, input, style);
+  constexpr double kPanel = kRunsHead + kRunsHeight + kRunsFoot;
+  Svg svg(kWidth, top + kPanel * static_cast<double>(input.panels.size()));
+  draw_run_title(svg, input.title);
+  runs_legend(&svg, input, style);
   for (const CurvesPanel& shown : input.panels) {
-    svg.text({kLeft, top + 20}, shown.title, {.bold = true});
-    Bounds bounds;
-    for (std::size_t run = 0; run < shown.values.size(); ++run) {
-      for (std::size_t k = 0; k < shown.values[run].size(); ++k) {
-        if (input.time[run][k] >= shown.from) bounds.add(shown.values[run][k]);
-      }
-    }
-    Panel panel(svg, {kLeft, kRight, top + kHead, top + kHead + kHeight}, ticks_within(shown.from, end, 8), bounds.ticks(5));
-    for (std::size_t run = 0; run < shown.values.size(); ++run) {
-      panel.curve(input.time[run], shown.values[run], style[run].style());
-    }
-    panel.time_axis();
-    top += kHead + kHeight + kFoot;
+    svg.text({kRunsLeft, top + 20}, shown.title, {.bold = true});
+    const PlotArea area{kRunsLeft, kRunsRight, top + kRunsHead, top + kRunsHead + kRunsHeight};
+    const Plot plot(svg, area, {.ticks = ticks_within(shown.from, end_of(input), 8), .title = "time (s)"},
+                    {ticks_around(shown_bounds(input, shown), 5)});
+    plot.draw_axes();
+    for (std::size_t run = 0; run < shown.values.size(); ++run)
+      plot.curve(input.time[run], shown.values[run], style[run].style());
+    top += kPanel;
   }
   return svg.finish();
 }

@@ -5,278 +5,212 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <limits>
-#include <utility>
 
 #include "core/recording/motor_limit.h"
+#include "report/figures/run/run_sheet.h"
 #include "report/figures/run/views.h"
-#include "report/plot/panel.h"
+#include "report/plot/legend.h"
+#include "report/plot/plot.h"
 #include "report/plot/svg.h"
 
 namespace gaitlab::report {
 
 namespace {
 
-constexpr double kChartTop = 36, kChartHeight = 260, kChartFoot = 58;  // below the legend; px
-constexpr double kWindow = 8;                                          // s
+constexpr double kChartHead = 36, kChartHeight = 260, kChartFoot = 58;  // px; the head has the legend
+constexpr double kNear = 0.8;                                           // of the torque at rest
 
-// First of the samples that are shown; `time` is not empty.
+constexpr Style kAngle{.stroke = colour::kBlue, .width = 2};
+constexpr Style kSetpoint{.stroke = colour::kBlack, .width = 1.1, .dash = "2 3"};
+constexpr Style kTorque{.stroke = colour::kVermillion, .width = 1.6, .dash = "8 3"};
+constexpr Style kRestTorque{.stroke = colour::kVermillion, .width = 1, .dash = "10 3 2 3"};
+
+struct LimitLook {
+  MotorLimit limit;
+  std::string_view fill;
+  const char* name;
+};
+constexpr std::array<LimitLook, 2> kLimits{
+    {{MotorLimit::voltage, "#E3E3E3", "voltage limit"}, {MotorLimit::current, "#F3D3BD", "current limit"}}};
+
+// First of the samples shown; `time` is not empty.
 std::size_t first_shown(const std::vector<double>& time) {
   std::size_t first = 0;
-  while (time[first] < time.back() - kWindow - 1e-9) ++first;
+  while (time[first] < time.back() - kShownSeconds - 1e-9) ++first;
   return first;
 }
 
 Ticks shown_time(const std::vector<double>& time) { return ticks_within(time[first_shown(time)], time.back(), 8); }
 
-constexpr Style kZeroLine{.stroke = colour::kGrey};
-constexpr Style kAngle{.stroke = colour::kBlue, .width = 2};
-constexpr Style kSetpoint{.stroke = colour::kBlack, .width = 1.1, .dash = "2 3"};
-constexpr Style kTorque{.stroke = colour::kVermillion, .width = 1.6, .dash = "8 3"};
-
-constexpr Style kRestTorque{.stroke = colour::kVermillion, .width = 1, .dash = "10 3 2 3"};
-constexpr double kNear = 0.8;  // of the torque at rest
-
-// ---- upper panel: one joint over time
-
-struct Curve {
-  std::string name;
-  const std::vector<double>* values;
-  Style style;
-};
-
-class Chart {
+/// One joint over time: angle and set point on the left axis, torque on the right one.
+class JointChart {
  public:
-  Chart(Svg& svg, const FigureInput& input, const JointPanel& panel, double top)
-      : svg_(svg),
-        input_(input),
-        panel_(panel),
-        left_(left_edge(input)),
-        top_(top),
-        bottom_(top + kChartHeight),
-        first_(first_shown(input.time)),
-        time_(shown_time(input.time)),
-        x_{time_.lo, time_.hi, left_, kRight} {}
+  JointChart(const FigureInput& input, const JointPanel& panel) : time_(input.time), panel_(panel) {
+    add("angle", panel.angle, kAngle, Side::left);
+    add("set point", panel.setpoint, kSetpoint, Side::left);
+    add("torque (right)", panel.torque, kTorque, Side::right);
+    if (curves_.empty()) return;
+    first_ = first_shown(time_);
+    for (const Curve& curve : curves_)
+      (curve.side == Side::left ? angles_ : torques_).add(std::span(*curve.values).subspan(first_));
+  }
+  [[nodiscard]] bool empty() const { return curves_.empty(); }
 
-  void draw(const std::vector<Curve>& left, const std::vector<Curve>& right) {
-    const auto [left_ticks, right_ticks] = ticks(left, right);
-    const Scale left_y{left_ticks.lo, left_ticks.hi, bottom_, top_};
-    const Scale right_y{right_ticks.lo, right_ticks.hi, bottom_, top_};
-    shade_limits();
-    time_axis();
-    if (!left.empty()) {
-      grid(left_ticks, left_y);
-      labels(left_ticks, left_y, left_ - 8, Anchor::end, colour::kBlue);
-      svg_.text({left_ - 54, (top_ + bottom_) / 2}, "angle (rad)",
-                {.anchor = Anchor::middle, .fill = colour::kBlue, .upwards = true});
+  void draw(Canvas& canvas, const PlotArea& area) const {
+    const bool angles = has(Side::left);
+    const TwinTicks twin = ticks();
+    Plot plot(canvas, area, {.ticks = shown_time(time_), .title = time_title()},
+              angles ? Axis{.ticks = twin.a, .title = "angle (rad)", .away = 54, .fill = colour::kBlue} : Axis{}, {.text = 13});
+    if (has(Side::right)) {
+      plot.right_axis({.ticks = twin.b,
+                       .title = "torque (N m)",
+                       .lines = angles ? TickLines::outside : TickLines::grid,
+                       .fill = colour::kVermillion});
     }
-    if (!right.empty()) {
-      if (left.empty()) grid(right_ticks, right_y);
-      for (const double value : right_ticks.values())
-        svg_.line({kRight, right_y(value)}, {kRight + 4, right_y(value)}, kAxisLine);
-      labels(right_ticks, right_y, kRight + 8, Anchor::start, colour::kVermillion);
-      svg_.text({kRight + 62, (top_ + bottom_) / 2}, "torque (N m)",
-                {.anchor = Anchor::middle, .fill = colour::kVermillion, .upwards = true});
+    shade_limits(plot);
+    plot.draw_axes();
+    for (const Side side : {Side::right, Side::left}) {
+      for (const Curve& curve : curves_) {
+        if (curve.side == side) plot.curve(time_, *curve.values, curve.style, side);
+      }
     }
-    for (const Curve& curve : right) svg_.polyline(points(curve, right_y), curve.style);
-    for (const Curve& curve : left) svg_.polyline(points(curve, left_y), curve.style);
-    draw_rest_torques(bounds(right), right_y);
-    if (!right.empty()) mark_peak(*right.front().values, right_y);
-    svg_.rectangle({left_, top_}, kRight - left_, bottom_ - top_, kAxisLine);
-    legend(left, right);
+    draw_rest_torques(canvas, plot, area);
+    if (has(Side::right) && panel_.peak > 0) mark_peak(canvas, plot, area);
+    draw_head(canvas, area);
   }
 
  private:
-  [[nodiscard]] Bounds bounds(const std::vector<Curve>& curves) const {
-    Bounds bounds;
-    for (const Curve& curve : curves) {
-      for (std::size_t i = first_; i < curve.values->size(); ++i) bounds.add((*curve.values)[i]);
-    }
-    return bounds;
+  struct Curve {
+    const char* name;
+    const std::vector<double>* values;
+    Style style;
+    Side side;
+  };
+
+  void add(const char* name, const std::vector<double>& values, const Style& style, Side side) {
+    if (!values.empty() && values.size() == time_.size()) curves_.push_back({name, &values, style, side});
   }
 
-  [[nodiscard]] TwinTicks ticks(const std::vector<Curve>& left, const std::vector<Curve>& right) const {
-    Bounds a = bounds(left);
-    const double least = a.empty() ? 0 : panel_.least_angle;
-    if (least > 0) {
-      a.add(-least);
-      a.add(least);
+  [[nodiscard]] bool has(Side side) const {
+    return std::ranges::any_of(curves_, [side](const Curve& curve) { return curve.side == side; });
+  }
+
+  [[nodiscard]] TwinTicks ticks() const {
+    Bounds a = angles_;
+    if (!a.empty() && panel_.least_angle > 0) {
+      a.add(-panel_.least_angle);
+      a.add(panel_.least_angle);
     }
-    Bounds b = bounds(right);
-    for (const double limit : rest_torques(b)) b.add(limit);
-    if (left.empty() || right.empty()) return {ticks_around(a.lo, a.hi, 6), ticks_around(b.lo, b.hi, 6)};
+    Bounds b = torques_;
+    b.add(rest_torques());
+    if (!has(Side::left) || !has(Side::right)) return {ticks_around(a.lo, a.hi, 6), ticks_around(b.lo, b.hi, 6)};
     return twin_ticks(a.lo, a.hi, b.lo, b.hi);
   }
 
-  /// The motor's torque at rest, of each sign with which the curve comes near it.
-  [[nodiscard]] std::vector<double> rest_torques(const Bounds& torque) const {
+  [[nodiscard]] std::string time_title() const {
+    if (first_ == 0) return "time (s)";
+    return fmt::format("time (s), the last {:.3g} of {:.4g}", time_.back() - time_[first_], time_.back());
+  }
+
+  /// The motor's torques at rest, of each sign that the curve comes near.
+  [[nodiscard]] std::vector<double> rest_torques() const {
     std::vector<double> near;
     const double most = panel_.rest_torque;
-    if (most > 0 && torque.hi > kNear * most) near.push_back(most);
-    if (most > 0 && torque.lo < -kNear * most) near.push_back(-most);
+    if (most > 0 && torques_.hi > kNear * most) near.push_back(most);
+    if (most > 0 && torques_.lo < -kNear * most) near.push_back(-most);
     return near;
   }
 
-  [[nodiscard]] bool limited() const {
-    if (panel_.limit.size() != input_.time.size()) return false;
-    return std::any_of(panel_.limit.begin() + static_cast<std::ptrdiff_t>(first_), panel_.limit.end(),
-                       [](double l) { return l != 0; });
+  [[nodiscard]] bool reaches(MotorLimit limit) const {
+    if (panel_.limit.size() != time_.size()) return false;
+    const auto shown = std::span(panel_.limit).subspan(first_);
+    return std::ranges::find(shown, saturation_of(limit)) != shown.end();
   }
 
-  struct Limit {
-    MotorLimit limit;
-    std::string_view fill;
-    const char* name;
-  };
-  static constexpr std::array<Limit, 2> kLimits{
-      {{MotorLimit::voltage, "#E3E3E3", "voltage limit"}, {MotorLimit::current, "#F3D3BD", "current limit"}}};
-
-  /// A span lasts from its first row to the row after its last.
-  void shade_limits() {
-    if (!limited()) return;
+  /// A span extends from its first row to the row after its last.
+  void shade_limits(const Plot& plot) const {
+    if (panel_.limit.size() != time_.size()) return;
     for (std::size_t i = first_; i < panel_.limit.size();) {
       std::size_t next = i + 1;
       while (next < panel_.limit.size() && panel_.limit[next] == panel_.limit[i]) ++next;
-      for (const Limit& limit : kLimits) {
-        if (panel_.limit[i] != saturation_of(limit.limit)) continue;
-        const double from = x_(input_.time[i]);
-        const double to = x_(input_.time[std::min(next, panel_.limit.size() - 1)]);
-        svg_.rectangle({from, top_}, std::max(to - from, 0.5), bottom_ - top_, {.fill = limit.fill});
+      for (const LimitLook& look : kLimits) {
+        if (panel_.limit[i] == saturation_of(look.limit))
+          plot.band(time_[i], time_[std::min(next, time_.size() - 1)], look.fill);
       }
       i = next;
     }
   }
 
-  // A peak is of all steps, the curve of rows: the mark is at the height of the peak, on the side of the nearest row.
-  void mark_peak(const std::vector<double>& torque, const Scale& y) {
-    if (!(panel_.peak > 0)) return;
+  // A peak is from all steps, the curve from rows: the mark is at the height of the peak, at the nearest row.
+  void mark_peak(Canvas& canvas, const Plot& plot, const PlotArea& area) const {
+    const std::vector<double>& torque = panel_.torque;
     std::size_t row = first_;
-    while (row + 1 < torque.size() && input_.time[row] < panel_.peak_time - 1e-9) ++row;
-    const bool shown = panel_.peak_time >= input_.time[first_] && std::isfinite(torque[row]);
-    const double height = std::copysign(panel_.peak, shown ? torque[row] : 1);
+    while (row + 1 < torque.size() && time_[row] < panel_.peak_time - 1e-9) ++row;
+    const bool shown = panel_.peak_time >= time_[first_] && std::isfinite(torque[row]);
     if (shown) {
-      const double at = std::clamp(y(height), top_, bottom_);
-      svg_.circle({x_(panel_.peak_time), at}, 3.5, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 1});
+      Point at = plot.at(panel_.peak_time, std::copysign(panel_.peak, torque[row]), Side::right);
+      at.y = std::clamp(at.y, area.top, area.bottom);
+      canvas.circle(at, 3.5, {.stroke = colour::kWhite, .fill = colour::kVermillion, .width = 1});
     }
-    svg_.text({kRight, bottom_ + 38},
-              fmt::format("peak {:.3g} N m at {:.2f} s{}", panel_.peak, panel_.peak_time, shown ? "" : ", not shown"),
-              {.anchor = Anchor::end, .fill = colour::kVermillion});
+    canvas.text({area.right, area.bottom + kTitleBelow},
+                fmt::format("peak {:.3g} N m at {:.2f} s{}", panel_.peak, panel_.peak_time, shown ? "" : ", not shown"),
+                {.anchor = Anchor::end, .fill = colour::kVermillion});
   }
 
-  void draw_rest_torques(const Bounds& torque, const Scale& y) {
-    const std::vector<double> near = rest_torques(torque);
-    for (const double limit : near) svg_.line({left_, y(limit)}, {kRight, y(limit)}, kRestTorque);
+  void draw_rest_torques(Canvas& canvas, const Plot& plot, const PlotArea& area) const {
+    const std::vector<double> near = rest_torques();
+    for (const double limit : near) plot.level(limit, kRestTorque, Side::right);
     if (near.empty()) return;
-    svg_.line({left_, bottom_ + 33.5}, {left_ + 34, bottom_ + 33.5}, kRestTorque);
-    svg_.text({left_ + 42, bottom_ + 38}, fmt::format("torque of the motor at rest, {:.3g} N m", panel_.rest_torque),
-              {.fill = colour::kVermillion});
+    const double y = area.bottom + kTitleBelow;
+    canvas.line({area.left, y - 4.5}, {area.left + 34, y - 4.5}, kRestTorque);
+    canvas.text({area.left + 42, y}, fmt::format("torque of the motor at rest, {:.3g} N m", panel_.rest_torque),
+                {.fill = colour::kVermillion});
   }
 
-  void time_axis() {
-    for (const double t : time_.values()) {
-      svg_.line({x_(t), top_}, {x_(t), bottom_}, kGridLine);
-      svg_.text({x_(t), bottom_ + 18}, time_.label(t), {.anchor = Anchor::middle});
+  // One row above the frame: the joint's name at the left, the legend at the right.
+  void draw_head(Canvas& canvas, const PlotArea& area) const {
+    std::vector<LegendEntry> entries;
+    for (const LimitLook& look : kLimits) {
+      if (reaches(look.limit)) entries.push_back(box_entry(look.name, {.fill = look.fill}));
     }
-    const double shown = input_.time.back() - input_.time[first_];
-    svg_.text({(left_ + kRight) / 2, bottom_ + 38},
-              first_ > 0 ? fmt::format("time (s), the last {:.3g} of {:.4g}", shown, input_.time.back()) : "time (s)",
-              {.anchor = Anchor::middle});
-  }
-
-  void grid(const Ticks& ticks, const Scale& y) {
-    for (const double value : ticks.values()) {
-      const bool zero = std::abs(value) < 0.5 * ticks.step;
-      svg_.line({left_, y(value)}, {kRight, y(value)}, zero ? kZeroLine : kGridLine);
-    }
-  }
-
-  void labels(const Ticks& ticks, const Scale& y, double x, Anchor anchor, std::string_view fill) {
-    for (const double value : ticks.values())
-      svg_.text({x, y(value) + 4.5}, ticks.label(value), {.anchor = anchor, .fill = fill});
-  }
-
-  [[nodiscard]] std::vector<Point> points(const Curve& curve, const Scale& y) const {
-    std::vector<Point> points;
-    for (std::size_t i = first_; i < input_.time.size(); ++i) points.push_back({x_(input_.time[i]), y((*curve.values)[i])});
-    return thinned(points);
-  }
-
-  // In one row above the panel: the joint's name at the left, the curves at the right.
-  void legend(const std::vector<Curve>& left, const std::vector<Curve>& right) {
-    const double y = top_ - 13;
-    double x = kRight;
-    for (const std::vector<Curve>* curves : {&right, &left}) {
-      for (auto curve = curves->rbegin(); curve != curves->rend(); ++curve) {
-        x -= text_width(curve->name, 13);
-        svg_.text({x, y}, curve->name);
-        svg_.line({x - 42, y - 4.5}, {x - 8, y - 4.5}, curve->style);
-        x -= 62;
-      }
-    }
-    for (const Limit& limit : kLimits) {
-      if (!limited() || std::find(panel_.limit.begin() + static_cast<std::ptrdiff_t>(first_), panel_.limit.end(),
-                                  saturation_of(limit.limit)) == panel_.limit.end())
-        continue;
-      x -= text_width(limit.name, 13);
-      svg_.text({x, y}, limit.name);
-      svg_.rectangle({x - 20, y - 10}, 12, 12, {.fill = limit.fill});
-      x -= 36;
-    }
+    for (const Curve& curve : curves_) entries.push_back(line_entry(curve.name, curve.style, 34));
+    const double y = area.top - 13;
+    const double room = draw_legend_row(canvas, entries, area.right, y) - 20 - area.left;
     const std::string name = "joint " + panel_.joint;
-    double size = 13;
-    while (size > 8 && 1.1 * text_width(name, size) > x - left_) size -= 0.5;
-    svg_.text({left_, y}, name, {.size = size, .bold = true});
+    canvas.text({area.left, y}, name, {.size = fitting_size(name, 13, 8, room), .bold = true});
   }
 
-  Svg& svg_;
-  const FigureInput& input_;
+  const std::vector<double>& time_;
   const JointPanel& panel_;
-  double left_, top_, bottom_;
-  std::size_t first_;
-  Ticks time_;
-  Scale x_;
+  std::vector<Curve> curves_;
+  std::size_t first_ = 0;
+  Bounds angles_, torques_;
 };
-
-void title(Svg& svg, const std::string& text) {
-  double size = 18;
-  while (size > 10 && text_width(text, size) > kRight - kLeft) size -= 1;
-  svg.text({kWidth / 2, 28}, text, {.size = size, .anchor = Anchor::middle, .bold = true});
-}
 
 }  // namespace
 
 std::string figure_svg(const FigureInput& input) {
-  struct Curves {
-    const JointPanel* panel;
-    std::vector<Curve> left, right;
-  };
-  std::vector<Curves> charts;
+  std::vector<JointChart> charts;
   for (const JointPanel& panel : input.joints) {
-    Curves curves{&panel, {}, {}};
-    const auto add = [&](std::vector<Curve>& to, const char* name, const std::vector<double>& values, const Style& style) {
-      if (!values.empty() && values.size() == input.time.size()) to.push_back({name, &values, style});
-    };
-    add(curves.left, "angle", panel.angle, kAngle);
-    add(curves.left, "set point", panel.setpoint, kSetpoint);
-    add(curves.right, "torque (right)", panel.torque, kTorque);
-    if (!curves.left.empty() || !curves.right.empty()) charts.push_back(std::move(curves));
+    if (JointChart chart(input, panel); !chart.empty()) charts.push_back(std::move(chart));
   }
-  constexpr double kChart = kChartTop + kChartHeight + kChartFoot;
+  constexpr double kChart = kChartHead + kChartHeight + kChartFoot;
   const bool footfalls = !input.footfalls.empty() && !input.time.empty();
   const double footfall_top = kTitleHeight + kChart * static_cast<double>(charts.size());
   const Edges edges{left_edge(input), kRight};
   const double views_top = footfall_top + (footfalls ? footfall_height(input.footfalls.size()) : 0);
   Svg svg(kWidth, views_top + (input.views.empty() ? 0 : views_height(input, edges) + 8));
-  title(svg, input.title);
-  for (std::size_t i = 0; i < charts.size(); ++i) {
-    const double top = kTitleHeight + kChart * static_cast<double>(i) + kChartTop;
-    Chart(svg, input, *charts[i].panel, top).draw(charts[i].left, charts[i].right);
+  draw_run_title(svg, input.title);
+  double top = kTitleHeight + kChartHead;
+  for (const JointChart& chart : charts) {
+    chart.draw(svg, {edges.left, edges.right, top, top + kChartHeight});
+    top += kChart;
   }
   if (footfalls) {
-    const Ticks time = shown_time(input.time);
-    draw_footfalls(svg, {input.footfalls, "footfall", input.footfall_note}, time, {time.lo, time.hi, kLeftOfNames, kRight},
-                   footfall_top);
+    const double first = footfall_top + kFootfallHead;
+    const double bottom = footfall_top + footfall_height(input.footfalls.size()) - kFootfallFoot;
+    draw_footfalls(svg, {input.footfalls, "footfall", input.footfall_note}, {.ticks = shown_time(input.time), .texts = false},
+                   {edges.left, edges.right, first, bottom});
   }
   if (!input.views.empty()) draw_views(svg, input, edges, views_top);
   return svg.finish();

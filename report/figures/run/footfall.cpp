@@ -9,17 +9,18 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kRow = 24, kBar = 12;  // px
-constexpr double kGapSeen = 0.6;        // px: a foot that bounces within it looks as if it stood, and the file stays small
+constexpr double kGapSeen = 0.6;        // px: a foot that bounces for less appears to stand, and the file stays small
 
-void draw_bars(Canvas& canvas, const Footfall& row, const Scale& x, double y) {
+void draw_bars(Canvas& canvas, const Plot& plot, const PlotArea& area, const Footfall& row, std::size_t number) {
+  const auto place = [&](double time) { return plot.at(time, static_cast<double>(number)); };
   const auto bar = [&](double from, double to) {
-    if (to > from) canvas.rectangle({from, y - kBar / 2}, to - from, kBar, {.fill = colour::kInk});
+    if (to > from) canvas.rectangle({from, place(0).y - kBar / 2}, to - from, kBar, {.fill = colour::kInk});
   };
-  double from = x.from;
-  double to = x.from;
+  double from = area.left;
+  double to = area.left;
   for (const Stance& stance : row.stances) {
-    const double begin = std::clamp(x(stance.from), x.from, x.to);
-    const double end = std::clamp(x(stance.to), x.from, x.to);
+    const double begin = std::clamp(place(stance.from).x, area.left, area.right);
+    const double end = std::clamp(place(stance.to).x, area.left, area.right);
     if (begin - to > kGapSeen) {
       bar(from, to);
       from = begin;
@@ -51,20 +52,22 @@ double duty_factor(const std::vector<Stance>& stances, double from, double to) {
 
 double footfall_height(std::size_t rows) { return kFootfallHead + kRow * static_cast<double>(rows) + kFootfallFoot; }
 
-void draw_footfalls(Canvas& canvas, const FootfallDiagram& diagram, const Ticks& time, const Scale& x, double top) {
-  const std::vector<Footfall>& rows = diagram.rows;
-  const double first = top + kFootfallHead;
-  const double bottom = first + kRow * static_cast<double>(rows.size());
-  if (!diagram.title.empty()) canvas.text({x.from, top + 18}, diagram.title, {.bold = true});
-  if (!diagram.note.empty()) canvas.text({x.to + 8 + text_width("0.00", 13), top + 18}, diagram.note, {.anchor = Anchor::end});
-  for (const double t : time.values()) canvas.line({x(t), first}, {x(t), bottom}, kGridLine);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double y = first + kRow * (static_cast<double>(i) + 0.5);
-    canvas.text({x.from - 8, y + 4.5}, rows[i].name, {.size = diagram.name_size, .anchor = Anchor::end});
-    draw_bars(canvas, rows[i], x, y);
-    canvas.text({x.to + 8, y + 4.5}, fmt::format("{:.2f}", rows[i].duty_factor));
+void draw_footfalls(Canvas& canvas, const FootfallDiagram& diagram, const Axis& time, const PlotArea& area) {
+  std::vector<std::string> names;
+  std::vector<std::string> duty;
+  for (const Footfall& row : diagram.rows) {
+    names.push_back(row.name);
+    duty.push_back(fmt::format("{:.2f}", row.duty_factor));
   }
-  canvas.rectangle({x.from, first}, x.to - x.from, bottom - first, kAxisLine);
+  if (!diagram.title.empty()) canvas.text({area.left, area.top - 12}, diagram.title, {.bold = true});
+  if (!diagram.note.empty()) {
+    const double right = area.right + 8 + text_width("0.00", diagram.look.text);
+    canvas.text({right, area.top - 12}, diagram.note, {.anchor = Anchor::end});
+  }
+  Plot plot(canvas, area, time, {.ticks = row_ticks(names), .lines = TickLines::none}, diagram.look);
+  plot.right_axis({.ticks = row_ticks(duty), .lines = TickLines::none});
+  plot.draw_axes();
+  for (std::size_t i = 0; i < diagram.rows.size(); ++i) draw_bars(canvas, plot, area, diagram.rows[i], i);
 }
 
 }  // namespace gaitlab::report

@@ -4,16 +4,18 @@
 
 #include <algorithm>
 
-#include "report/plot/panel.h"
+#include "report/figures/run/run_sheet.h"
+#include "report/plot/legend.h"
+#include "report/plot/plot.h"
 #include "report/plot/svg.h"
 
 namespace gaitlab::report {
 
 namespace {
 
-constexpr double kLeft = 110, kRight = 970;  // px
-constexpr double kHead = 30, kSignals = 150, kGap = 14, kDifference = 80, kFoot = 52;
-constexpr double kPanel = kHead + kSignals + kGap + kDifference + kFoot;
+constexpr double kOverlayLeft = 110, kOverlayRight = 970;                              // px
+constexpr double kHead = 30, kSignals = 150, kGap = 14, kDifference = 80, kFoot = 52;  // px
+constexpr double kOverlayHeight = kHead + kSignals + kGap + kDifference + kFoot;
 
 constexpr Style kReference{.stroke = colour::kBlue, .width = 2};
 constexpr Style kNow{.stroke = colour::kVermillion, .width = 1.4, .dash = "7 3"};
@@ -27,29 +29,24 @@ std::vector<double> difference(const OverlayPanel& panel) {
   return d;
 }
 
-void legend(Svg& svg, const OverlayPanel& panel, double top) {
+void draw_head(Canvas& canvas, const OverlayPanel& panel, double top) {
   const std::string unit = panel.unit.empty() ? "" : " (" + panel.unit + ")";
-  svg.text({kLeft, top + 18}, panel.name + unit, {.bold = true});
-  double x = kRight;
-  const auto entry = [&](const std::string& name, const Style& style) {
-    x -= text_width(name, 13);
-    svg.text({x, top + 18}, name);
-    svg.line({x - 38, top + 13.5}, {x - 8, top + 13.5}, style);
-    x -= 56;
-  };
-  if (panel.outside) entry(fmt::format("outside from {:.6g} s", *panel.outside), kOutside);
-  entry("3 bands", kTolerance);
-  entry("now", kNow);
-  entry("golden", kReference);
+  canvas.text({kOverlayLeft, top + 18}, panel.name + unit, {.bold = true});
+  std::vector<LegendEntry> entries{line_entry("golden", kReference), line_entry("now", kNow),
+                                   line_entry("3 bands", kTolerance)};
+  if (panel.outside) entries.push_back(line_entry(fmt::format("outside from {:.6g} s", *panel.outside), kOutside));
+  draw_legend_row(canvas, entries, kOverlayRight, top + 18);
 }
 
-void draw(Svg& svg, const OverlayPanel& panel, double top) {
+void draw_overlay(Canvas& canvas, const OverlayPanel& panel, double top) {
   const Ticks time = ticks_within(panel.time.front(), panel.time.back(), 8);
   const double signals = top + kHead;
   Bounds both;
   both.add(panel.reference);
   both.add(panel.now);
-  Panel upper(svg, {kLeft, kRight, signals, signals + kSignals}, time, both.ticks(5));
+  const Plot upper(canvas, {kOverlayLeft, kOverlayRight, signals, signals + kSignals}, {.ticks = time, .texts = false},
+                   {ticks_around(both, 5)});
+  upper.draw_axes();
   upper.curve(panel.time, panel.reference, kReference);
   upper.curve(panel.time, panel.now, kNow);
   const std::vector<double> d = difference(panel);
@@ -58,16 +55,16 @@ void draw(Svg& svg, const OverlayPanel& panel, double top) {
   apart.add(panel.tolerance);
   apart.add(-panel.tolerance);
   const double below = signals + kSignals + kGap;
-  Panel lower(svg, {kLeft, kRight, below, below + kDifference}, time, apart.ticks(3));
+  const Plot lower(canvas, {kOverlayLeft, kOverlayRight, below, below + kDifference}, {.ticks = time, .title = "time (s)"},
+                   {.ticks = ticks_around(apart, 3), .title = "difference", .away = 80});
+  lower.draw_axes();
   for (const double edge : {-panel.tolerance, panel.tolerance}) lower.level(edge, kTolerance);
   lower.curve(panel.time, d, kDifferenceLine);
   if (panel.outside) {
     upper.moment(*panel.outside, kOutside);
     lower.moment(*panel.outside, kOutside);
   }
-  lower.time_axis();
-  svg.text({24, below + kDifference / 2}, "difference", {.size = 11, .anchor = Anchor::middle, .upwards = true});
-  legend(svg, panel, top);
+  draw_head(canvas, panel, top);
 }
 
 }  // namespace
@@ -75,13 +72,13 @@ void draw(Svg& svg, const OverlayPanel& panel, double top) {
 std::string overlay_svg(const std::string& title, const std::vector<OverlayPanel>& panels) {
   const auto drawn = [](const OverlayPanel& panel) { return !panel.time.empty(); };
   const auto count = std::count_if(panels.begin(), panels.end(), drawn);
-  Svg svg(kWidth, kTitleHeight + kPanel * static_cast<double>(count));
-  svg.text({kWidth / 2, 28}, title, {.size = 18, .anchor = Anchor::middle, .bold = true});
+  Svg svg(kWidth, kTitleHeight + kOverlayHeight * static_cast<double>(count));
+  draw_run_title(svg, title);
   double top = kTitleHeight;
   for (const OverlayPanel& panel : panels) {
     if (!drawn(panel)) continue;
-    draw(svg, panel, top);
-    top += kPanel;
+    draw_overlay(svg, panel, top);
+    top += kOverlayHeight;
   }
   return svg.finish();
 }

@@ -1,4 +1,4 @@
-// Signals now over what they were: where they part, and how far.
+// Signals of a run drawn over those of another, with their differences.
 #pragma once
 #include <optional>
 #include <string>
@@ -14,7 +14,7 @@ struct OverlayPanel {
   std::optional<double> outside = {};            ///< s, first time beyond the tolerance: marked
 };
 
-/// An SVG document, 1000 px wide, from top to bottom per panel both signals and, on its own axis, their difference. Panels
+/// An SVG document, 1000 px wide, from top to bottom per panel both signals and, on a separate axis, their difference. Panels
 /// without rows are left out.
 std::string overlay_svg(const std::string& title, const std::vector<OverlayPanel>& panels);
 

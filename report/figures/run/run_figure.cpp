@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/math/periods.h"
 #include "report/analysis/motors.h"
 #include "report/figures/run/run_footfalls.h"
 #include "report/figures/run/run_views.h"
@@ -15,7 +16,6 @@ namespace gaitlab::report {
 namespace {
 
 constexpr std::size_t kViews = 5;
-constexpr double kShown = 8;          // s, of the upper panels
 constexpr double kLongest = 4;        // s, of the side views: a period may have been found as a multiple of the gait's
 constexpr double kPeriodless = 2;     // s, of the side views without a limit cycle
 constexpr double kLeastAngle = 0.02;  // rad, the angle axis of a joint at rest
@@ -39,15 +39,15 @@ JointPanel joint_panel(const Scenario& scenario, const Recording& r, const Summa
   return panel;
 }
 
-// The start of the whole periods at the end of the run, as many as are shown.
+// The start of the whole periods at the end of the run that are shown.
 double periods_from(const Summary& s) {
-  const double shown = std::min(kShown, s.simulated);
+  const double shown = std::min(kShownSeconds, s.simulated);
   const double period = s.limit_cycle.period;
   if (!s.limit_cycle.found || period > shown) return s.simulated - shown;
   return s.simulated - std::floor(shown / period + 1e-3) * period;
 }
 
-// Five views from the start of the last period on; the sixth would show what the first shows.
+// Adds five views from the start of the last period on; a sixth would equal the first.
 void add_period(FigureInput& input, const Scenario& scenario, const Recording& r, const Summary& s, const Sight& from,
                 std::size_t joint) {
   const MotionCycle& cycle = s.limit_cycle;
@@ -73,7 +73,7 @@ struct Drawn {
   double least_angle = 0;  ///< rad
 };
 
-/// Those of the figure's key; without it the most loaded joint, and of a robot on legs the middle of the spine.
+/// Joints of the figure's key; without it the most loaded joint, and for a robot on legs the middle of the spine.
 std::vector<Drawn> drawn_joints(const Scenario& scenario, const Summary& summary, const std::vector<Leg>& legs) {
   const std::vector<Joint>& joints = scenario.robot->joints;
   if (joints.empty()) return {};
@@ -145,7 +145,7 @@ std::string run_figure(const Scenario& scenario, const Recording& r, const Summa
     add_period(input, scenario, r, summary, from, pointed);
     return figure_svg(input);
   }
-  const auto second = static_cast<std::size_t>(std::max<std::int64_t>(1, whole(1.0, scenario.trace.period)));
+  const auto second = static_cast<std::size_t>(std::max<std::int64_t>(1, math::steps_in(1.0, scenario.trace.period)));
   for (std::size_t back = kViews; back-- > 0;) {
     if (r.rows() > back * second) input.views.push_back(view_at(scenario, r, from, r.rows() - 1 - back * second, pointed));
   }

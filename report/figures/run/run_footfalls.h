@@ -1,4 +1,4 @@
-// When each leg of a run's robot stands.
+// Stance phases of each leg of a run's robot.
 #pragma once
 #include <span>
 #include <vector>
@@ -10,9 +10,9 @@
 
 namespace gaitlab::report {
 
-inline constexpr double kStands = 0.02;  ///< of the weight: a leg that carries more stands
+inline constexpr double kStands = 0.02;  ///< share of the weight: a leg that carries more stands
 
-/// The first column `load.M` of these legs that the recording does not have; empty: it has them all.
+/// The first column `load.M` of these legs that the recording lacks; empty: it has them all.
 std::string lacking_load(const Scenario& scenario, const Recording& record, const std::vector<Leg>& legs);
 
 /// A row per leg, over the whole run; `time` (s) of the recording's rows, duty factors from `from` (s) to its end.

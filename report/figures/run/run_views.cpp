@@ -13,11 +13,11 @@ namespace gaitlab::report {
 namespace {
 
 constexpr double kUpright = 0.7;   // least |z| of an axis that turns within the ground plane
-constexpr double kWay = 0.02;      // m: a shorter way has no direction
+constexpr double kWay = 0.02;      // m: a shorter path has no direction
 constexpr double kOffX = 0.26;     // |y| of a direction: within 15 degrees of x it counts as x
 constexpr double kAlongY = 0.035;  // 1 - |y|: within 15 degrees of y it counts as y
 
-/// The main direction of points in the plane: of the first axis of their scatter, forwards along the way.
+/// The main direction of points in the plane: the first axis of their scatter, oriented along the path.
 double main_direction(const Series& x, const Series& y) {
   const auto n = static_cast<double>(x.size());
   double mx = 0;
@@ -39,7 +39,7 @@ double main_direction(const Series& x, const Series& y) {
   return forward < 0 ? angle + std::numbers::pi : angle;
 }
 
-/// Most joints turn about the vertical: what happens is seen from above.
+/// Whether most joints turn about the vertical: the robot is then shown from above.
 bool moves_in_plane(const Robot& robot, const Kinematics& k) {
   std::size_t upright = 0;
   for (const Joint& joint : robot.joints)
@@ -47,38 +47,37 @@ bool moves_in_plane(const Robot& robot, const Kinematics& k) {
   return 2 * upright > robot.joints.size();
 }
 
-// Boxes as they are; of a field the line below the robot at the end.
+/// The line of a surface below the robot at the end.
+Polygon relief_line(const Heightfield& field, const Recording& r, const Sight& from) {
+  constexpr int kPieces = 400;
+  constexpr double kThick = 0.004;  // m
+  constexpr double kFar = 1000;     // m, beyond the border, where the heights go on
+  const Vec3 robot(r.series("base.x").back(), r.series("base.y").back(), 0);
+  const Vec3& right = from.camera.right;
+  const Vec3 base = robot - right.dot(robot) * right;  // on the line below the robot, where the picture has 0
+  const double width = field.spacing * static_cast<double>(std::max(field.columns, field.rows()) - 1);
+  const Vec3 middle = field.origin + 0.5 * field.spacing *
+                                         Vec3(static_cast<double>(field.columns - 1), static_cast<double>(field.rows() - 1), 0);
+  const double start = right.dot(middle) - 0.75 * width;  // 1.5 times the longer side: the diagonal, too
+  const auto height = [&](double at) { return field.at(base.x() + at * right.x(), base.y() + at * right.y()).z; };
+  Polygon line{{start - kFar, height(start)}};
+  for (int i = 0; i <= kPieces; ++i) {
+    const double at = start + i * 1.5 * width / kPieces;
+    line.push_back({at, height(at)});
+  }
+  line.push_back({line.back().x + kFar, line.back().y});
+  for (std::size_t i = line.size(); i-- > 0;) {
+    const Point above = line[i];
+    line.push_back({above.x, above.y - kThick});
+  }
+  return line;
+}
+
 std::vector<Polygon> solids(const Scenario& scenario, const Recording& r, const Sight& from) {
   std::vector<Polygon> seen;
-  const Ground& ground = scenario.ground;
-  if (ground.kind == Ground::Kind::boxes) {
-    for (const Box& box : ground.boxes) seen.push_back(box_outline({box.R, box.center}, box.size, from.camera));
-  } else if (ground.kind == Ground::Kind::heightfield && r.rows() > 0 && !from.above) {
-    constexpr int kPieces = 400;
-    constexpr double kThick = 0.004;  // m
-    constexpr double kFar = 1000;     // m, beyond the border, where the heights go on
-    const Heightfield& field = ground.field;
-    const Vec3 robot(r.series("base.x").back(), r.series("base.y").back(), 0);
-    const Vec3& right = from.camera.right;
-    const Vec3 base = robot - right.dot(robot) * right;  // on the line below the robot, where the picture has 0
-    const double width = field.spacing * static_cast<double>(std::max(field.columns, field.rows()) - 1);
-    const Vec3 middle =
-        field.origin +
-        0.5 * field.spacing * Vec3(static_cast<double>(field.columns - 1), static_cast<double>(field.rows() - 1), 0);
-    const double start = right.dot(middle) - 0.75 * width;  // 1.5 times the longer side: the diagonal, too
-    const auto height = [&](double at) { return field.at(base.x() + at * right.x(), base.y() + at * right.y()).z; };
-    Polygon line{{start - kFar, height(start)}};
-    for (int i = 0; i <= kPieces; ++i) {
-      const double at = start + i * 1.5 * width / kPieces;
-      line.push_back({at, height(at)});
-    }
-    line.push_back({line.back().x + kFar, line.back().y});
-    for (std::size_t i = line.size(); i-- > 0;) {
-      const Point above = line[i];
-      line.push_back({above.x, above.y - kThick});
-    }
-    seen.push_back(std::move(line));
-  }
+  for (const Box& box : scenario.ground.boxes()) seen.push_back(box_outline({box.R, box.center}, box.size, from.camera));
+  const Heightfield* relief = scenario.ground.relief();
+  if (relief != nullptr && r.rows() > 0 && !from.above) seen.push_back(relief_line(*relief, r, from));
   return seen;
 }
 
@@ -95,7 +94,7 @@ Sight sight(const Scenario& scenario, const Recording& r) {
   if (const double way = std::hypot(x.back() - x.front(), y.back() - y.front()); way > kWay) {
     const double angle = main_direction(x, y);
     const Vec3 along(math::cos(angle), math::sin(angle), 0);
-    // Near the world's x the picture is of world coordinates, forwards or backwards.
+    // Near the world's x the picture uses world coordinates, forwards or backwards.
     if (std::abs(along.y()) > kOffX) {
       s.camera = {along, Vec3::UnitZ(), Vec3(-along.y(), along.x(), 0)};
       const double degrees = std::remainder(angle, 2 * std::numbers::pi) * 180 / std::numbers::pi;
@@ -121,7 +120,7 @@ View view_at(const Scenario& scenario, const Recording& r, const Sight& from, st
   View view{r.series("t")[tick], side_view(robot, k, from.camera)};
   for (const ContactElement& element : contact_elements(robot, scenario.contact.on)) {
     const Ground::Touch touch = scenario.ground.query(k.point(element.link, element.centre), element.radius);
-    if (scenario.ground.kind != Ground::Kind::none && touch.penetration > 0) view.contacts.push_back(from.camera(touch.point));
+    if (scenario.ground.exists() && touch.penetration > 0) view.contacts.push_back(from.camera(touch.point));
   }
   if (!robot.joints.empty()) view.joint = from.camera(k.p[robot.joints[joint].link]);
   const Vec3 com = sums(robot, k, Vec3::Zero()).com;
@@ -131,8 +130,7 @@ View view_at(const Scenario& scenario, const Recording& r, const Sight& from, st
 
 FigureInput views_input(const Scenario& scenario, const Recording& record, const Sight& from) {
   FigureInput input;
-  const Ground::Kind ground = scenario.ground.kind;
-  input.ground = !from.above && (ground == Ground::Kind::plane || ground == Ground::Kind::boxes);
+  input.ground = !from.above && scenario.ground.has_plane();
   input.solids = solids(scenario, record, from);
   input.views_axis = from.axis + ", " + from.scale();
   return input;

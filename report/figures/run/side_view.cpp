@@ -12,7 +12,7 @@ namespace gaitlab::report {
 
 namespace {
 
-// A sphere's picture is a circle whichever way its body is turned.
+// A sphere's picture is a circle for any orientation.
 std::vector<Vec3> world_vertices(const Shape& shape, const Pose& body, const Camera& camera) {
   if (shape.kind != Shape::Kind::sphere) return moved(convex(shape), body).vertices;
   const double radius = shape.size.x();
@@ -22,7 +22,7 @@ std::vector<Vec3> world_vertices(const Shape& shape, const Pose& body, const Cam
   return points;
 }
 
-// Bodies of a planar robot differ in depth by rounding only, and must not change places for it from picture to picture.
+// Bodies of a planar robot differ in depth by rounding only, which must not change their order from picture to picture.
 double rounded_depth(double depth) { return std::round(depth * 1e4); }
 
 struct Seen {

@@ -1,4 +1,4 @@
-// A robot as a camera far away sees it: outlines of its bodies in the plane of the view.
+// A robot seen by a distant camera: outlines of its bodies in the plane of the view.
 #pragma once
 #include <vector>
 
@@ -22,10 +22,10 @@ struct Outline {
 };
 
 /// One outline per body that has shapes, far to near (by mean depth; at the same depth the body whose front is nearer comes
-/// later), so that drawing them in this order covers what is hidden.
+/// later), so that drawing them in this order hides covered parts.
 std::vector<Outline> side_view(const Robot& robot, const Kinematics& kinematics, const Camera& camera = {});
 
-/// A box that belongs to no robot, from the same side.
+/// Outline of a box that is not part of the robot, from the same side.
 Polygon box_outline(const Pose& pose, const Vec3& size, const Camera& camera = {});
 
 /// The convex hull, counter-clockwise, without points on its edges.

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 
-#include "report/plot/panel.h"
+#include "report/plot/legend.h"
+#include "report/plot/plot.h"
 
 namespace gaitlab::report {
 
@@ -85,7 +85,9 @@ class Views {
   void draw(Canvas& canvas, double top) const {
     const double bottom = top + height() - kFoot;
     header(canvas, top);
-    for (const double x : ticks_.values()) canvas.line({x_(x), top + head()}, {x_(x), bottom}, kGridLine);
+    Plot(canvas, {left_, right_, top + head(), bottom}, {.ticks = ticks_, .title = input_.views_axis}, {},
+         {.text = 13, .frame = false})
+        .draw_axes();
     std::vector<Point> centres;
     for (std::size_t i = 0; i < input_.views.size(); ++i) {
       const double floor = top + head() + pitch() * static_cast<double>(i + 1) - kViewGap / 2 - below_ * per_metre_;
@@ -95,15 +97,12 @@ class Views {
     }
     for (const Point& m : centres)
       canvas.polygons(std::vector<Polygon>{{m, {m.x - 5, m.y + 8}, {m.x + 5, m.y + 8}}}, {.fill = colour::kInk});
-    axis(canvas, bottom);
   }
 
  private:
-  static constexpr double kFoot = 48, kLegendRow = 22;  // px
+  static constexpr double kFoot = 48;  // px
 
-  [[nodiscard]] double head() const {
-    return (input_.views_legend ? 34 : 20) + kLegendRow * static_cast<double>(rows_below_title());
-  }
+  [[nodiscard]] double head() const { return (input_.views_legend ? 34 : 20) + legend_below(); }
   [[nodiscard]] double pitch() const { return std::max(30.0, (above_ + below_) * per_metre_) + kViewGap; }
 
   void draw_view(Canvas& canvas, const View& view, const Scale& z) const {
@@ -137,34 +136,21 @@ class Views {
     canvas.polygons(std::vector<Polygon>{{tip, {tip.x - 5, tip.y - 11}, {tip.x + 5, tip.y - 11}}}, {.fill = colour::kBlack});
   }
 
-  struct Entry {
-    std::string_view name;
-    double symbol, gap;  ///< px, before the name and before the symbol
-    std::function<void(Canvas&, Point)> draw;
-  };
-
-  /// From right to left.
-  [[nodiscard]] std::vector<Entry> legend() const {
-    std::vector<Entry> all;
+  [[nodiscard]] std::vector<LegendEntry> legend() const {
+    std::vector<LegendEntry> all;
     if (!input_.views_legend) return all;
+    for (const RoleLook& role : kLooks) {
+      if (any([&](const View& view) { return shows(view, role.role); }))
+        all.push_back(box_entry(std::string(role.name), {.stroke = colour::kInk, .fill = role.fill}));
+    }
+    if (any([](const View& view) { return std::ranges::any_of(view.outlines, &Outline::far); }))
+      all.push_back(box_entry("far side", {.stroke = colour::kGrey, .fill = "#F4F4F4"}));
+    if (any([](const View& view) { return !view.contacts.empty(); }))
+      all.push_back(dot_entry("contact", {.fill = colour::kVermillion}, 3));
     if (any([](const View& view) { return view.com.has_value(); })) {
-      all.push_back({"centre of mass", 12, 26, [](Canvas& canvas, Point m) {
+      all.push_back({"centre of mass", [](Canvas& canvas, Point m) {
                        canvas.polygons(std::vector<Polygon>{{{m.x, m.y - 4}, {m.x - 5, m.y + 4}, {m.x + 5, m.y + 4}}},
                                        {.fill = colour::kInk});
-                     }});
-    }
-    if (any([](const View& view) { return !view.contacts.empty(); })) {
-      all.push_back({"contact", 11, 24, [](Canvas& canvas, Point m) { canvas.circle(m, 3, {.fill = colour::kVermillion}); }});
-    }
-    if (any([](const View& view) { return std::ranges::any_of(view.outlines, &Outline::far); })) {
-      all.push_back({"far side", 19, 20, [](Canvas& canvas, Point corner) {
-                       canvas.rectangle({corner.x, corner.y - 6}, 12, 12, {.stroke = colour::kGrey, .fill = "#F4F4F4"});
-                     }});
-    }
-    for (auto role = kLooks.rbegin(); role != kLooks.rend(); ++role) {
-      if (!any([&](const View& view) { return shows(view, role->role); })) continue;
-      all.push_back({role->name, 19, 20, [fill = role->fill](Canvas& canvas, Point corner) {
-                       canvas.rectangle({corner.x, corner.y - 6}, 12, 12, {.stroke = colour::kInk, .fill = fill});
                      }});
     }
     return all;
@@ -175,47 +161,21 @@ class Views {
     return any([](const View& view) { return view.joint.has_value(); }) ? "side view (arrow: joint above)" : "side view";
   }
 
-  [[nodiscard]] static double width(const Entry& entry) { return text_width(entry.name, 13) + entry.symbol + entry.gap; }
-
-  /// Of the legend: 0 where it has room beside the title.
-  [[nodiscard]] int rows_below_title() const {
-    double all = text_width(views_title(), 13) * 1.1 + 20;  // bold
-    for (const Entry& entry : legend()) all += width(entry);
-    if (all <= right_ - left_) return 0;
-    int rows = 1;
-    double x = right_;
-    for (const Entry& entry : legend()) {
-      rows += x < right_ && x - width(entry) < left_ ? 1 : 0;
-      x = (x < right_ && x - width(entry) < left_ ? right_ : x) - width(entry);
-    }
-    return rows;
+  /// Height of the legend below the title, px: 0 if it fits beside it.
+  [[nodiscard]] double legend_below() const {
+    const double title = text_width(views_title(), 13) * 1.1 + 20;  // bold
+    if (!input_.views_legend || title + legend_width(legend()) <= right_ - left_) return 0;
+    return kLegendLine + draw_legend(nullptr, legend(), left_, right_, 0);
   }
 
   void header(Canvas& canvas, double top) const {
-    if (input_.views_legend) canvas.text({left_, top + 14}, views_title(), {.bold = true});
-    double x = right_;
-    double y = top + 14 + (rows_below_title() > 0 ? kLegendRow : 0);
-    for (const Entry& entry : legend()) {
-      if (x < right_ && x - width(entry) < left_) {
-        x = right_;
-        y += kLegendRow;
-      }
-      x -= text_width(entry.name, 13);
-      canvas.text({x, y}, entry.name);
-      x -= entry.symbol;
-      entry.draw(canvas, {x, y - 4.5});
-      x -= entry.gap;
+    if (!input_.views_legend) return;
+    canvas.text({left_, top + 14}, views_title(), {.bold = true});
+    if (legend_below() > 0) {
+      draw_legend(&canvas, legend(), left_, right_, top + 14 + kLegendLine);
+    } else {
+      draw_legend_row(canvas, legend(), right_, top + 14);
     }
-  }
-
-  void axis(Canvas& canvas, double bottom) const {
-    canvas.line({left_, bottom}, {right_, bottom}, kAxisLine);
-    for (const double x : ticks_.values()) {
-      canvas.line({x_(x), bottom}, {x_(x), bottom + 5}, kAxisLine);
-      canvas.text({x_(x), bottom + 20}, input_.minus ? with_minus(ticks_.label(x)) : ticks_.label(x),
-                  {.anchor = Anchor::middle});
-    }
-    canvas.text({(left_ + right_) / 2, bottom + 40}, input_.views_axis, {.anchor = Anchor::middle});
   }
 
   static bool shows(const View& view, Role role) {
@@ -228,8 +188,8 @@ class Views {
 
   const FigureInput& input_;
   double left_, right_;
-  std::vector<double> floors_ = {};  // height drawn on the base line of each view, m
-  double above_ = 0, below_ = 0;     // of the base line, m
+  std::vector<double> floors_ = {};  // height of each view's base line, m
+  double above_ = 0, below_ = 0;     // extent above and below the base line, m
   double per_metre_ = 1;
   Ticks ticks_;
   Scale x_;

@@ -1,18 +1,18 @@
-// A figure of bars with error bands: how much each of several names counts.
+// A figure of bars with error bands: the influence of each of several names.
 #pragma once
 #include <string>
 #include <vector>
 
 namespace gaitlab::report {
 
-/// NaN: not known, and not drawn.
+/// A bar. NaN: not known, and not drawn.
 struct Bar {
   double value = 0, low = 0, high = 0;
 };
 
 struct BarRow {
   std::string name;
-  std::vector<Bar> bars;  ///< one of each kind
+  std::vector<Bar> bars;  ///< one per kind
 };
 
 struct BarFigure {
@@ -21,7 +21,7 @@ struct BarFigure {
   std::vector<BarRow> rows;        ///< from above
 };
 
-/// At most 200 rows: those below are left out, and the note says so.
+/// SVG of at most 200 rows: the rows below are left out, which the note mentions.
 std::string bar_svg(const BarFigure& figure);
 
 }  // namespace gaitlab::report

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "report/figures/study/study_sheet.h"
-#include "report/plot/panel.h"
+#include "report/plot/plot.h"
 #include "report/plot/svg.h"
 
 namespace gaitlab::report {
@@ -16,13 +17,13 @@ constexpr double kBoxSheetHigh = 520;           // px
 constexpr PlotArea kBoxPlot{96, 720, 64, 400};  // px
 constexpr Style kBoxLine{.stroke = colour::kInk, .width = 1.3};
 
-void draw_box(Canvas& canvas, const Panel& panel, double x, double half, const BoxGroup& group) {
+void draw_box(Canvas& canvas, const Plot& plot, double x, double half, const BoxGroup& group) {
   std::vector<double> known;
   std::ranges::copy_if(group.values, std::back_inserter(known), [](double v) { return std::isfinite(v); });
   if (known.empty()) return canvas.text({x, kBoxPlot.bottom - 10}, "failed", {.size = 11, .anchor = Anchor::middle});
   const std::vector<double> in_order = known;
   std::ranges::sort(known);
-  const auto y = [&](double value) { return panel.at(0, value).y; };
+  const auto y = [&](double value) { return plot.at(0, value).y; };
   const double low = y(quartile(known, 0.25));
   const double high = y(quartile(known, 0.75));
   const double middle = y(quartile(known, 0.5));
@@ -33,7 +34,7 @@ void draw_box(Canvas& canvas, const Panel& panel, double x, double half, const B
                    {.stroke = colour::kInk, .fill = group.kept ? "#C6DDF0" : colour::kWhite, .width = 1.3});
   canvas.line({x - half, middle}, {x + half, middle}, {.stroke = colour::kBlue, .width = 2.4});
   if (in_order.size() > kMostDots) return;
-  // Side by side in the order of the replicates.
+  // Dots side by side in the order of the replicates.
   for (std::size_t k = 0; k < in_order.size(); ++k) {
     const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(in_order.size());
     canvas.circle({x + half * (1.4 * share - 0.7), y(in_order[k])}, 2.6,
@@ -53,21 +54,22 @@ double quartile(const std::vector<double>& sorted, double share) {
 }
 
 std::string box_svg(const BoxFigure& figure) {
-  const std::size_t groups = std::min(figure.groups.size(), kMostGroups);
+  const auto groups = std::span(figure.groups).first(std::min(figure.groups.size(), kMostGroups));
   Bounds range;
-  for (std::size_t k = 0; k < groups; ++k) range.add(figure.groups[k].values);
+  std::vector<std::string> names;
+  for (const BoxGroup& group : groups) {
+    range.add(group.values);
+    names.push_back(group.name);
+  }
   Svg svg(kSheetWidth, kBoxSheetHigh);
   draw_sheet_title(svg, figure.title);
-  const Ticks across{0, 1, 2};  // no ticks: names stand there
-  Panel panel(svg, kBoxPlot, across, range.ticks(7), {.minus = true});
-  panel.side_title(shortened(figure.axis), Side::left, 68);
-  for (std::size_t k = 0; k < groups; ++k) {
-    const double wide = (kBoxPlot.right - kBoxPlot.left) / static_cast<double>(groups);
-    const double x = kBoxPlot.left + wide * (static_cast<double>(k) + 0.5);
-    draw_box(svg, panel, x, std::min(36.0, wide / 3), figure.groups[k]);
-    svg.text({x, kBoxPlot.bottom + 18}, figure.groups[k].name, {.anchor = Anchor::middle});
-  }
-  svg.text({(kBoxPlot.left + kBoxPlot.right) / 2, kBoxPlot.bottom + 38}, figure.below, {.anchor = Anchor::middle});
+  const Ticks across = groups.empty() ? Ticks{} : word_ticks(names);
+  const Plot plot(svg, kBoxPlot, {.ticks = across, .title = figure.below, .lines = TickLines::none},
+                  {.ticks = ticks_around(range, 7), .title = shortened(figure.axis)});
+  plot.draw_axes();
+  const double wide = (kBoxPlot.right - kBoxPlot.left) / static_cast<double>(std::max<std::size_t>(groups.size(), 1));
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    draw_box(svg, plot, plot.at(static_cast<double>(k), 0).x, std::min(36.0, wide / 3), groups[k]);
   svg.text({kBoxPlot.left, kBoxPlot.bottom + 66}, "box: quartiles and median; dots: replicates; white: not kept", {.size = 12});
   draw_sheet_note(svg, figure.note, kBoxSheetHigh - 14);
   return svg.finish();

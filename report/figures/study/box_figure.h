@@ -1,4 +1,4 @@
-// A figure of boxes: how a value spreads, group by group.
+// A figure of boxes: the spread of a value in several groups.
 #pragma once
 #include <string>
 #include <vector>
@@ -16,8 +16,8 @@ struct BoxFigure {
   std::vector<BoxGroup> groups;          ///< at most 12 are drawn
 };
 
-/// A box from the first to the third quartile with the median, lines to the least and the largest, and a dot for each of up to
-/// 500 values.
+/// SVG with a box from the first to the third quartile with the median, lines to the least and the largest, and a dot for each
+/// of up to 500 values.
 std::string box_svg(const BoxFigure& figure);
 
 /// The value that a share of the sorted values does not exceed, linear between neighbours (Hyndman and Fan 1996, type 7).

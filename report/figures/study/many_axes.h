@@ -1,33 +1,20 @@
-// Axes of figures with many parameters: where a point lies on them, and their labels.
+// Axes of figures with many parameters.
 #pragma once
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "report/figures/study/many_figure.h"
-#include "report/plot/panel.h"
+#include "report/plot/ticks.h"
 
 namespace gaitlab::report {
 
-/// An axis over all points, from 0 to 1.
-class Spread {
- public:
-  Spread(const ManyAxis& axis, const ManyFigure& figure, std::size_t number);
-  /// Of values that are no parameter.
-  explicit Spread(const Bounds& range) : range_(range) {}
+/// Place of a value on the axis of a parameter: its logarithm, the index of a word, or the value.
+inline double place_on(const ManyAxis& axis, double value) { return axis.axis.log ? log10_of(value) : value; }
 
-  [[nodiscard]] double share(double value) const;
-  /// Places from 0 to 1 and their labels, about `count`.
-  [[nodiscard]] std::vector<std::pair<double, std::string>> labels(int count) const;
+/// About `count` ticks for a parameter over all points, widened by a share; at most 12 words.
+Ticks parameter_ticks(const ManyFigure& figure, std::size_t parameter, int count, double wider = 0);
 
- private:
-  [[nodiscard]] double scaled(double value) const;
-  Bounds range_;
-  bool log_ = false;
-  std::vector<std::string> words_;
-};
+/// Range of the values of the points that ended.
+Bounds ended_range(const ManyFigure& figure);
 
-/// The range that colours span: of the kept points, or where they have one value or none of all that have one.
-Bounds value_range(const ManyFigure& figure);
+/// Range of the colours: of the kept points, or of all points with a value if these have one value or none.
+Bounds colour_range(const ManyFigure& figure);
 
 }  // namespace gaitlab::report

@@ -7,7 +7,7 @@
 
 namespace gaitlab::report {
 
-/// A parameter: numbers, or words, of which a point has the number.
+/// A parameter: numbers, or words, of which a point has the index.
 struct ManyAxis {
   StudyAxis axis;
   std::vector<std::string> words = {};
@@ -15,7 +15,7 @@ struct ManyAxis {
 
 struct ManyPoint {
   std::vector<double> at;  ///< by axis
-  double value = 0;        ///< NaN where not known
+  double value = 0;        ///< NaN: not known
   PointState state = PointState::kept;
 };
 
@@ -24,15 +24,15 @@ struct ManyFigure {
   std::vector<ManyAxis> axes;
   StudyAxis value;
   std::vector<ManyPoint> points;
-  std::size_t best = 0;  ///< number of a point; points.size(): there is none
+  std::size_t best = 0;  ///< index of a point; points.size(): none
 };
 
-/// Parallel coordinates: a line per point over an axis per parameter, kept ones coloured by their value, others grey, the
-/// best black. Above 20 000 stretches between axes a histogram of them. At most 16 parameters; the note tells what is left out.
+/// Parallel coordinates: a line per point over an axis per parameter, kept ones coloured by their value, others grey, the best
+/// black. Above 20 000 line segments between axes a histogram of them. At most 16 parameters; the note mentions those left out.
 std::string parallel_svg(const ManyFigure& figure);
-/// A panel per parameter, at most 24: the value over it. Above 20 000 dots a histogram of them.
+/// A panel per parameter, at most 24: the value over the parameter. Above 20 000 dots a histogram of them.
 std::string scatter_svg(const ManyFigure& figure);
-/// The points of both.
+/// Points of both figures as CSV.
 std::string many_csv(const ManyFigure& figure);
 
 }  // namespace gaitlab::report

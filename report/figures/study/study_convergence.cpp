@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/settings/wording.h"
-#include "report/plot/panel.h"
+#include "report/figures/study/study_sheet.h"
+#include "report/plot/legend.h"
+#include "report/plot/plot.h"
 #include "report/plot/svg.h"
 
 namespace gaitlab::report {
@@ -15,7 +16,7 @@ namespace {
 
 constexpr PlotArea kObjectiveArea{90, 700, 64, 330};  // px
 constexpr PlotArea kShareArea{90, 700, 360, 450};     // px
-constexpr double kConvergenceWidth = 760, kConvergenceHeight = 560;
+constexpr double kConvergenceHeight = 560;            // px
 constexpr Style kSoFar{.stroke = colour::kBlack, .width = 2};
 constexpr Style kOfGeneration{.stroke = colour::kBlue, .width = 1.2};
 constexpr Style kMedian{.stroke = colour::kSky, .width = 1.4, .dash = "6 4"};
@@ -41,11 +42,30 @@ Curves curves_of(const std::vector<ConvergencePoint>& search, bool maximize) {
   return curves;
 }
 
+/// Calls `draw` with the generation of every restart.
+template <class Draw>
+void each_restart(const std::vector<ConvergencePoint>& search, const Draw& draw) {
+  for (std::size_t k = 1; k < search.size(); ++k) {
+    if (search[k].restart != search[k - 1].restart) draw(search[k].generation);
+  }
+}
+
+void draw_convergence_legend(Canvas& canvas, const ConvergenceFigure& figure) {
+  std::vector<LegendEntry> entries{line_entry("best so far", kSoFar, 26),
+                                   line_entry("best of the generation", kOfGeneration, 26),
+                                   line_entry("median, kept points", kMedian, 26)};
+  const auto restarts = [](const std::vector<ConvergencePoint>& search) {
+    return !search.empty() && search.back().restart > 0;
+  };
+  if (std::ranges::any_of(figure.searches, restarts)) entries.push_back(line_entry("start again", kRestart, 26));
+  draw_legend(&canvas, entries, kObjectiveArea.left, kSheetWidth + LegendLook().behind, kConvergenceHeight - 47.5);
+}
+
 }  // namespace
 
 std::string convergence_svg(const ConvergenceFigure& figure) {
-  Svg svg(kConvergenceWidth, kConvergenceHeight);
-  svg.text({kObjectiveArea.left, 30}, figure.title, {.size = 17, .bold = true});
+  Svg svg(kSheetWidth, kConvergenceHeight);
+  draw_sheet_title(svg, figure.title);
   std::vector<Curves> all;
   Bounds generations;
   Bounds values;
@@ -55,49 +75,35 @@ std::string convergence_svg(const ConvergenceFigure& figure) {
     values.add(curves.best);
     values.add(curves.median);
   }
-  const Ticks across =
-      generations.empty() ? ticks_around(0, 1, 8) : ticks_around(generations.lo, std::max(generations.hi, 1.0), 8);
-  Panel upper(svg, kObjectiveArea, across, values.ticks(7), {});
-  upper.side_title(figure.value.title(), Side::left, 62);
-  Panel lower(svg, kShareArea, across, ticks_around(0, 1, 2), {});
-  lower.side_title("kept", Side::left, 62);
-  lower.axis_below("generation");
+  if (!generations.empty()) generations.add(1);
+  const Ticks across = ticks_around(generations, 8);
+  const Plot upper(svg, kObjectiveArea, {.ticks = across, .texts = false},
+                   {.ticks = ticks_around(values, 7), .title = figure.value.title()});
+  const Plot lower(svg, kShareArea, {.ticks = across, .title = "generation"},
+                   {.ticks = ticks_around(0, 1, 2), .title = "kept"});
+  upper.draw_axes();
+  lower.draw_axes();
   for (std::size_t s = 0; s < all.size(); ++s) {
     upper.curve(all[s].generation, all[s].median, kMedian);
     upper.curve(all[s].generation, all[s].best, kOfGeneration);
     upper.curve(all[s].generation, all[s].so_far, kSoFar);
     lower.curve(all[s].generation, all[s].share, kShare);
-    const std::vector<ConvergencePoint>& search = figure.searches[s];
-    for (std::size_t k = 1; k < search.size(); ++k) {
-      if (search[k].restart == search[k - 1].restart) continue;
-      upper.moment(search[k].generation, kRestart);
-      lower.moment(search[k].generation, kRestart);
-    }
+    each_restart(figure.searches[s], [&](double generation) {
+      upper.moment(generation, kRestart);
+      lower.moment(generation, kRestart);
+    });
   }
-  double x = kObjectiveArea.left;
-  const auto entry = [&](const char* name, const Style& style) {
-    svg.line({x, kConvergenceHeight - 52}, {x + 26, kConvergenceHeight - 52}, style);
-    svg.text({x + 32, kConvergenceHeight - 47.5}, name);
-    x += 56 + text_width(name, 13);
-  };
-  entry("best so far", kSoFar);
-  entry("best of the generation", kOfGeneration);
-  entry("median, kept points", kMedian);
-  const auto restarts = [](const std::vector<ConvergencePoint>& search) {
-    return !search.empty() && search.back().restart > 0;
-  };
-  if (std::ranges::any_of(figure.searches, restarts)) entry("start again", kRestart);
-  svg.text({20, kConvergenceHeight - 14}, figure.note, {.size = 11, .fill = colour::kGrey});
+  draw_convergence_legend(svg, figure);
+  draw_sheet_note(svg, figure.note, kConvergenceHeight - 14);
   return svg.finish();
 }
 
 std::string convergence_csv(const ConvergenceFigure& figure) {
   std::string text = "search,generation,restart,points,best,median,kept,spread\n";
-  const auto cell = [](double value) { return std::isfinite(value) ? number_text(value) : ""; };
   for (std::size_t s = 0; s < figure.searches.size(); ++s) {
     for (const ConvergencePoint& p : figure.searches[s])
-      text += fmt::format("{},{},{},{},{},{},{},{}\n", s, cell(p.generation), cell(p.restart), cell(p.points), cell(p.best),
-                          cell(p.median), cell(p.kept), cell(p.spread));
+      text += fmt::format("{},{},{},{},{},{},{},{}\n", s, csv_cell(p.generation), csv_cell(p.restart), csv_cell(p.points),
+                          csv_cell(p.best), csv_cell(p.median), csv_cell(p.kept), csv_cell(p.spread));
   }
   return text;
 }

@@ -1,10 +1,10 @@
-// How a search went: best, median and share of kept points by generation.
+// Progress of a search: best, median and share of kept points by generation.
 #pragma once
 #include "report/figures/study/study_figure.h"
 
 namespace gaitlab::report {
 
-/// best, median: of the kept points; NaN: there are none.
+/// best, median: of the kept points; NaN: none.
 struct ConvergencePoint {
   double generation = 0, restart = 0, points = 0;
   double best = 0, median = 0, kept = 0, spread = 0;  ///< kept: share of the points; spread: share of the box

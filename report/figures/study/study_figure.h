@@ -9,14 +9,14 @@ namespace gaitlab {
 
 namespace report {
 
-/// An axis: a parameter or a figure.
+/// An axis: a parameter or a quantity.
 struct StudyAxis {
   std::string name, unit;
   bool log = false;
   [[nodiscard]] std::string title() const { return unit.empty() ? name : name + " (" + unit + ")"; }
 };
 
-/// kept: no guard and no constraint is broken. Of the others infeasible: by the verdict of a run; broken: by no verdict.
+/// kept: breaks no guard and no constraint. Others: infeasible by the verdict of a run, or broken without such a verdict.
 enum class PointState { kept, broken, infeasible, failed };
 
 }  // namespace report
@@ -30,14 +30,14 @@ struct EnumNames<report::PointState> {
 
 namespace report {
 
-/// value: the mean over the replicates, low and high the least and the largest; NaN where not known.
+/// value: the mean over the replicates, low and high the least and the largest; NaN: not known.
 struct StudyPoint {
   double x = 0, y = 0;
   double value = 0, low = 0, high = 0;
   PointState state = PointState::kept;
 };
 
-/// Entry of a legend for the points that came to their end and are not kept; empty: there are none.
+/// Entry of a legend for the points that ended normally and are not kept; empty: none.
 template <class Points>
 const char* not_kept_text(const Points& points) {
   bool broken = false;
@@ -56,12 +56,12 @@ struct StudyFigure {
   bool map = false;   ///< two parameters
   bool grid = false;  ///< a map of cells; else of dots
   std::vector<StudyPoint> points;
-  std::size_t best = 0;  ///< number of a point; points.size(): there is none
+  std::size_t best = 0;  ///< index of a point; points.size(): none
 };
 
-/// At most 20 000 marks: above that a histogram, whose cells are the means of their kept points.
+/// SVG with at most 20 000 marks: above that a histogram, whose cells are the means of their kept points.
 std::string study_svg(const StudyFigure& figure);
-/// The points it draws.
+/// The points as CSV.
 std::string study_csv(const StudyFigure& figure);
 
 }  // namespace report

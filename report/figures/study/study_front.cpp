@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
-#include "core/settings/wording.h"
-#include "report/plot/panel.h"
+#include "report/figures/study/study_sheet.h"
+#include "report/plot/legend.h"
+#include "report/plot/plot.h"
 #include "report/plot/svg.h"
 
 namespace gaitlab::report {
@@ -15,15 +17,15 @@ namespace gaitlab::report {
 namespace {
 
 constexpr PlotArea kFrontArea{90, 700, 64, 450};  // px
-constexpr double kFrontWidth = 760, kFrontHeight = 560;
+constexpr double kFrontHeight = 560;              // px
 constexpr std::size_t kMostBehind = 20000;
 constexpr Style kBehind{.stroke = colour::kGrey, .fill = colour::kWhite, .width = 1};
 constexpr Style kFront{.stroke = colour::kBlue, .fill = colour::kBlue, .width = 1.4};
 constexpr Style kStair{.stroke = colour::kBlue, .width = 1.4};
 constexpr Style kVerified{.stroke = colour::kBlack, .width = 2.2};
 
-/// Of the front, and as much again around it: what is far behind would press the front into a corner.
-Bounds bounds_of(const FrontFigure& f, std::size_t objective) {
+/// Bounds of the front, with a margin of its size: far dominated points would compress the front into a corner.
+Bounds front_bounds(const FrontFigure& f, std::size_t objective) {
   Bounds front;
   Bounds all;
   for (const FrontPoint& p : f.points) {
@@ -38,52 +40,59 @@ Bounds bounds_of(const FrontFigure& f, std::size_t objective) {
   return shown;
 }
 
+Axis front_axis(const FrontFigure& f, std::size_t objective, int count) {
+  return {.ticks = ticks_around(front_bounds(f, objective), count),
+          .title = f.objectives[objective].title() + (f.maximize[objective] ? ", more is better" : ", less is better")};
+}
+
+/// Between two points of a front the worse value of each objective holds.
+std::vector<Point> stair(std::span<const Point> front) {
+  std::vector<Point> line;
+  for (const Point& at : front) {
+    if (!line.empty()) line.push_back({at.x, line.back().y});
+    line.push_back(at);
+  }
+  return line;
+}
+
+void draw_front_legend(Canvas& canvas, bool verified) {
+  std::vector<LegendEntry> entries{dot_entry("no other point is better in all objectives", kFront, 4.5),
+                                   dot_entry("other kept points", kBehind, 3)};
+  if (verified) entries.push_back(dot_entry("verified", kVerified, 8));
+  draw_legend(&canvas, entries, kFrontArea.left, kSheetWidth, kFrontHeight - 47.5);
+}
+
 }  // namespace
 
 std::string front_svg(const FrontFigure& f) {
-  Svg svg(kFrontWidth, kFrontHeight);
-  svg.text({kFrontArea.left, 30}, f.title, {.size = 17, .bold = true});
-  const Ticks x_ticks = bounds_of(f, 0).ticks(8);
-  const Ticks y_ticks = bounds_of(f, 1).ticks(7);
-  Panel panel(svg, kFrontArea, x_ticks, y_ticks, {});
-  panel.axis_below(f.objectives[0].title() + (f.maximize[0] ? ", more is better" : ", less is better"));
-  panel.side_title(f.objectives[1].title() + (f.maximize[1] ? ", more is better" : ", less is better"), Side::left, 62);
-  const auto inside = [&](const FrontPoint& p) {
-    return p.objectives[0] >= x_ticks.lo && p.objectives[0] <= x_ticks.hi && p.objectives[1] >= y_ticks.lo &&
-           p.objectives[1] <= y_ticks.hi;
+  Svg svg(kSheetWidth, kFrontHeight);
+  draw_sheet_title(svg, f.title);
+  const Plot plot(svg, kFrontArea, front_axis(f, 0, 8), front_axis(f, 1, 7));
+  plot.draw_axes();
+  const auto place = [&](const FrontPoint& p) { return plot.at(p.objectives[0], p.objectives[1]); };
+  const auto inside = [](Point at) {
+    return at.x >= kFrontArea.left && at.x <= kFrontArea.right && at.y >= kFrontArea.top && at.y <= kFrontArea.bottom;
   };
-  std::vector<Point> stair;
+  std::vector<Point> front;
   const std::size_t every = f.points.size() / kMostBehind + 1;
   for (std::size_t k = 0; k < f.points.size(); ++k) {
-    const FrontPoint& p = f.points[k];
-    if (p.state == FrontState::behind && inside(p) && k % every == 0)
-      svg.circle(panel.at(p.objectives[0], p.objectives[1]), 3, kBehind);
+    const Point at = place(f.points[k]);
+    if (f.points[k].state != FrontState::behind) {
+      front.push_back(at);
+    } else if (k % every == 0 && inside(at)) {
+      svg.circle(at, 3, kBehind);
+    }
   }
+  if (f.objectives.size() == 2) svg.polyline(stair(front), kStair);
+  bool any_verified = false;
   for (const FrontPoint& p : f.points) {
     if (p.state == FrontState::behind) continue;
-    const Point at = panel.at(p.objectives[0], p.objectives[1]);
-    // Between two points of a front the worse value of either holds.
-    if (!stair.empty() && f.objectives.size() == 2) stair.push_back({at.x, stair.back().y});
-    stair.push_back(at);
+    svg.circle(place(p), 4.5, kFront);
+    if (p.state == FrontState::verified) svg.circle(place(p), 9, kVerified);
+    any_verified = any_verified || p.state == FrontState::verified;
   }
-  if (f.objectives.size() == 2) svg.polyline(stair, kStair);
-  for (const FrontPoint& p : f.points) {
-    if (p.state == FrontState::behind) continue;
-    const Point at = panel.at(p.objectives[0], p.objectives[1]);
-    svg.circle(at, 4.5, kFront);
-    if (p.state == FrontState::verified) svg.circle(at, 9, kVerified);
-  }
-  double x = kFrontArea.left;
-  const auto entry = [&](const char* name, double radius, const Style& style) {
-    svg.circle({x + 4, kFrontHeight - 52}, radius, style);
-    svg.text({x + 20, kFrontHeight - 47.5}, name);
-    x += 46 + text_width(name, 13);
-  };
-  entry("no other point is better in all objectives", 4.5, kFront);
-  entry("other kept points", 3, kBehind);
-  if (std::ranges::any_of(f.points, [](const FrontPoint& p) { return p.state == FrontState::verified; }))
-    entry("verified", 8, kVerified);
-  svg.text({20, kFrontHeight - 14}, f.note, {.size = 11, .fill = colour::kGrey});
+  draw_front_legend(svg, any_verified);
+  draw_sheet_note(svg, f.note, kFrontHeight - 14);
   return svg.finish();
 }
 
@@ -92,8 +101,8 @@ std::string front_csv(const FrontFigure& f) {
   for (const StudyAxis& axis : f.objectives) text += axis.name + ",";
   text += "state\n";
   for (const FrontPoint& p : f.points) {
-    text += number_text(p.run) + ",";
-    for (const double value : p.objectives) text += number_text(value) + ",";
+    text += csv_cell(p.run) + ",";
+    for (const double value : p.objectives) text += csv_cell(value) + ",";
     text += std::string(name_of(p.state)) + "\n";
   }
   return text;

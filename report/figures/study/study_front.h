@@ -1,4 +1,4 @@
-// Two objectives against one another: the points that no other is better than in both, and those behind them.
+// Two objectives against one another: the Pareto front, and the dominated points.
 #pragma once
 #include "core/names.h"
 #include "report/figures/study/study_figure.h"
@@ -29,10 +29,10 @@ struct FrontFigure {
   std::string title, note;
   std::vector<StudyAxis> objectives;
   std::vector<bool> maximize;
-  std::vector<FrontPoint> points;  ///< kept ones; those of the front by the first objective
+  std::vector<FrontPoint> points;  ///< kept ones; points of the front ordered by the first objective
 };
 
-/// At most 20 000 marks: of those behind the front every n-th above that.
+/// SVG with at most 20 000 marks: above that every n-th dominated point.
 std::string front_svg(const FrontFigure& figure);
 std::string front_csv(const FrontFigure& figure);
 

@@ -1,57 +1,48 @@
-// What the figures of studies share: the sheet, its title and note, colours of values, marks of points.
+// Common parts of the figures of studies: the sheet, its title and note, colours of values, marks of points.
 #pragma once
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
-#include "report/plot/canvas.h"
-#include "report/plot/panel.h"
+#include "report/plot/plot.h"
 
 namespace gaitlab::report {
 
 inline constexpr double kSheetWidth = 760, kSheetTop = 64;  ///< px
 inline constexpr double kMark = 5;                          ///< px, radius of a point
-inline constexpr std::size_t kMostMarks = 20000;            ///< of a figure
+inline constexpr std::size_t kMostMarks = 20000;            ///< per figure
 inline constexpr Style kBestMark{.stroke = colour::kBlack, .width = 2.4};
 inline constexpr Style kHatchLine{.stroke = colour::kInk, .width = 0.8};
 
-/// An axis: from `lo` to `hi`, of a logarithmic one their logarithms to base 10; and what is written at it, where.
-struct AxisMarks {
+/// Bins of a histogram: equal parts of [lo, hi].
+struct Bins {
   double lo = 0, hi = 1;
-  std::vector<std::pair<double, std::string>> labels;
+  std::size_t count = 1;
+  /// The bin that contains a value; values outside are in the outermost bins.
+  [[nodiscard]] std::size_t of(double value) const;
+  /// Place at a share of a bin: 0 its lower edge, 1 its upper one.
+  [[nodiscard]] double at(std::size_t bin, double share) const;
 };
-/// About `count` labels of round numbers within the bounds, which are widened by a share of them; of a logarithmic axis 1, 2,
-/// 5, 10
-/// ..., over many decades 1, 10 ... One value alone stands in the middle.
-AxisMarks axis_marks(const Bounds& bounds, bool log, int count, double wider = 0);
-/// Frame, labels and, where wanted, lines across.
-struct FrameLook {
-  bool grid = true, left_labels = true, below_labels = true;
-};
-void draw_frame(Canvas& canvas, const PlotArea& area, const AxisMarks& x, const AxisMarks& y, const FrameLook& look = {});
 
-/// 10^exponent.
-double power_of_ten(double exponent);
-double log10_of(double value);
+/// A number of a CSV file; empty: not finite.
+std::string csv_cell(double value);
 
-/// A name that would take too much of the sheet, with its middle left out.
+/// A name without its middle part if it is too long for the sheet.
 std::string shortened(const std::string& name);
 
-/// Long ones are made smaller, and then cut.
+/// Draws the title: long ones are made smaller, and then cut.
 void draw_sheet_title(Canvas& canvas, const std::string& title);
-/// Small and grey, in as many lines as it takes; the last at `y` (px).
+/// Draws a note, small and grey, in the necessary number of lines; the last at `y` (px).
 void draw_sheet_note(Canvas& canvas, const std::string& note, double y);
 
-/// `#RRGGBB` from pale (0) to dark blue (1), ever darker, so that it is read in grey, too.
+/// `#RRGGBB` from pale (0) to dark blue (1), steadily darker, so that it is readable in grey also.
 std::string shade(double share);
 
-/// The scale of shades right of an area, with ticks and a title. lo = hi: one value; lo > hi: none.
-void draw_shades(Canvas& canvas, const PlotArea& area, double lo, double hi, std::string_view title);
+/// Draws the scale of shades right of an area, with ticks and a title; without bounds nothing.
+void draw_shades(Canvas& canvas, const PlotArea& area, const Bounds& bounds, const std::string& title);
 
-/// Of a failed point.
+/// Mark of a failed point.
 void draw_cross(Canvas& canvas, Point centre, double half);
-/// Of the best.
+/// Mark of the best point.
 void draw_ring(Canvas& canvas, Point centre);
 
 }  // namespace gaitlab::report

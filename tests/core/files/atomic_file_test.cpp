@@ -55,7 +55,7 @@ class FullDisk {
   rlimit before_ = {};
 };
 
-/// What it throws, as text; "" where it throws nothing.
+/// Text of the error thrown; "" for none.
 template <class Call>
 std::string refusal(const Call& call) {
   try {
@@ -140,7 +140,7 @@ TEST_F(AtomicFiles, DevicesAndFifosAreWrittenIntoAndStay) {
   EXPECT_TRUE(fs::is_fifo(file_));
 }
 
-/// What /dev/stdout leads to.
+/// Target of /dev/stdout.
 TEST_F(AtomicFiles, WhatIsOpenIsWrittenInto) {
   const int open = ::open(file_.c_str(), O_RDWR | O_CREAT, 0600);
   struct stat before {};

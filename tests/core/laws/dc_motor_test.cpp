@@ -11,7 +11,7 @@ constexpr double kTurn = 0.5;
 
 DcMotor motor(double turn) { return {4.3, 0.00395, 0.00395, 594, kEta, 7.4, 1.2, turn}; }
 
-/// Of the gear alone: the shaft of the motor gives Kt i n w, the joint gets T w.
+/// Power of the gear alone: the shaft of the motor gives Kt i n w, the joint gets T w.
 double gear_loss(const DcMotor& m, double command, double speed) {
   const DcMotor::Effort e = m(command, speed);
   return (m.Kt * e.current * m.gear - e.torque) * speed;

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace gaitlab {
 namespace {
@@ -15,8 +17,7 @@ Box box(const Vec3& center, const Vec3& size, const Vec3& turn = Vec3::Zero(), d
 
 Ground boxes(std::vector<Box> list) {
   Ground ground;
-  ground.kind = Ground::Kind::boxes;
-  ground.boxes = std::move(list);
+  ground.shape = Boxes(std::move(list));
   return ground;
 }
 
@@ -91,7 +92,7 @@ TEST(GroundBox, TurnedAgreesWithSampledSurfaces) {
   EXPECT_LT(inside, 90);
 }
 
-// What moves together changes nothing: the gap and the normal in the box's own axes.
+// A common motion of point and box changes neither the gap nor the normal in the box's own axes.
 TEST(GroundBox, TurnsAndMovesWithItsBox) {
   const Box still = box({0, 0, 5}, kSize);
   const Vec3 turn(0.3, -1.1, 2.0);
@@ -178,8 +179,7 @@ TEST(GroundBoxes, PushContinuously) {
 
 Ground field(std::size_t columns, std::vector<double> values, double spacing = 0.1) {
   Ground ground;
-  ground.kind = Ground::Kind::heightfield;
-  ground.field = {{-0.2, 0.1, 0.05}, spacing, columns, std::move(values)};
+  ground.shape = Heightfield{{-0.2, 0.1, 0.05}, spacing, columns, std::move(values)};
   return ground;
 }
 
@@ -194,7 +194,7 @@ TEST(GroundField, OfAPlaneIsThePlane) {
     for (const double y : {0.1, 0.13, 0.3, 0.45, 0.5}) {
       const Vec3 on(x, y, 0.05 + 0.2 * (x + 0.2) - 0.3 * (y - 0.1));
       if (x < -0.19 || y < 0.11 || x > 0.09 || y > 0.49) {
-        EXPECT_NEAR(ground.field.at(x, y).z, on.z(),
+        EXPECT_NEAR(ground.relief()->at(x, y).z, on.z(),
                     kGroundRounding);  // beside it, where a foot lies outside, the normal is another
         continue;
       }
@@ -205,7 +205,7 @@ TEST(GroundField, OfAPlaneIsThePlane) {
 }
 
 TEST(GroundField, PassesThroughItsHeightsAndGoesOnOutside) {
-  const Heightfield f = field(3, {0, 1, 2, 5, 3, 1, 0, 0, 2}).field;
+  const Heightfield f = *field(3, {0, 1, 2, 5, 3, 1, 0, 0, 2}).relief();
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
       EXPECT_NEAR(f.at(-0.2 + 0.1 * static_cast<double>(j), 0.1 + 0.1 * static_cast<double>(i)).z, 0.05 + f.values[3 * i + j],
@@ -223,7 +223,7 @@ TEST(GroundField, NormalIsTheSlopeOfTheSurface) {
   std::uniform_real_distribution<double> unit(-0.02, 0.02);
   std::vector<double> values(36);
   for (double& v : values) v = unit(engine);
-  const Heightfield f = field(6, values).field;
+  const Heightfield f = *field(6, values).relief();
   const double e = 1e-6;  // m; a central difference errs by e^2 z''' = 1e-12 * 100, and by 1e-17 / e
   for (int i = 0; i < 400; ++i) {
     const double x = -0.2 + e + 0.4999 * (i % 20) / 20;
@@ -255,7 +255,7 @@ TEST(GroundField, FindsTheNearestPointOfACurvedSurface) {
     for (int j = -20; j <= 20; ++j) values.push_back(std::sqrt(R * R - spacing * spacing * (i * i + j * j)) - R);
   }
   Ground ground = field(41, values, spacing);
-  ground.field.origin = {-0.2, -0.2, 0};
+  std::get<Heightfield>(ground.shape).origin = {-0.2, -0.2, 0};
   for (const double angle : {0.0, 0.05, 0.15, 0.25}) {
     const Vec3 normal(std::sin(angle), 0, std::cos(angle));
     const Vec3 centre = Vec3(0, 0, -R) + (R + 0.03) * normal;
@@ -270,10 +270,11 @@ TEST(GroundField, FindsTheNearestPointOfACurvedSurface) {
 // More solids than one touch can have at once: the nearest counts, whatever stands before it in the list.
 TEST(GroundOfBoxes, GapIsThatToTheNearestOfMany) {
   Ground ground;
-  ground.kind = Ground::Kind::boxes;
+  std::vector<Box> list;
   double highest = 0;
   for (const double top : {0.01, 0.02, 0.03, 0.025}) {
-    ground.boxes.push_back({Vec3(0, 0, top / 2), Vec3(0.2, 0.2, top)});
+    list.push_back({Vec3(0, 0, top / 2), Vec3(0.2, 0.2, top)});
+    ground.shape = Boxes(list);
     highest = std::max(highest, top);
     EXPECT_NEAR(ground.query(Vec3(0, 0, 0.05), 0).penetration, highest - 0.05, 1e-15) << "rounding of 0.05";
   }
@@ -321,6 +322,46 @@ TEST(GroundSurfaceBelow, OfAFieldIsItsHeight) {
   const Ground slope = field(2, {0, 0.1, 0, 0.1}, 1);
   for (const double z : {-1.0, 0.0, 1.0}) EXPECT_NEAR(slope.surface_below({0.3, 0.6, z}, 0), 0.1, kGroundRounding) << z;
   EXPECT_EQ(Ground{}.surface_below({3, 4, 5}, 0), 0);
+}
+
+TEST(GroundTypes, AnswerTheirQueries) {
+  struct Row {
+    Ground::Shape shape;
+    const char* name;
+    bool exists, is_plane, has_plane, has_border;
+  };
+  const std::vector<Row> rows{{NoGround{}, "none", false, false, false, false},
+                              {Plane{}, "plane", true, true, true, false},
+                              {Boxes{box(kMiddle, kSize)}, "boxes", true, false, true, false},
+                              {field(2, {0, 0, 0, 0}).shape, "heightfield", true, false, false, true}};
+  ASSERT_EQ(rows.size(), kGroundTypes.size());
+  for (const Row& row : rows) {
+    const Ground ground{.shape = row.shape};
+    EXPECT_STREQ(ground.type().name, row.name);
+    EXPECT_EQ(ground.exists(), row.exists) << row.name;
+    EXPECT_EQ(ground.is_plane(), row.is_plane) << row.name;
+    EXPECT_EQ(ground.has_plane(), row.has_plane) << row.name;
+    EXPECT_EQ(ground.has_border(), row.has_border) << row.name;
+    EXPECT_EQ(ground.relief() != nullptr, row.has_border) << row.name;
+    EXPECT_EQ(ground.boxes().size(), row.name == std::string("boxes") ? 1U : 0U) << row.name;
+  }
+  EXPECT_EQ(plane_and_box_types(), "none, plane or boxes");
+}
+
+TEST(GroundTypes, AFieldEndsAtItsBorder) {
+  const Ground ground = field(3, {0, 0, 0, 0, 0, 0});  // x -0.2 to 0, y 0.1 to 0.2
+  EXPECT_FALSE(ground.beyond_border(-0.1, 0.15));
+  EXPECT_TRUE(ground.beyond_border(0.01, 0.15));
+  EXPECT_TRUE(ground.beyond_border(-0.1, 0.21));
+  EXPECT_FALSE(Ground{}.beyond_border(1e6, 1e6)) << "a plane has none";
+}
+
+TEST(GroundTypes, WithoutMovingBoxesTheFixedOnesStay) {
+  Box loose = box(kMiddle, kSize);
+  loose.mass = 0.2;
+  const Ground ground{.shape = Boxes{box({0, 0, 0.05}, {0.1, 0.1, 0.1}), loose}};
+  ASSERT_EQ(ground.without_moving_boxes().boxes().size(), 1U);
+  EXPECT_EQ(ground.without_moving_boxes().highest(), boxes({box({0, 0, 0.05}, {0.1, 0.1, 0.1})}).highest());
 }
 
 }  // namespace

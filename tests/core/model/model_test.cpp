@@ -1,4 +1,4 @@
-// Module geometry, docking and fusion, against closed forms and the table of the hexapod in docs/conventions.
+// Module geometry, docking and fusion, against closed forms and the table of the hexapod in docs/conventions.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -136,7 +136,8 @@ std::vector<std::array<int, 5>> renumbered(std::vector<std::array<int, 5>> rows,
   return rows;
 }
 
-/// What plugins know of a robot and of the same robot under other numbers. Rounding depends on the order of sums only: none.
+/// Information for plugins about a robot, and about the same robot with other numbers of its modules. Rounding depends on the
+/// order of sums only: none.
 void expect_same(const RobotInfo& a, const RobotInfo& b, const std::vector<int>& number) {
   ASSERT_EQ(a.modules.size(), b.modules.size());
   ASSERT_EQ(a.joints.size(), b.joints.size());

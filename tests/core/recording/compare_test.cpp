@@ -153,9 +153,11 @@ TEST(Compare, NotFiniteIsToldAndLeftOut) {
 TEST(Compare, OtherColumnsAndUnits) {
   Trace a = table({"t", "a", "b", "c"}, {0, 1, 2, 3});
   Trace b = table({"t", "c", "d", "b"}, {0, 3, 4, 2});
-  a.columns[2].unit = "V";
-  b.columns[3].unit = "N m";
-  b.columns[1].unit = "rad";
+  a.columns.change([](auto& columns) { columns[2].unit = "V"; });
+  b.columns.change([](auto& columns) {
+    columns[3].unit = "N m";
+    columns[1].unit = "rad";
+  });
   const TraceDifference found = compare(a, b);
   EXPECT_EQ(found.findings, (Sentences{"1 column in A only: a", "1 column in B only: d", "b: in V in A, in N m in B"}));
   EXPECT_EQ(found.only_a, Sentences{"a"});
@@ -190,7 +192,7 @@ TEST(Compare, RowsArePairedByTime) {
   EXPECT_TRUE(shorter.columns[0].equal);
   const TraceDifference coarser = compare(sampled({sine(1)}, 1, 0.005), sampled({sine(1, 0.01)}, 1, 0.015));
   EXPECT_EQ(coarser.findings,
-            (Sentences{"A has 201 rows, B has 68", "another time base: 67 rows of the same time in A and B"}));
+            (Sentences{"A has 201 rows, B has 68", "time columns differ: only 67 rows have equal times in A and B"}));
   EXPECT_EQ(coarser.rows, 67U);
   EXPECT_NEAR(coarser.columns[0].time_shift, 0.01, 2e-3 * 0.015);
 }
@@ -212,7 +214,7 @@ TEST(Compare, NoCommonTime) {
   EXPECT_EQ(compare(plain, table({"t", "x"}, {0, 1, kNoNumber, 2})).findings,
             Sentences{"B: t does not increase at row 2: its rows cannot be compared"});
   const TraceDifference apart = compare(plain, table({"t", "x"}, {0.5, 1, 1.5, 2}));
-  EXPECT_EQ(apart.findings, Sentences{"another time base: 0 rows of the same time in A and B"});
+  EXPECT_EQ(apart.findings, Sentences{"time columns differ: only 0 rows have equal times in A and B"});
   EXPECT_EQ(apart.rows, 0U);
   EXPECT_EQ(compare(Trace{}, Trace{}).findings.size(), 1U);
 }

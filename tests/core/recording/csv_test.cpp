@@ -24,7 +24,7 @@ class Csv : public testing::Test {
  protected:
   void put(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
   [[nodiscard]] std::string text() const { return test::read(file_); }
-  // What reading `text` complains about, `LINE:COL: error: ...`.
+  // Error of reading `text`, as `LINE:COL: error: ...`.
   [[nodiscard]] std::string complaint(const std::string& text) const {
     put(text);
     try {

@@ -14,7 +14,7 @@
 #include "core/errors.h"
 #include "tests/folder.h"
 
-// What a damaged file leaves open inside of HDF5 stays there: the library is told not to clean up when the program ends.
+// Objects of a damaged file stay open in HDF5: the library does not clean up at the program's end.
 extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier): LeakSanitizer's name
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }  // NOLINT(bugprone-reserved-identifier)
 
@@ -33,7 +33,7 @@ class H5 : public testing::Test {
     write_h5(trace, kOrigin, file_);
     return bytes();
   }
-  // What reading these bytes complains about, without the file's name; "" if it reads.
+  // Error of reading these bytes, without the file's name; "" if there is none.
   [[nodiscard]] std::string complaint(const std::string& bytes) const {
     put(bytes);
     try {
@@ -133,7 +133,7 @@ TEST_F(H5, UnwritableIsAFailedRun) {
     EXPECT_EQ(error.what(), (folder_ / "no" / "trace.h5").string() + ": cannot be written: No such file or directory");
   }
   Trace trace = sample(3);
-  trace.columns[1].name = std::string("a\0b", 3);
+  trace.columns.change([](auto& columns) { columns[1].name = std::string("a\0b", 3); });
   try {
     write_h5(trace, kOrigin, file_);
     FAIL();

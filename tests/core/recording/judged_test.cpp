@@ -126,7 +126,7 @@ TEST(Judged, WithoutSetPointsThatRepeatTheWholeRunCounts) {
   EXPECT_EQ(whole.periods, 0U);
 }
 
-/// What the first edition said: among joints at their limit all peaks are equal, and the lowest number won.
+/// An error of the first edition: all peaks of joints at their limit are equal, and the joint with the lowest number won.
 TEST(Judged, TheJointThatIsLongestAtALimitComesFirst) {
   Recording r = ticks_of_ten_seconds();
   for (int k = 0; k <= 100; ++k) cell(r, k, 0, 0) = cell(r, k, 1, kTorquePeak) = 2;

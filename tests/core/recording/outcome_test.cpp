@@ -32,7 +32,7 @@ class StoredOutcomes : public testing::Test {
     return read_h5(own_.path() / (format == "h5" ? "trace.h5" : kBesideCsv));
   }
   [[nodiscard]] Outcome read() const { return read_recording(own_.path()).recording.outcome; }
-  /// Of a recording that is written anew with another end.
+  /// Message about a recording that is written anew with another end.
   [[nodiscard]] Outcome read_with(const StoredTrace& stored, double ended) const {
     std::vector<Beside> beside = stored.beside;
     Trace& run = std::ranges::find(beside, "run", &Beside::name)->table;
@@ -65,7 +65,7 @@ TEST_F(StoredOutcomes, OfOlderFoldersAreDoneOrEarly) {
     std::vector<Beside> beside = stored.beside;
     Trace& run = std::ranges::find(beside, "run", &Beside::name)->table;
     const auto at = static_cast<std::ptrdiff_t>(run.find("ended"));
-    run.columns.erase(run.columns.begin() + at);
+    run.columns.change([&](auto& columns) { columns.erase(columns.begin() + at); });
     run.values.erase(run.values.begin() + at);
     write_h5(stored.trace, stored.origin, own_.path() / "trace.h5", beside);
     EXPECT_EQ(read().ended, outcome.done() ? Ended::done : Ended::early);

@@ -15,7 +15,7 @@ struct Chunk {
   std::vector<double> values;
 };
 
-// What zlib and the inverse of shuffle make of them: an implementation that shares nothing with the writer's.
+// The values unpacked by zlib and the inverse of shuffle: an implementation that shares nothing with the writer's.
 std::vector<Chunk> unpacked(const Trace& table, std::size_t rows) {
   std::vector<Chunk> all;
   pack_chunks(table, rows, [&](std::size_t row, std::size_t column, std::span<const std::byte> packed) {

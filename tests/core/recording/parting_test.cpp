@@ -1,4 +1,4 @@
-// What rollouts beside a run did, in its folder: read back as it was written, and refused where it cannot be.
+// Results of the rollouts beside a run, in its folder: they are read back as written, and impossible ones are refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ TEST_F(StoredPartings, AreNoneInOlderFolders) {
   Trace& run = std::ranges::find(beside, "run", &Beside::name)->table;
   for (std::size_t k = run.columns.size(); k-- > 0;) {
     if (!run.columns[k].name.starts_with("parting.")) continue;
-    run.columns.erase(run.columns.begin() + static_cast<std::ptrdiff_t>(k));
+    run.columns.change([&](auto& columns) { columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(k)); });
     run.values.erase(run.values.begin() + static_cast<std::ptrdiff_t>(k));
   }
   write_h5(stored.trace, stored.origin, own.path() / "trace.h5", beside);

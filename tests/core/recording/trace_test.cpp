@@ -1,5 +1,6 @@
 #include "core/recording/trace.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace gaitlab {
@@ -14,6 +15,25 @@ TEST(Trace, FindsAColumnByItsWholeName) {
   EXPECT_EQ(trace.find("joint.0"), trace.columns.size());
 }
 
+// Few names are compared one by one, more have places by their hash, which grow with them.
+TEST(Trace, FindsEachOfManyColumnsAndTheFirstOfTwoOfOneName) {
+  Trace trace;
+  EXPECT_EQ(trace.find(""), 0U);
+  for (std::size_t added = 0; added < 1000; ++added) {
+    trace.columns.push_back({fmt::format("joint.{}.angle", added), "rad", ""});
+    for (const std::size_t old : {std::size_t{0}, added / 2, added})
+      ASSERT_EQ(trace.find(fmt::format("joint.{}.angle", old)), old) << added;
+    ASSERT_EQ(trace.find(fmt::format("joint.{}.angle", added + 1)), added + 1);
+  }
+  trace.columns.push_back({"joint.500.angle", "rad", ""});
+  EXPECT_EQ(trace.find("joint.500.angle"), 500U);
+  trace.columns.change([](auto& columns) { columns.erase(columns.begin() + 500); });
+  EXPECT_EQ(trace.find("joint.500.angle"), 999U);
+  EXPECT_EQ(trace.find("joint.501.angle"), 500U);
+  const ColumnList made = trace.columns.list();
+  for (std::size_t i = 0; i < made.size(); ++i) ASSERT_EQ(made.find(made[i].name), i);
+}
+
 TEST(Trace, HashIsTheSameForTheSameTraceOnly) {
   const Trace trace = two_columns();
   EXPECT_EQ(hash(trace), hash(two_columns()));
@@ -26,7 +46,7 @@ TEST(Trace, HashIsTheSameForTheSameTraceOnly) {
   sign.values[0] = -0.0;
   EXPECT_NE(hash(sign), hash(trace));
   Trace name = two_columns();
-  name.columns[1].name = "joint.1.angle";
+  name.columns.change([](auto& columns) { columns[1].name = "joint.1.angle"; });
   EXPECT_NE(hash(name), hash(trace));
 }
 

@@ -113,7 +113,7 @@ TEST_F(ModuleFileTest, Format2) {
             "DIR/m.yaml:14:46: error: turns[0] is 4; allowed are 0 to 3");
   EXPECT_EQ(wrong("faces:", "connectors: {hook: {tension: 0}}\nfaces:"),
             "DIR/m.yaml:13:30: error: tension is 0 N; allowed are more than 0 N");
-  // What only format 2 has is said of it in format 1.
+  // A key of format 2 alone gets a message in format 1 that says so.
   const std::string old = "is a key of module format 2, and this is format 1; write gaitlab_module: 2";
   EXPECT_EQ(error(range, range + ", drive: none"), "DIR/m.yaml:12:102: error: 'drive' " + old);
   EXPECT_EQ(error("faces:", "connectors: {}\nfaces:"), "DIR/m.yaml:13:13: error: 'connectors' " + old);

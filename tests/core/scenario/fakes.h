@@ -177,7 +177,7 @@ class Folder : public test::Folder {
   }
 };
 
-/// What an InputError thrown by `act` says, or "no error".
+/// Text of the InputError thrown by `act`, or "no error".
 template <class Act>
 std::string error_of(Act act) {
   try {

@@ -1,4 +1,13 @@
 // The section `ground`: what is read, what is refused and where, and that the resolved scenario holds all of it.
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "core/scenario/height_file.h"
 #include "core/scenario/resolved.h"
 #include "tests/core/scenario/fixture.h"
 
@@ -22,13 +31,13 @@ TEST_F(GroundSection, ReadsBoxes) {
     - {center: [1, 2, 3], size: [0.1, 0.2, 0.3], rpy: [0, 0, 0.1]}
     - {size: [1, 1, 1], friction: 0.2, mass: 0}
 )");
-  ASSERT_EQ(s.ground.boxes.size(), 2U);
-  EXPECT_EQ(s.ground.kind, Ground::Kind::boxes);
-  EXPECT_EQ(s.ground.boxes[0].center, Vec3(1, 2, 3));
-  EXPECT_EQ(s.ground.boxes[0].size, Vec3(0.1, 0.2, 0.3));
-  EXPECT_EQ(s.ground.boxes[0].R, rpy({0, 0, 0.1}));
-  EXPECT_EQ(s.ground.boxes[0].friction, 0.5);  // the ground's
-  EXPECT_EQ(s.ground.boxes[1].friction, 0.2);
+  ASSERT_EQ(s.ground.boxes().size(), 2U);
+  EXPECT_STREQ(s.ground.type().name, "boxes");
+  EXPECT_EQ(s.ground.boxes()[0].center, Vec3(1, 2, 3));
+  EXPECT_EQ(s.ground.boxes()[0].size, Vec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(s.ground.boxes()[0].R, rpy({0, 0, 0.1}));
+  EXPECT_EQ(s.ground.boxes()[0].friction, 0.5);  // the ground's
+  EXPECT_EQ(s.ground.boxes()[1].friction, 0.2);
   EXPECT_NE(resolved(s).find("ground:\n  type: boxes\n  friction: 0.5\n  boxes:\n"
                              "    - {center: [1, 2, 3], size: [0.1, 0.2, 0.3], rpy: [0, 0, 0.1], friction: 0.5, mass: 0}\n"
                              "    - {center: [0, 0, 0], size: [1, 1, 1], rpy: [0, 0, 0], friction: 0.2, mass: 0}\n"),
@@ -40,8 +49,8 @@ TEST_F(GroundSection, ReadsBoxes) {
 TEST_F(GroundSection, ReadsAHeightfieldInTheScenarioAndFromAFile) {
   const Scenario s =
       read(kShort + "ground: {type: heightfield, heightfield: {values: [[0, 0.1, 0.2], [1, 2, 3e-1]], spacing: 0.5}}\n");
-  EXPECT_EQ(s.ground.field.columns, 3U);
-  EXPECT_EQ(s.ground.field.values, (std::vector<double>{0, 0.1, 0.2, 1, 2, 0.3}));
+  EXPECT_EQ(s.ground.relief()->columns, 3U);
+  EXPECT_EQ(s.ground.relief()->values.list(), (std::vector<double>{0, 0.1, 0.2, 1, 2, 0.3}));
   EXPECT_NE(resolved(s).find("  heightfield:\n    values:\n      - [0, 0.1, 0.2]\n      - [1, 2, 0.3]\n"
                              "    origin: [0, 0, 0]\n    spacing: 0.5\n"),
             std::string::npos)
@@ -100,6 +109,116 @@ TEST_F(GroundSection, RefusesHeightfieldsAtTheirPlace) {
             "a.csv:2:1: error: row[1] has 3 numbers; expected 2 like row[0]\n"
             "a.csv:2:4: error: row[1][1] is ''; expected a number in m\n"
             "a.csv:3:4: error: row[2][1] is 0x1; expected a decimal number in m");
+}
+
+/// As numpy.save writes a matrix of '<f8'.
+std::string matrix(std::size_t rows, std::size_t columns, const std::vector<double>& numbers) {
+  std::string header = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", rows, columns);
+  header.resize(117, ' ');
+  std::string bytes = std::string("\x93NUMPY\x01\x00v\x00", 10) + header + "\n";
+  const std::size_t start = bytes.size();
+  bytes.resize(start + numbers.size() * sizeof(double));
+  if (!numbers.empty()) std::memcpy(bytes.data() + start, numbers.data(), numbers.size() * sizeof(double));
+  return bytes;
+}
+
+class HeightFiles : public GroundSection {
+ protected:
+  static std::string ground(const std::string& keys) {
+    return kShort + "ground: {type: heightfield, heightfield: {" + keys + "}}\n";
+  }
+  std::string refused(const std::string& keys) { return wrong("{type: heightfield, heightfield: {" + keys + "}}"); }
+};
+
+TEST_F(HeightFiles, OfBinaryNumbersHaveTheBitsOfText) {
+  const std::vector<double> numbers = {0.1, -0.2, 1.0 / 3, 4e-5, 0, 1e3};
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); ++i) text += fmt::format("{}{}", numbers[i], i % 3 == 2 ? "\n" : " ");
+  folder_.write("hills.txt", text);
+  folder_.write("hills.npy", matrix(2, 3, numbers));
+  for (const char* scale : {"", ", scale: 0.3", ", scale: 2e-3"}) {
+    const Scenario from_text = read(ground("file: hills.txt, spacing: 0.5" + std::string(scale)));
+    const Scenario from_numbers = read(ground("file: hills.npy, spacing: 0.5" + std::string(scale)));
+    EXPECT_EQ(from_numbers.ground.relief()->columns, 3U);
+    ASSERT_EQ(from_numbers.ground.relief()->values.size(), numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(from_numbers.ground.relief()->values[i]),
+                std::bit_cast<std::uint64_t>(from_text.ground.relief()->values[i]));
+    }
+    EXPECT_EQ(resolved(from_numbers), resolved(from_text));
+    expect_stable(from_numbers);
+  }
+  EXPECT_EQ(read(ground("file: hills.npy, scale: 0.5")).ground.relief()->values[5], 500);
+}
+
+// A run's record names their file and its hash, so that it has at most 1 MB.
+TEST_F(HeightFiles, OfMoreHeightsThanARecordHoldsAreNamedInIt) {
+  std::vector<double> numbers(250UL * 300UL);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<double>(i % 977) * 1e-3;
+  const std::string file = folder_.write("large.npy", matrix(250, 300, numbers));
+  const Scenario s = read(ground("file: large.npy, scale: 0.5, origin: [1, 2, 3]"));
+  EXPECT_EQ(s.ground.relief()->columns, 300U);
+  EXPECT_EQ(s.ground.relief()->rows(), 250U);
+  EXPECT_EQ(s.ground.relief()->values[976], 0.5 * 0.976);
+  const std::string once = resolved(s);
+  EXPECT_NE(once.find(fmt::format("  heightfield:\n    file: {}\n    scale: 0.5\n    hash: {}\n    origin: [1, 2, 3]\n",
+                                  std::filesystem::canonical(file).string(), s.ground.relief()->source.hash)),
+            std::string::npos)
+      << once.substr(once.find("ground:"));
+  EXPECT_EQ(once.find("values:"), std::string::npos);
+  const Folder elsewhere;
+  const std::string record = elsewhere.write("r.yaml", once);
+  const Scenario again = read_scenario(record, {}, catalog_);
+  EXPECT_EQ(resolved(again), once);
+  EXPECT_EQ(again.ground.relief()->values.list(), s.ground.relief()->values.list());
+  numbers[0] = 7;
+  folder_.write("large.npy", matrix(250, 300, numbers));
+  const std::string other = error_of([&] { (void)read_scenario(record, {}, catalog_); });
+  EXPECT_NE(other.find("large.npy' is not the file of the record: its hash is "), std::string::npos) << other;
+  std::filesystem::remove(file);
+  EXPECT_NE(error_of([&] { (void)read_scenario(record, {}, catalog_); }).find("cannot be read: No such file or directory"),
+            std::string::npos);
+}
+
+TEST_F(HeightFiles, AreRefusedWithWhatTheyHold) {
+  folder_.write("flat.npy", matrix(1, 3, {1, 2, 3}));
+  EXPECT_EQ(refused("file: flat.npy"), "flat.npy: error: the heightfield has 1 rows of 3; expected at least 2 of 2");
+  folder_.write("gap.npy", matrix(2, 2, {1, 2, std::nan(""), 4}));
+  EXPECT_EQ(refused("file: gap.npy"),
+            "gap.npy: error: height [1, 0], counted from 0, is nan m; allowed are -1000000 to 1000000 m");
+  folder_.write("deep.npy", matrix(2, 2, {1, 2, 3, -2e4}));
+  EXPECT_EQ(refused("file: deep.npy, scale: 100"),
+            "deep.npy: error: height [1, 1], counted from 0, is -2000000 m; allowed are -1000000 to 1000000 m");
+  folder_.write("vast.npy", matrix(4097, 4097, {}));
+  EXPECT_EQ(refused("file: vast.npy"), "vast.npy: error: its shape is (4097, 4097); allowed are up to 16777216 numbers");
+  folder_.write("cut.npy", matrix(4096, 4096, {1, 2}));
+  EXPECT_EQ(refused("file: cut.npy"),
+            "cut.npy: error: 16 bytes of numbers follow its header; expected 134217728 for shape (4096, 4096) of type '<f8'");
+  folder_.write("text.npy", "0 1\n1 0\n");
+  EXPECT_EQ(refused("file: text.npy"),
+            "text.npy: error: it does not begin as a file of NumPy; expected a matrix of float32, float64 or integers in C "
+            "order, as numpy.save writes it");
+  folder_.write("grey.dem", std::string("\x89PNG\r\n\x1a\n", 8) + "rest");
+  EXPECT_EQ(refused("file: grey.dem"),
+            "s.yaml:3:49: error: file 'grey.dem' holds grey values from 0 to 65535; expected scale: metres of one");
+  EXPECT_EQ(refused("file: grey.dem, scale: 1e-3"),
+            "grey.dem: error: it ends too early; expected a PNG of 16 bit grey values without interlacing");
+  EXPECT_EQ(refused("values: [[0, 1], [1, 1]], scale: 2"),
+            "s.yaml:3:76: error: scale is that of a file, and the heights are given as values; expected no scale");
+  EXPECT_EQ(refused("file: gone.npy"), "s.yaml:3:49: error: file 'gone.npy' cannot be read: No such file or directory");
+}
+
+TEST_F(HeightFiles, ThatAreNotFilesAreRefusedAndNotWaitedFor) {
+  const std::string fifo = (std::filesystem::path(folder_.path()) / "fifo.npy").string();
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  std::filesystem::create_symlink("fifo.npy", std::filesystem::path(folder_.path()) / "link.npy");
+  std::filesystem::create_symlink("loop.npy", std::filesystem::path(folder_.path()) / "loop.npy");
+  for (const char* name : {"fifo.npy", "link.npy"}) {
+    EXPECT_EQ(refused("file: " + std::string(name)),
+              fmt::format("s.yaml:3:49: error: file '{}' cannot be read: not a regular file", name));
+  }
+  EXPECT_EQ(refused("file: loop.npy"), "s.yaml:3:49: error: file 'loop.npy' cannot be read: Too many levels of symbolic links");
+  EXPECT_EQ(refused("file: /dev/zero"), "s.yaml:3:49: error: file '/dev/zero' cannot be read: not a regular file");
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ TEST_F(ScenarioTest, PatternsOnTheCommandLine) {
       error(kTwo + "actuator: {R: {\"*/h\": 2}}\n", {"actuator.R.m1/*=5"}),
       "--set actuator.R.m1/*=5: error: joint 'm1/h' is given 2 by '*/h' and 5 by 'm1/*'; give it by its name, which beats "
       "patterns\nDIR/s.yaml:5:16: note: '*/h' is here");
-  // What is not per joint says so.
+  // A setting that is not per joint gets a message that says so.
   EXPECT_EQ(error(kTwo, {"duration.m1/h=5"}), "DIR/s.yaml:4:11: error: duration is a map; expected a number in s");
 }
 

@@ -24,7 +24,7 @@ TEST_F(ScenarioTest, EveryKeyButRobotAndDurationHasADefault) {
   EXPECT_EQ(s.physics.step, 2.5e-5);
   EXPECT_EQ(s.physics.integrator->name, "semi_implicit");
   EXPECT_EQ(s.physics.gravity.z(), -9.81);
-  EXPECT_EQ(s.ground.kind, Ground::Kind::plane);
+  EXPECT_TRUE(s.ground.is_plane());
   EXPECT_EQ(s.contact.on, ContactSet::feet);
   EXPECT_EQ(s.actuator.entry->name, "dc_motor");
   EXPECT_EQ(s.controller.entry->name, "pid");
@@ -109,7 +109,7 @@ TEST_F(ScenarioTest, TheDefaultTypeIsMtran) {
 }
 
 TEST_F(ScenarioTest, ASmallTextAsksForNoHugeRobot) {
-  EXPECT_NE(error("robot: {modules: duo, docks: [[1, 100000, 4, 0, 0]]}\nduration: 1\n").find("gap in the numbering"),
+  EXPECT_NE(error("robot: {modules: duo, docks: [[1, 10000, 4, 0, 0]]}\nduration: 1\n").find("gap in the numbering"),
             std::string::npos);
 }
 
@@ -228,7 +228,7 @@ TEST_F(ScenarioTest, LimitsBeyondWhatTheyAreSharesOf) {
 TEST_F(ScenarioTest, AnOldNameAndThePresentOne) {
   const std::string old = kShort + "limits: {margin: 0.7}\n";
   EXPECT_EQ(read(old).limits.warn_share, 0.7);
-  // What --set says takes the place of what the file says, under either name.
+  // --set replaces the value of the file, under either name.
   EXPECT_EQ(read(old, {"limits.margin=0.6"}).limits.warn_share, 0.6);
   EXPECT_EQ(read(old, {"limits.warn_share=0.6"}).limits.warn_share, 0.6);
   EXPECT_EQ(read(kShort + "limits: {warn_share: 0.7}\n", {"limits.margin=0.6"}).limits.warn_share, 0.6);

@@ -1,4 +1,4 @@
-// In which lines two texts differ.
+// Lines in which two texts differ.
 #include "core/settings/changed_lines.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,10 @@
-// The guards against yaml-cpp 0.7 (traps.md), and print_yaml.
+// The guards against yaml-cpp 0.7 (docs/decisions/0003-strict-yaml.md), and print_yaml.
 #include "core/settings/node.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "tests/core/scenario/fakes.h"
 #include "tests/cpu_time.h"
@@ -169,8 +171,14 @@ TEST(Node, HostileTextsEndSoon) {
         while (text.size() + part.size() < size) text += part;
         return test::cost_of([&] { error(text); });
       };
-      // Linear, it is 16 times; quadratic, 256. A cold cache multiplies the larger one.
-      EXPECT_LT(cost(1U << 16), 128 * cost(1U << 12)) << begin << part;
+      // 16 times if linear, 256 if quadratic. Another process can multiply a single cost, but not the least of several.
+      double large = cost(1U << 16);
+      double small = cost(1U << 12);
+      for (int again = 0; again < 9 && !(large < 128 * small); ++again) {
+        large = std::min(large, cost(1U << 16));
+        small = std::min(small, cost(1U << 12));
+      }
+      EXPECT_LT(large, 128 * small) << begin << part;
     }
   }
 }

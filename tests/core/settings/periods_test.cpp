@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/math/periods.h"
 #include "tests/core/scenario/fakes.h"
 
 namespace gaitlab {
@@ -13,22 +14,11 @@ std::string check(const std::vector<Period>& periods, const Period& step) {
   return fakes::error_of([&] { problems.raise(); });
 }
 
-TEST(Periods, WholeMultiples) {
-  EXPECT_EQ(whole_multiple(0.015, 2.5e-5), 600);
-  EXPECT_EQ(whole_multiple(20, 2.5e-5), 800000);
-  EXPECT_EQ(whole_multiple(0.015, 4e-5), 375);
-  EXPECT_EQ(whole_multiple(0.3, 0.1), 3);  // 2.9999999999999996
-  EXPECT_EQ(whole_multiple(0.015, 7e-5), 0);
-  EXPECT_EQ(whole_multiple(0.015 * (1 + 1e-8), 2.5e-5), 0);
-  EXPECT_EQ(whole_multiple(0.015 * (1 + 1e-10), 2.5e-5), 600);
-  EXPECT_EQ(whole_multiple(1e-5, 2.5e-5), 0);
-}
-
 TEST(Periods, StepsThatFitAll) {
   EXPECT_EQ(fitting_steps({0.015, 0.005, 20}, 3e-5), (std::vector<double>{2.5e-5, 3.125e-5}));
   EXPECT_EQ(fitting_steps({0.015}, 7e-5), (std::vector<double>{6.25e-5, 7.5e-5}));
   EXPECT_EQ(fitting_steps({0.001}, 0.5), (std::vector<double>{0.001}));
-  for (const double step : fitting_steps({0.015, 0.0123, 7}, 3.3e-5)) EXPECT_GT(whole_multiple(0.0123, step), 0);
+  for (const double step : fitting_steps({0.015, 0.0123, 7}, 3.3e-5)) EXPECT_GT(math::whole_steps(0.0123, step), 0);
 }
 
 TEST(Periods, PeriodsThatFit) {

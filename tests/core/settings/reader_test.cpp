@@ -29,7 +29,7 @@ struct Gains {
   }
 };
 
-/// What reading `text` into settings says; the settings stay as far as they were read.
+/// Messages of reading `text` into settings, which keep the values read before an error.
 template <class T>
 std::string read(const std::string& text, T& settings, JointNames joints = &kJoints) {
   const Node node = parse_yaml(text, "f");

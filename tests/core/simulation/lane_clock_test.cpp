@@ -66,5 +66,17 @@ TEST(LaneClock, NothingIsWithinAStepThatWasGiven) {
   EXPECT_EQ(LaneClock(scenario(2.5e-5, 20, 5e-3, false)).steps(), 800000);
 }
 
+/// Without rows the end alone is recorded, at a step or within one.
+TEST(LaneClock, RecordsNothingButTheEnd) {
+  const LaneClock at_step(scenario(5e-4, 0.15, 2.5e-3, false), false);
+  for (std::int64_t step = 0; step <= 300; ++step) EXPECT_EQ(at_step.records(step), step == 300) << step;
+  const LaneClock within(scenario(5e-3, 0.0517, 2.5e-3, true), false);
+  for (std::int64_t step = 0; step <= 11; ++step) EXPECT_FALSE(within.records(step)) << step;
+  for (std::int64_t step = 0; step < 10; ++step) EXPECT_TRUE(std::isinf(within.row_within(step, 0))) << step;
+  EXPECT_NEAR(within.row_within(10, 0), 1.7e-3, 1e-12);  // a picosecond
+  EXPECT_TRUE(within.ends_within(10, within.row_within(10, 0)));
+  EXPECT_TRUE(std::isinf(within.row_within(10, within.row_within(10, 0))));
+}
+
 }  // namespace
 }  // namespace gaitlab

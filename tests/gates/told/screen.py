@@ -45,7 +45,8 @@ LINES = {
     "stability": r"h lambda at most {stability:.2f} at t = {stability_time:.2f} s: .*; above 1 in {above:pct} of the ticks",
 }
 READ = {title: Expression(text) for title, text in LINES.items()}
-GAIT = Expression(r"{speed:.4f} m/s(?:, {per_period:.4f} m per period of {period:.4g} s)?(?:, cost of transport {electrical_cost:.3g})?")
+GAIT = Expression(r"{speed:.4f} m/s(?:, {per_period:.4f} m per period of {period:.4g} s)?(?:, cost of transport {electrical_cost:.3g}"
+                  r"(?:: the gears create {created_share:pct} of the energy drawn \(eq\. 2\))?)?")
 HEAD = Expression(r".*: {simulated:.6g} s simulated in \S+ s")
 
 
@@ -199,7 +200,7 @@ def first_screen(text, verdict, judged, known):
     else:
         must("verdict", f"{word}: {sentence(fails[0])}")
         fails = fails[1:]
-    for title, list_ in (("fails", fails), ("too close", of["too close"]), ("warns", of["warn"])):
+    for title, list_ in (("fails", fails), ("too close", of["too close"]), ("warns", [c for c in of["warn"] if c["id"] != "created"])):
         must(title, " ".join(sentence(c) for c in list_) if list_ else None)
     names = list(dict.fromkeys("docks" if c["id"].startswith("dock_") else c["id"] for c in of["not judged"]))
     must("unknown", ", ".join(names) + " (gaitlab explain verdict)" if names else None)

@@ -145,12 +145,13 @@ JUDGED = {
     "periodic": r"the motion repeats every {period:.4g} s|the set points repeat, and the motion does not settle to a period",
     "evidence": r"judged over (?:{periods:d} periods? of {period:.4g} s|{held:.3g} periods of {period:.4g} s; the motion does not "
                 r"settle|these {simulated:.3g} s; the set points do not repeat)(?:; not known: {unknown:words})?",
-    "torque_error": r"the torque of joint {worst} is off by about {value:rough} of its peak, estimated from other steps",
+    "torque_error": r"the torque of joint {worst} is off by about {value:rough} of its peak, estimated from other steps(?: in windows; "
+                    r"`gaitlab converge` compares whole runs)?",
     "predictable": r"(?:from t = {from:.4g} s on \(joint {worst}\) the motion is (?:not predictable|ill-conditioned): )?gravity times "
                    r"{times:words} changes the torques by (?:about )?{value:rough} of their peak"
                    r"(?: \(in proportion to 1 \+ 1e-9\))?(?:; of {rollouts:d} rollouts that differ by next "
-                   r"to nothing the torque peaks at {low_peak:.3g} to {high_peak:.3g} N m \(RMS {low_rms:.3g} to {high_rms:.3g}\), the "
-                   r"travel is {low_way:length} to {high_way:length}, the least margin (?:{low_margin:pct} to {high_margin:pct}|no number))?",
+                   r"to nothing the torque peaks at {low_peak:.3g}(?: to {high_peak:.3g})? N m \(RMS {low_rms:.3g}(?: to {high_rms:.3g})?\), the "
+                   r"travel is {low_way:length}(?: to {high_way:length})?, the least margin (?:{low_margin:pct}(?: to {high_margin:pct})?|no number))?",
     "ledger": r"{value:pct} of the energy is unaccounted for(?:: {missing:.3g} J, of {drawn:.3g} J drawn)?",
     "created": r"gears that are driven backwards give {value:pct} of the energy too much \(eq\. 2\)"
                r"(?:; take actuator\.efficiency_model: directional)?",
@@ -193,11 +194,11 @@ NOT_JUDGED = (
     r"|the robot goes {way:length}: less than {least_way:length} is not walking"
     r"|the robot goes {value:.3g} m (?:per period|in the judged time), less than {limit:.3g} m"
     r"|the set points do not repeat|the run is too short|the error of the torques was not estimated in this run"
-    r"|rollouts under a disturbed gravity were not made"
+    r"|not tested: (?:no rollout under a disturbed gravity was made|a disturbed gravity changes no torque of this robot)"
     r"|the steps do not follow an accuracy|no rate was recorded"
     r"|loads were not recorded: .*|what all steps did was not recorded: .*|the robot has no size, or the run has no control ticks")
-SPREAD = (r"(?:; the motion is not predictable: of {rollouts:d} rollouts that differ by next to nothing the margin is "
-          r"{margin_low:pct} to {margin_high:pct})?")
+SPREAD = (r"(?:; the motion is not predictable: of {rollouts:d} rollouts that differ by next to nothing "
+          r"(?:the margin is {margin_low:pct} to {margin_high:pct}|{without:d} cannot be judged by this))?")
 EXPRESSIONS = {check: Expression(text if check == "outcome" else f"(?:{text}){SPREAD}") for check, text in JUDGED.items()}
 WHY_NOT = Expression(NOT_JUDGED)
 LACKS = Expression(MISSING)

@@ -132,9 +132,9 @@ def torque_error(record):
     if not len(error) or not error.max() > 0:
         return Told()
     j = int(np.argmax(error))
-    accuracy = record.scenario["physics"].get("accuracy", 0) if record.adaptive else 0
+    accuracy = record.scenario["physics"].get("accuracy", 0.01) if record.adaptive else 0.01
     limit = record.limits["torque_error"]
-    told = Told(graded(error[j], min(max(0.01, accuracy), limit), np.inf), error[j], limit, margin=margin(error[j], limit),
+    told = Told(graded(error[j], min(accuracy, limit), np.inf), error[j], limit, margin=margin(error[j], limit),
                 worst=record.names[j], ties=[record.names[j]])
     if told.status == "warn" and record.run["parting.twin.time"] >= 0:
         told.first, told.first_part = record.run["parting.twin.time"], record.names[int(record.run["parting.twin.joint"])]
@@ -143,7 +143,7 @@ def torque_error(record):
 
 def predictable(record):
     """What rollouts under a disturbed gravity changed: of 1e-9, where that is more than the limit, else of 1e-6."""
-    if not record.adaptive or not record.run["torque_error.estimated"]:
+    if not record.adaptive or not record.run["torque_error.estimated"] or not record.run["parting.chaotic.share"] > 0:
         return Told()
     limit = max(0.01, record.scenario["physics"].get("accuracy", 0))
     name = "chaotic" if record.chaotic() else "ill"

@@ -119,13 +119,15 @@ class Judged:
             self.spread(check, told)
 
     def spread(self, check, told):
-        """Of a motion that nobody can predict: too close, where rollouts as good as the run come to both sides of the limit."""
+        """Of a motion that nobody can predict: too close, where rollouts as good as the run come to both sides of the limit, or to
+        no judgement."""
         margins = None if self.record.spread is None else self.record.spread[f"margin.{check}"]
-        if margins is None or told.status == "not judged" or not told.can_fail or np.isnan(margins).any():
+        if margins is None or told.status == "not judged" or not told.can_fail or np.isnan(margins[0]):
             return
-        if margins.min() < 0 <= margins.max():
+        without = int(np.isnan(margins).sum())
+        if without > 0 or margins.min() < 0 <= margins.max():
             told.status = "too close"
-            told.also = told.also | {"rollouts": len(margins), "margin_low": margins.min(), "margin_high": margins.max()}
+            told.also = told.also | {"rollouts": len(margins), "without": without, "margin_low": margins.min(), "margin_high": margins.max()}
 
     def missing(self):
         """The numbers of the sentence on what is missing."""

@@ -66,11 +66,10 @@ TEST(Convex, TheAxisThatShowsTwoApartServesAgain) {
   Vec3 apart = Vec3::Zero();
   ASSERT_EQ(penetration(moved(one, here), moved(other, there(0.1)), 0, apart), 0);
   EXPECT_NEAR(std::abs(apart.dot(here.R.col(0))), 1, 1e-15);
-  EXPECT_TRUE(are_apart(one, here, other, there(0.1), apart, 0));
-  EXPECT_TRUE(are_apart(other, there(0.1), one, here, apart, 0));
-  EXPECT_TRUE(are_apart(one, here, other, there(0.01), apart, 0));
-  EXPECT_FALSE(are_apart(one, here, other, there(-0.01), apart, 0));
-  EXPECT_TRUE(are_apart(one, here, other, there(-0.01), apart, 0.02)) << "ignored";
+  EXPECT_NEAR(overlap_along(Extent(one), here, Extent(other), there(0.1), apart), -0.1, 1e-15);
+  EXPECT_NEAR(overlap_along(Extent(other), there(0.1), Extent(one), here, apart), -0.1, 1e-15);
+  EXPECT_NEAR(overlap_along(Extent(one), here, Extent(other), there(0.01), apart), -0.01, 1e-15);
+  EXPECT_NEAR(overlap_along(Extent(one), here, Extent(other), there(-0.02), apart), 0.02, 1e-15);
 }
 
 /// The depth is the least value of the support function of the Minkowski difference, which 20 000 directions find from above.

@@ -1,4 +1,4 @@
-// What is judged of a gait is found at control ticks: no row of the trace changes it.
+// The judged motion of a gait is that of control ticks: the rows of the trace do not change it.
 #include "report/analysis/motion.h"
 
 #include <nlohmann/json.hpp>
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
         Walker{"bullet_hexapod", "hexapod.yaml", {"duration=0.6", "cpg.frequency=2", "physics.engine=bullet"}, false}),
     [](const auto& info) { return std::string(info.param.name); });
 
-/// What rules for stopping are asked while a run goes on.
+/// Quantities of stop rules during a run.
 TEST(Motion, SoFarIsTheSameForAnyRows) {
   std::string first;
   for (const char* period : {"0.001", "0.05", "0.7"}) {
@@ -126,7 +126,7 @@ TEST(Motion, FindsTheCycleOnAnyGrid) {
   }
 }
 
-/// Where a row of the trace is at a control tick, both hold the same; the load is the sum of the modules'.
+/// A row of the trace at a control tick has the values of the tick; the load is the sum of those of the modules.
 TEST(Motion, AtTicksIsThatOfTheRows) {
   for (const char* engine : {"articulated", "bullet"}) {
     const Scenario s = shipped("hexapod.yaml", {"duration=0.6", "trace.period=0.015", "trace.columns=[\"*\"]",
@@ -157,7 +157,7 @@ TEST(Motion, AtTicksIsThatOfTheRows) {
 Recording older(const Recording& r, std::size_t joints) {
   Recording old = r;
   const std::size_t columns = old_pose_columns(joints);
-  old.poses.columns.resize(columns);
+  old.poses.columns.change([&](auto& all) { all.resize(columns); });
   old.poses.values.clear();
   for (std::size_t k = 0; k < r.poses.rows(); ++k) {
     const std::span<const double> row = r.poses.row(k);

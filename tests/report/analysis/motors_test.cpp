@@ -95,7 +95,7 @@ TEST(MotorSource, TheNoteStandsWhereTheTypeDoes) {
                 line, kDefaults)}));
 }
 
-/// What was given is not asked for again, and nothing is left to say where all is.
+/// A given value is not asked for again, and a complete set has no note.
 TEST(MotorSource, OfFiguresThatTheScenarioGivesThereIsNoNote) {
   EXPECT_EQ(
       notes(with_type(kServo, "type: dc_motor, R: 2, Kt: 0.01, Ks: 0.01, gear: 50, efficiency: 0.8, u_max: 12")),
@@ -166,7 +166,7 @@ TEST(MotorSource, AMissingOneMeansChosen) {
   EXPECT_EQ(made.figures, "motors: data sheet 17");
 }
 
-/// Of format 2 a hinge's motor is over that of its type, key by key.
+/// In format 2 the motor of a hinge replaces that of its type, key by key.
 TEST(MotorSource, OfHingesIsTheirTypesWhereTheyHaveNone) {
   const std::string stated = std::string(kServo) + ", source: data sheet 17";
   EXPECT_EQ(source(one(stated, "", ", actuator: {stall_torque: 2}")), "data sheet 17");
@@ -213,7 +213,7 @@ TEST(MotorSource, OfSeveralModuleTypes) {
   EXPECT_TRUE(contains(both[1], "the module type b states voltage, stall_torque, no_load_speed for actuator servo"));
 }
 
-/// Where the types disagree, the figures of all are dropped, also of those that have the scenario's actuator.
+/// If the types disagree, the figures of all are dropped, also of those that have the scenario's actuator.
 TEST(MotorSource, OfModuleTypesThatDisagree) {
   const Scenario s = scenario(row_of({type_with("a", std::string(kServo) + ", source: data sheet 17"),
                                       type_with("b", "type: dc_motor, gear: 50, source: maxon 118752")},
@@ -229,7 +229,7 @@ TEST(MotorSource, OfModuleTypesThatDisagree) {
           kDefaults + "; give these and source under actuator");
 }
 
-/// What the run folder holds says the same of the motors, without a note.
+/// The run folder has the same motors, without a note.
 TEST(MotorSource, SurvivesTheResolvedScenario) {
   const std::string stated = std::string(kServo) + ", source: data sheet 17";
   for (const char* actuator : {"u_max: 4", "u_max: 4, source: supply X", "type: dc_motor", "type: torque, source: 'bench: 2'",

@@ -76,7 +76,7 @@ TEST(Posture, CycleSpeedIsThatOfTheWindow) {
   EXPECT_NEAR(cycle_speed(r, judged), 0.3 * std::sqrt(2.0), 1e-12);
 }
 
-/// Of a window that ends between two rows: the last one in it.
+/// The last row within a window that ends between two rows.
 TEST(Posture, EndsWithTheWindow) {
   const Scenario s = one_module({"robot.position=[0, 0, 10]", "duration=1"});
   const Recording r = run(s);

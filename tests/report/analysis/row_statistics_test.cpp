@@ -11,7 +11,7 @@ namespace {
 
 using namespace report;
 
-/// What a folder without statistics has of a run: rows. `left_out`: a column that it does not have either.
+/// A folder without statistics, which has rows alone. `left_out`: a column that it does not have either.
 Recording rows_only(const Scenario& scenario, const Recording& whole, const std::string& left_out = "") {
   Recording bare;
   bare.simulated = whole.simulated;
@@ -65,9 +65,9 @@ TEST(RowStatistics, OfEveryStepAreThoseOfAllSteps) {
 }
 
 /// A row of a control tick holds the command before it, and the torque is largest under the one that begins there: rows 15 ms
-/// apart, one per control tick, show less than half of some joint's peak unless the actuator is asked. What they miss all the
-/// same is between ticks, below a tenth here. A step takes its law at its end, too, where it is up to h times the motor's rate
-/// (18/s * 5e-4 s) smaller.
+/// apart, one per control tick, show less than half of some joint's peak unless the actuator is asked. Peaks between ticks are
+/// missed, by less than a tenth here. A step takes its law at its end, too, where it is up to h times the motor's rate (18/s *
+/// 5e-4 s) smaller.
 TEST(RowStatistics, SeeThePeakWhereACommandBegins) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=4", "physics.engine=articulated", "trace.period=0.015"});
   const Recording whole = run(s);
@@ -88,7 +88,7 @@ TEST(RowStatistics, SeeThePeakWhereACommandBegins) {
   EXPECT_EQ(verdict_of(s, bare).word, verdict_of(s, whole).word);
 }
 
-/// What lacks a column is not judged and names it; the rest is.
+/// A check without its column is not judged and names the column; the others are judged.
 TEST(RowStatistics, NameTheColumnThatIsNotThere) {
   const Scenario s = shipped("caterpillar.yaml", {"duration=1", "physics.engine=articulated"});
   const Recording whole = run(s);

@@ -69,7 +69,7 @@ TEST(Footfall, DrawsABarAStanceAndJoinsWhatNobodySees) {
   // Before the panel, over its edge, two that 1 ms parts, one to the end.
   const Footfall row{"m9 front left", {{8, 9}, {9.5, 11}, {12, 13}, {13.001, 14}, {17, 19}}, 0.625};
   const std::vector<Footfall> rows{row};
-  draw_footfalls(svg, {rows, "footfall", "note"}, time, {10, 18, 120, 920}, 0);
+  draw_footfalls(svg, {rows, "footfall", "note"}, {.ticks = time, .texts = false}, {120, 920, 30, 54});
   const std::string text = svg.finish();
   EXPECT_EQ(count(text, "height=\"12\""), 3U);
   EXPECT_NE(text.find("width=\"100\" height=\"12\""), std::string::npos);  // 10 to 11 s, 17 to 18 s
@@ -96,9 +96,9 @@ TEST(Footfall, AJointAtRestHasASensibleAngleAxis) {
   input.views.clear();
   for (double& angle : input.joints[0].angle) angle *= 1e-3;
   input.joints[0].setpoint.assign(input.joints[0].setpoint.size(), 0);
-  EXPECT_EQ(figure_svg(input).find(">-0.10<"), std::string::npos);
+  EXPECT_EQ(figure_svg(input).find(">\u22120.10<"), std::string::npos);
   input.joints[0].least_angle = 0.1;
-  EXPECT_NE(figure_svg(input).find(">-0.10<"), std::string::npos);
+  EXPECT_NE(figure_svg(input).find(">\u22120.10<"), std::string::npos);
   EXPECT_NE(figure_svg(input).find(">0.10<"), std::string::npos);
 }
 

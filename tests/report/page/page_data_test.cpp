@@ -1,4 +1,4 @@
-// What a page holds: its numbers, its robot, and what happens to runs that are large, small or named to hurt.
+// Data of a page: numbers, robot, and runs that are large, small or have hostile names.
 #include "report/page/page_data.h"
 
 #include "report/analysis/start_row.h"
@@ -150,6 +150,17 @@ TEST(PageData, ABigRunShowsFewerRows) {
   EXPECT_NEAR(t.back(), 0.503, 1e-6) << "the last row stays";
   EXPECT_TRUE(contains(meta["missing"].back(), "is shown, to keep the page small")) << meta["missing"];
   EXPECT_EQ(Opened(whole).meta["rows"], r.rows());
+}
+
+TEST(PageData, OfALargeHeightfieldSaysWhichHeightsAreDrawn) {
+  const Folder folder;
+  std::string rows;
+  for (int y = 0; y < 201; ++y) rows += "0 0 0\n";
+  const std::string file = folder.write("flat.txt", rows);
+  const Scenario s = shipped("pendulum.yaml", {"duration=0.02", "ground.type=heightfield", "ground.heightfield.file=" + file});
+  const Opened page(data_of(s, run(s)));
+  EXPECT_EQ(page.meta["missing"].back(), "one height of every 2 in x and in y is drawn; the robot walked on all");
+  EXPECT_EQ(page.meta["ground"]["heightfield"]["ny"], 101);
 }
 
 TEST(PageData, ARobotThatHasNotRun) {

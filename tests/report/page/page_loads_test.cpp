@@ -1,4 +1,4 @@
-// What a page holds of motors, feet and docks.
+// Data of motors, feet and docks in a page.
 #include "actuators/dc_motor.h"
 #include "report/analysis/envelope.h"
 #include "tests/report/page/opened_page.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "report/plot/axes.h"
+#include "report/plot/plot.h"
 
 namespace gaitlab::report {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> labels(const Ticks& ticks) {
   std::vector<std::string> labels;
-  for (const double value : ticks.values()) labels.push_back(ticks.label(value));
+  for (const Tick& tick : ticks.marks) labels.push_back(tick.text);
   return labels;
 }
 
@@ -72,7 +72,7 @@ TEST(Axes, StepsAreOneTwoOrFive) {
 
 TEST(Axes, TicksCoverTheRange) {
   EXPECT_EQ(labels(ticks_around(-0.61, 0.51, 6)),
-            (std::vector<std::string>{"-0.8", "-0.6", "-0.4", "-0.2", "0.0", "0.2", "0.4", "0.6"}));
+            (std::vector<std::string>{"\u22120.8", "\u22120.6", "\u22120.4", "\u22120.2", "0.0", "0.2", "0.4", "0.6"}));
   // A peak that sticks out by a hair costs no step.
   EXPECT_EQ(labels(ticks_around(-0.6001, 0.6001, 6)).size(), 7U);
   EXPECT_EQ(labels(ticks_within(12, 20, 8)).front(), "12");
@@ -80,13 +80,50 @@ TEST(Axes, TicksCoverTheRange) {
 }
 
 TEST(Axes, EmptyRangesAreWidened) {
-  EXPECT_EQ(labels(ticks_around(0, 0, 4)), (std::vector<std::string>{"-0.010", "-0.005", "0.000", "0.005", "0.010"}));
+  EXPECT_EQ(labels(ticks_around(0, 0, 4)), (std::vector<std::string>{"\u22120.010", "\u22120.005", "0.000", "0.005", "0.010"}));
   const Ticks at = ticks_around(0.2, 0.2, 6);
   EXPECT_LT(at.lo, 0.2);
   EXPECT_GT(at.hi, 0.2);
-  EXPECT_FALSE(ticks_around(kNan, kNan, 6).values().empty());
-  EXPECT_FALSE(ticks_around(1e300, -1e300, 6).values().empty());
-  EXPECT_FALSE(ticks_around(-1.7e308, 1.7e308, 6).values().empty());
+  EXPECT_FALSE(ticks_around(kNan, kNan, 6).marks.empty());
+  EXPECT_FALSE(ticks_around(1e300, -1e300, 6).marks.empty());
+  EXPECT_FALSE(ticks_around(-1.7e308, 1.7e308, 6).marks.empty());
+}
+
+TEST(Axes, LogarithmicTicksAreOneTwoFive) {
+  const auto over = [](double from, double to, int count) {
+    return labels(ticks_over({log10_of(from), log10_of(to)}, true, count));
+  };
+  EXPECT_EQ(over(0.1, 5, 8), (std::vector<std::string>{"0.1", "0.2", "0.5", "1", "2", "5"}));
+  EXPECT_EQ(over(1, 1e5, 6), (std::vector<std::string>{"1", "10", "100", "1000", "10000", "100000"}));
+  EXPECT_EQ(over(1, 1e5, 4), (std::vector<std::string>{"1", "100", "10000"}));
+  EXPECT_EQ(over(1.1, 1.3, 3), (std::vector<std::string>{"1.1", "1.2", "1.3"}));  // no 1, 2 or 5: as on a linear axis
+  EXPECT_EQ(over(3, 3, 5), (std::vector<std::string>{"3"}));
+  EXPECT_NEAR(ticks_over({0, 1}, true, 5).marks[1].at, 0.30103, 1e-5);  // log10(2)
+}
+
+TEST(Axes, WordsAreInTheirOrder) {
+  const std::vector<std::string> words{"hopf", "sine", "matsuoka"};
+  const Ticks across = word_ticks(words, 0, 2);
+  EXPECT_EQ(labels(across), (std::vector<std::string>{"hopf", "matsuoka"}));
+  EXPECT_EQ(across.lo, 0);
+  EXPECT_EQ(across.hi, 2);
+  EXPECT_EQ(row_ticks(words).lo, 2.5);  // from top to bottom
+  EXPECT_EQ(row_ticks(words).hi, -0.5);
+}
+
+/// A tick is where `at` puts its value; an axis at the right has the grid if it is the only one at a side.
+TEST(Plot, TicksAreWhereTheirValuesAre) {
+  Svg svg(200, 100);
+  Plot plot(svg, {50, 150, 10, 90}, {.ticks = ticks_within(0, 10, 2), .title = "time (s)"}, {});
+  plot.right_axis({ticks_within(-1, 1, 2)});
+  EXPECT_EQ(plot.at(5, 0, Side::right).x, 100);
+  EXPECT_EQ(plot.at(5, 0, Side::right).y, 50);
+  plot.band(-3, 5, colour::kSky);
+  plot.draw_axes();
+  const std::string text = svg.finish();
+  for (const char* part : {">\u22121<", ">time (s)<", "<rect x=\"50\" y=\"10\" width=\"50\" height=\"80\" fill=\"#56B4E9\"",
+                           "d=\"M50,50L150,50\" fill=\"none\" stroke=\"#999999\""})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 
 TEST(Axes, TwinZerosMeet) {
@@ -98,7 +135,7 @@ TEST(Axes, TwinZerosMeet) {
     EXPECT_LE(a.lo, -0.6 + 1e-2 * a.step);
     EXPECT_LE(b.lo, lo + 1e-2 * b.step);
     EXPECT_GE(b.hi, hi - 1e-2 * b.step);
-    EXPECT_LE(a.values().size(), 11U);
+    EXPECT_LE(a.marks.size(), 11U);
   }
   // The first axis stays away from zero: each its own.
   const auto [a, b] = twin_ticks(0.78, 0.82, -1, 1);

@@ -113,7 +113,7 @@ TEST(FallCheck, IsOfFloatingBasesAboveAGround) {
   EXPECT_TRUE(contains(rows.check("fall").text, "no poses"));
 }
 
-/// What is beside an element, or above it, is not below it.
+/// Ground beside an element, or above it, is not below it.
 TEST(FallCheck, KnowsWallsAndRoofs) {
   // The module reaches 0.065 m to the front: its front face is 0.1 mm in the wall.
   const Still wall("{type: boxes, boxes: [{center: [0.3149, 0.1, 0.5], size: [0.1, 1, 1]}]}",
@@ -156,7 +156,7 @@ TEST(UprightCheck, FailsBelowTheHorizontal) {
   EXPECT_EQ(set.check("upright").status, CheckStatus::fail) << "the key moves the warning alone";
 }
 
-/// What lies on its side from the start is upright as it lies.
+/// A robot that lies on its side from the start is upright in that pose.
 TEST(UprightCheck, IsOfTheStart) {
   const Still side("{type: plane}", {"robot.orientation=[1.7, 0.3, 2]"});
   EXPECT_LT(upright(side.scenario, side.record, {}, 0)->tilt, 1.8);
@@ -314,7 +314,7 @@ TEST(KnownTruth, ThrownOnItsBackIsNoGait) {
   EXPECT_EQ(thrown.judged.word, Word::infeasible);
 }
 
-/// How deep its outline is, by another function: half cylinders are round there, and here prisms of 24 sides.
+/// Depth of its outline by another function, which has round half cylinders instead of prisms of 24 sides.
 void expect_buried(const Known& buried, double level) {
   constexpr double kPrism = 0.009 * 0.0325;  // m: of the radius, which is what a prism lacks
   const Check& check = buried.check("in_ground");

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "report/analysis/motors.h"
+#include "report/verdict/spread.h"
 #include "tests/report/verdict/check_changes.h"
 
 namespace gaitlab::test {
@@ -19,7 +20,7 @@ TEST(CheckCases, OutcomeIsAnEndBeforeTheEnd) {
   EXPECT_EQ(early.limit, 12);
 }
 
-/// What a maker allows holds from the first step on, and what the motor reaches in the window.
+/// A maker's rating applies from the first step on, a limit that the motor reaches in the window.
 TEST(CheckCases, SpeedIsOfTheWorseLimit) {
   const double no_load = 7.4 / (0.00395 * 594);
   const auto with = [&](double early, double late, double rating = 5) {
@@ -41,7 +42,7 @@ TEST(CheckCases, SpeedIsOfTheWorseLimit) {
   EXPECT_EQ(with(0, 1.01 * no_load).first, rated_gait().time(rated_gait().last_tick()));
   EXPECT_EQ(with(0, 0.99 * no_load, 3.5).span, CheckSpan::window) << "99 % of one, 89 % of the other";
   EXPECT_EQ(with(0, 0.99 * no_load, 3).span, CheckSpan::whole_run);
-  // What breaks before the window, breaks; a motor that is turned faster than it can turn does not.
+  // A part that breaks before the window is broken; a motor that the load turns faster than it can turn is not.
   const auto brief = [&](double rating) {
     Case made = walk();
     made.known = Overlaps{made.scenario.robot->bodies.size()};
@@ -72,7 +73,7 @@ TEST(CheckCases, SupplyGivesNothing) {
   EXPECT_EQ(status(-1, true), CheckStatus::pass);
 }
 
-/// Of each kind of check the part that is worst, how many are beyond their limit, and which was first.
+/// Worst part, number of parts beyond their limit, and first part, for each kind of check.
 TEST(CheckCases, SaturationNamesItsJoints) {
   const auto with = [](double second, double fifth) {
     Case made = rated_gait();
@@ -95,7 +96,7 @@ TEST(CheckCases, SaturationNamesItsJoints) {
   EXPECT_EQ(with(0, 0).value, 0);
 }
 
-/// Of equal margins, as those of stretches are, the joint that is at its limit for longer in all is the worst.
+/// With equal margins, as those of stretches are, the joint that is at its limit for longer in all is the worst.
 TEST(CheckCases, SaturationOfEqualStretches) {
   const auto worst = [](std::size_t longer, std::size_t other) {
     Case made = rated_gait();
@@ -219,7 +220,7 @@ TEST(CheckCases, TightestIsTheLeastMarginOfThoseThatFail) {
   EXPECT_NEAR(close.judged().tightest()->margin, 0.005, kCaseRounding);
 }
 
-/// Of checks with the same margin the first of the list decides, and one of the robot as a whole before any.
+/// The first of several checks with the same margin decides, and one of the robot as a whole before any other.
 TEST(CheckCases, DecidedByTheFirstOfEqualMargins) {
   const auto with = [](bool falls) {
     Case made = rated_gait();
@@ -234,6 +235,23 @@ TEST(CheckCases, DecidedByTheFirstOfEqualMargins) {
 }
 
 /// Every check comes with what a reader and a search need of it.
+TEST(CheckCases, ASpreadMakesTooCloseWhatItBringsToTheOtherSide) {
+  Case made = rated_gait();
+  const auto with = [&](std::vector<double> margins) {
+    made.record.spread = Trace{{{report::margin_column("voltage"), "", ""}}, std::move(margins)};
+    return made.check("voltage");
+  };
+  EXPECT_EQ(with({0.5, 0.4, 0.3, 0.6}).status, CheckStatus::pass);
+  const Check other_side = with({0.5, 0.4, -0.1, 0.6});
+  EXPECT_EQ(other_side.status, CheckStatus::too_close);
+  EXPECT_TRUE(contains(other_side.text, "of 4 rollouts that differ by next to nothing the margin is -10 % to 60 %"))
+      << other_side.text;
+  const Check diverged = with({0.5, 0.4, std::nan(""), 0.6});
+  EXPECT_EQ(diverged.status, CheckStatus::too_close);
+  EXPECT_TRUE(contains(diverged.text, "of 4 rollouts that differ by next to nothing 1 cannot be judged by this"))
+      << diverged.text;
+}
+
 TEST(CheckCases, EachIsWhole) {
   const Verdict made = gait().judged();
   ASSERT_EQ(made.checks.size(), check_kinds().size());

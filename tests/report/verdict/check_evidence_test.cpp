@@ -143,7 +143,7 @@ TEST(CheckEvidence, TooCloseToTheLimitOfAMotor) {
   EXPECT_EQ(with(0.03, 0.965, 0).status("voltage"), CheckStatus::pass);
   EXPECT_EQ(with(0.049, 0.96, 0).status("voltage"), CheckStatus::too_close);
   EXPECT_EQ(with(0.051, 0.96, 0).status("voltage"), CheckStatus::pass) << "an error above limits.torque_error proves nothing";
-  // What fails though it were at the limit by its error less, fails.
+  // A check that fails even with its value reduced by the error fails.
   Case fails = with(0.03, 0.975, 0);
   grow(fails, kVoltageLimited, 1, 11, 12);
   EXPECT_EQ(fails.status("voltage"), CheckStatus::fail);
@@ -229,7 +229,7 @@ TEST(CheckEvidence, AnyPartDecides) {
   }
 }
 
-/// What nothing could bear is told first, at the setting that makes it so; no longer run and no smaller steps mend it.
+/// A robot that nothing bears is reported first, at the setting that causes it; neither a longer run nor smaller steps help.
 TEST(CheckEvidence, WhatNothingBears) {
   for (const auto& [set, text] : {std::pair{"physics.gravity=[0, 0, 0]", "there is no gravity"},
                                   {"ground.type=none", "there is no ground"},
@@ -302,7 +302,7 @@ TEST(CheckEvidence, WordsOfFailuresAndOfMissingEvidence) {
               made.scenario.limits.torque_error = 0.06;
             }),
             Word::feasible);
-  // What no time undoes is said of a run that is too short, too; what time could undo is not.
+  // A failure that a longer run cannot undo is reported of a run that is too short, too; one that it could undo is not.
   Case brief = walk();
   brief.record.joints[4].range_worst = 0.02;
   EXPECT_EQ(brief.judged().word, Word::infeasible);

@@ -147,7 +147,7 @@ TEST(CheckTable, BelowAtAndBeyondEachLimit) {
   }
 }
 
-/// Of two parts the one nearer to its limit is named, and how many are beyond it.
+/// The part nearer to its limit is named, with the number of parts beyond it.
 TEST(CheckTable, CountsThePartsBeyondTheirLimits) {
   for (const auto& [id, column, warns] : {std::tuple{"tracking", kErrorPeak, 0.1},
                                           {"envelope", kEnvelopePeak, 0.8},
@@ -165,7 +165,7 @@ TEST(CheckTable, CountsThePartsBeyondTheirLimits) {
   }
 }
 
-/// What is beyond its limit before the judged window fails a check of the whole run, and is nothing to one of the window.
+/// A value beyond its limit before the judged window fails a check of the whole run, and does not count for one of the window.
 TEST(CheckTable, SpansAreJudged) {
   for (const Row& row : table()) {
     if (!row.early) continue;
@@ -201,7 +201,7 @@ TEST(CheckTable, HasItsSpans) {
     EXPECT_EQ(kind.span, window.contains(kind.id) ? CheckSpan::window : CheckSpan::whole_run) << kind.id;
 }
 
-/// What is not known is not judged.
+/// A check of an unknown value is not judged.
 TEST(CheckTable, NotJudged) {
   const auto no_ticks = [](Case& made) { made.record.ticks = {}; };
   const auto fixed = [](Case& made) { made.scenario.base = Base::fixed; };
@@ -211,7 +211,7 @@ TEST(CheckTable, NotJudged) {
   };
   const auto no_loads = [](Case& made) { made.record.loads = {}; };
   const auto no_motors = [](Case& made) { made.scenario.actuator.entry = nullptr; };
-  const auto no_ground = [](Case& made) { made.scenario.ground.kind = Ground::Kind::none; };
+  const auto no_ground = [](Case& made) { made.scenario.ground.shape = NoGround{}; };
   const std::vector<std::pair<std::vector<const char*>, Change>> ways{
       {{"fall", "progress", "upright", "slip", "stability", "airborne"}, fixed},
       {{"voltage", "current", "envelope", "speed", "heat", "gear_peak", "gear_continuous", "tracking"}, no_ticks},

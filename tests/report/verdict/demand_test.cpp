@@ -127,9 +127,9 @@ TEST(Demand, StaysWithItsFolder) {
   EXPECT_TRUE(read(folder / "b/verdict.json") == told);
   EXPECT_TRUE(read(folder / "b/report.html") == read(folder / "a/report.html"));
   EXPECT_TRUE(contains(again.out, "missing: ")) << again.out;
-  // Of another run, damaged, or not there: nothing is taken.
+  // A file of another run, a damaged one and a missing one are not taken.
   ASSERT_EQ(gaitlab("run " + file + "--set actuator.i_max=0.3 --demand --no-report --out other", folder.path()).code, 0);
-  const std::string note = "a/verdict.json: note: is not of this recording, so that what --demand found there is left out\n";
+  const std::string note = "a/verdict.json: note: belongs to another recording; its --demand results are not shown\n";
   for (const std::string& text :
        {read(folder / "other/verdict.json"), std::string("{\"demand\": 3}"), std::string("garbage")}) {
     folder.write("a/verdict.json", text);

@@ -184,7 +184,7 @@ TEST(Earned, FramesThatRepeatHaveTheirPeriod) {
   EXPECT_TRUE(contains(brief.made.why(), "3 s are 1.5 of a gait's 3 periods of 2 s; take duration: 6")) << brief.made.why();
 }
 
-/// What hops and tips over at every hop does not roll.
+/// A robot that hops and tips over at every hop does not roll.
 TEST(Earned, TippingOverIsNoRolling) {
   const Told hops(shipped("hexapod.yaml", {"physics.engine=articulated", "contact.on=all", "duration=3",
                                            "cpg={type: sine, frequency: 2.4, amplitude: 0.9, phase_lag: 0}",

@@ -202,7 +202,7 @@ TEST(LoadChecks, NoteWhatStandsAndWhatFalls) {
   made.set("stability", kUnknownLimit);
   EXPECT_EQ(made.check("stability").status, CheckStatus::not_judged);
   EXPECT_EQ(made.check("stability").text, "no foot bears a load");
-  made.scenario.ground.kind = Ground::Kind::boxes;
+  made.scenario.ground.shape = Boxes{};
   EXPECT_TRUE(contains(made.check("stability").text, "plane"));
 }
 

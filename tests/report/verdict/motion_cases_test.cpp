@@ -148,8 +148,7 @@ TEST(CheckMotion, StabilityIsOfTheWindow) {
 TEST(CheckMotion, FieldEndsAtItsEdge) {
   const auto with = [](const char* column, double at) {
     return changed("field", [=](Case& made) {
-      made.scenario.ground.kind = Ground::Kind::heightfield;
-      made.scenario.ground.field = {Vec3(-1, -2, 0), 1, 3, std::vector<double>(15, 0.0)};  // to x = 1, y = 2
+      made.scenario.ground.shape = Heightfield{Vec3(-1, -2, 0), 1, 3, std::vector<double>(15, 0.0)};  // to x = 1, y = 2
       for (std::size_t row = 0; row < made.record.poses.rows(); ++row) made.pose("com.x", row) = made.pose("com.y", row) = 0;
       made.pose(column, 1) = at;
       made.pose(column, 2) = at;
@@ -192,7 +191,7 @@ TEST(CheckMotion, CollisionsAreDeeperThanATouch) {
   EXPECT_LT(depth(angle + 1e-4, 1e-6), 6.5e-4) << "else a limit a third larger is not noticed";
   s.limits.collision = 4e-4;
   EXPECT_GT(depth(angle, usual), 4e-4) << "of a record, whose limits.touch is above limits.collision";
-  // Where all that touches counts, an overlap of 1e-9 m is still rounding.
+  // An overlap of 1e-9 m is rounding even if every touch counts.
   for (apart = 0.6, deep = angle; deep - apart > 1e-14;) {
     const double middle = (apart + deep) / 2;
     if (middle == apart || middle == deep) break;
@@ -201,7 +200,7 @@ TEST(CheckMotion, CollisionsAreDeeperThanATouch) {
   EXPECT_NEAR(depth(deep, 0), 1e-9, 1e-12) << "the rounding of shapes of 0.1 m, and room";
 }
 
-/// Of pairs that meet at the same tick the deepest is named as the first.
+/// The deepest of several pairs that meet at the same tick is named as the first.
 TEST(CheckMotion, TheFirstOfSeveralPairs) {
   Scenario s = scenario(
       "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0], [1, 2, 4, 1, 0], [1, 3, 4, 2, 0]], position: [0, 0, 1]}\n"
@@ -232,7 +231,7 @@ TEST(CheckMotion, CollisionsOfARecord) {
   EXPECT_EQ(status(0.0101), CheckStatus::fail);
 }
 
-/// Who goes less than 10 mm does not walk.
+/// A robot that goes less than 10 mm does not walk.
 TEST(CheckMotion, SlipIsOfAWay) {
   const auto status = [](double way) {
     return motion_status("slip", [=](Case& made) {

@@ -1,4 +1,4 @@
-// How messages print shares and lengths, and the manual of the verdict.
+// Shares and lengths in messages, and the manual of the verdict.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -64,7 +64,7 @@ inline Case& gait() {
   return made;
 }
 
-/// By what tests change a recorded run.
+/// Changes of a recorded run by tests.
 using Change = std::function<void(Case&)>;
 
 /// The same as the gait, with what makers state of motors, gears and docks, far above what it takes, no error of its torques,

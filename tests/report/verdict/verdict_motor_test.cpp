@@ -1,4 +1,4 @@
-// What the verdict says of motors: ratings, envelopes, and whose figures these are.
+// Checks of motors: ratings, envelopes, and their sources.
 
 #include "report/analysis/envelope.h"
 #include "report/analysis/motors.h"
@@ -39,7 +39,7 @@ TEST(Verdict, JudgesSpeedsByTheOneWithoutTorque) {
   EXPECT_EQ(motors(rated, 0).joint(0).speed_max, 1.2);
 }
 
-/// What a maker states is held against the run: RMS over the window for what lasts, the largest for peaks.
+/// A maker's ratings are compared with the run: continuous ones with the RMS over the window, peak ones with the largest value.
 TEST(Verdict, JudgesRatings) {
   const auto with = [](const std::string& rating, double value) {
     Case made;

@@ -45,7 +45,7 @@ TEST(Verdict, WarnsOfShortLimitsAndFailsByLongOnes) {
   }
 }
 
-/// Of the joints only those with a motor are counted.
+/// Only joints with a motor are counted.
 TEST(Verdict, CountsJointsWithAMotor) {
   const Scenario s = scenario(kCastorFirst, {"actuator.u_max=0.05"});
   const Recording record = run(s);

@@ -78,7 +78,7 @@ TEST(Sensitivity, MorrisOfALinearFunctionIsExact) {
   }
 }
 
-/// x y: what one does depends on the other. Of x in [-1, 1] with a sign, mu can vanish where mu* does not.
+/// x y: what one does depends on the other. For a function of x in [-1, 1] with both signs mu can vanish, and mu* does not.
 TEST(Sensitivity, SigmaTellsWhatIsNotLinear) {
   const auto design = [](std::uint64_t point) { return morris_shares(1, 2, point); };
   const auto product = [](const Shares& s) { return (2 * s[0] - 1) * (2 * s[1] - 1); };

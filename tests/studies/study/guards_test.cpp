@@ -62,12 +62,12 @@ TEST(Guards, OfEveryCheckAreKeptFromTheirMarginOnAndBrokenBelow) {
     EXPECT_EQ(kept.set(own, 0).violation("feasible"), 0);
     EXPECT_EQ(kept.set(own, -0.25).violation("feasible"), 0.25);
     EXPECT_EQ(kept.broken("feasible"),
-              std::vector{fmt::format("check {} has a margin of -0.25; the study asks for 0", check.id)});
+              std::vector{fmt::format("check {} has a margin of -0.25; the study requires 0", check.id)});
     Guarded margin({{check.id, Asks::margin, 0.5}});
     EXPECT_EQ(margin.set(own, 0.5).violation("feasible"), 0);
     EXPECT_EQ(margin.set(own, 0.25).violation("feasible"), 0.25);
     EXPECT_EQ(margin.broken("feasible"),
-              std::vector{fmt::format("check {} has a margin of 0.25; the study asks for 0.5", check.id)});
+              std::vector{fmt::format("check {} has a margin of 0.25; the study requires 0.5", check.id)});
     Guarded dropped({{check.id, Asks::nothing}});
     EXPECT_EQ(dropped.set(own, -0.25).violation(check.can_fail ? "infeasible" : "feasible"), 0);
     if (!check.limited) continue;

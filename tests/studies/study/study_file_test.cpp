@@ -3,6 +3,7 @@
 
 #include "app/study/study_quantities.h"
 #include "studies/plan/plan.h"
+#include "studies/plan/plan_checks.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -30,7 +31,7 @@ class StudyFile : public ::testing::Test {
     }
     return "taken";
   }
-  /// Of a search, of which these lines are wrong.
+  /// Study of a search in which these lines are wrong.
   std::string search(const std::string& lines) {
     const std::string file = folder_.write("s.yaml",
                                            "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.frequency: {low: 0.5, "
@@ -42,7 +43,7 @@ class StudyFile : public ::testing::Test {
   std::string with(const std::string& lines) {
     return error("gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.frequency: {low: 0.5, high: 1, count: 3}}\n" + lines);
   }
-  /// Of its parameters.
+  /// Lines of its parameters.
   std::string parameters(const std::string& text, const std::string& more = "") {
     return error("gaitlab_study: 1\nscenario: two.yaml\nparameters: {" + text + "}\n" + more);
   }
@@ -215,7 +216,7 @@ TEST_F(StudyFile, ThoseThatComeWithTheProgramAreTaken) {
     const auto purpose = studies::is_search(method) ? studies::Purpose::optimize : studies::Purpose::sweep;
     EXPECT_EQ(error_of(name, purpose), "taken") << name;
     const studies::Plan plan(studies::read_study(name, purpose), app::quantity_offer(), catalog());
-    EXPECT_TRUE(plan.short_runs().empty()) << name << ": " << plan.short_runs().front().text;
+    EXPECT_TRUE(short_runs(plan).empty()) << name << ": " << short_runs(plan).front().text;
     EXPECT_TRUE(plan.study().notes.empty()) << name;
   }
   EXPECT_GE(searches, 4U);

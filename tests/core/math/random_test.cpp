@@ -1,20 +1,26 @@
 // Draws against published values and moments.
-#include "studies/plan/draws.h"
+#include "core/math/random.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace gaitlab::studies {
+namespace gaitlab::math {
 namespace {
 
-/// Outputs of the authors' splitmix64.c from the state 0; and the FNV authors' own vectors of 128 bit.
+/// Outputs of the authors' splitmix64.c from the state 0.
 TEST(Draws, AreThePublishedHashes) {
   EXPECT_EQ(hash64({0}), 0xe220a8397b1dcdafU);
-  EXPECT_EQ(hash64({0x9e3779b97f4a7c15U}), 0x6e789e6aa1b965f4U);
-  EXPECT_EQ(digest(""), "6c62272e07bb014262b821756295c58d");
-  EXPECT_EQ(digest("a"), "d228cb696f1a8caf78912b704e4a8964");
-  EXPECT_EQ(digest("foobar"), "343e1662793c64bf6f0d3597ba446f18");
+  EXPECT_EQ(hash64({kGolden}), 0x6e789e6aa1b965f4U);
+  EXPECT_EQ(splitmix64(1), 0xe220a8397b1dcdafU) << "the first number of seed 0";
+  EXPECT_EQ(splitmix64(2), 0x6e789e6aa1b965f4U) << "the second";
+}
+
+TEST(Draws, OfOneWordCoverTheirInterval) {
+  EXPECT_EQ(unit(0), 0);
+  EXPECT_EQ(unit(~0ULL), 1 - 0x1p-53);
+  EXPECT_EQ(symmetric(0), -1);
+  EXPECT_EQ(symmetric(~0ULL), 1 - 0x1p-52);
 }
 
 TEST(Draws, OrderOfWordsCounts) { EXPECT_NE(hash64({1, 2}), hash64({2, 1})); }
@@ -43,4 +49,4 @@ TEST(Draws, HaveTheirMoments) {
 }
 
 }  // namespace
-}  // namespace gaitlab::studies
+}  // namespace gaitlab::math

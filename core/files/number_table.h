@@ -1,0 +1,32 @@
+// Tables of numbers in binary files of other programs.
+#pragma once
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gaitlab {
+
+struct NumberTable {
+  std::size_t rows = 0, columns = 0;
+  std::vector<double> values;  ///< row by row
+};
+
+/// Error in such a file: the value found and the value expected.
+struct TableError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+inline constexpr std::string_view kNpyMagic = "\x93NUMPY";
+inline constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n";
+
+/// numpy.save of a matrix: float32, float64 or integers, in C order (https://numpy.org/neps/nep-0001-npy-format.html). Throws
+/// TableError for anything else, for a length that differs from the header's, and for more than `most` numbers, before
+/// allocating.
+NumberTable read_npy(std::string_view bytes, std::size_t most);
+
+/// Grey values, 0 to 65535, of a PNG with 16 bits and no interlacing (https://www.w3.org/TR/png/); the top row first.
+NumberTable read_grey_png(std::string_view bytes, std::size_t most);
+
+}  // namespace gaitlab

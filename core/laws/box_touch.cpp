@@ -1,0 +1,233 @@
+// Touch of an element among boxes: all solids in reach as one touch.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/laws/boxes.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kSame = 1e-9;    // m: closer than this is the same place
+constexpr double kBack = -0.5;    // cosine: a face that looks back at the one an element left by is not a way out of there
+constexpr std::size_t kMost = 4;  // touches of one element at once: a corner has three
+constexpr int kSweeps = 8;        // of the shares: exact at right angles after one, and bounded always
+
+/// One solid that an element touches, or is near.
+struct Push {
+  double penetration;
+  Vec3 normal;
+  double friction;
+};
+
+/// Axis k of a box, upwards or downwards, and how deep below that face a place (in the box's axes) lies.
+struct Face {
+  Eigen::Index axis;
+  double sign;
+  [[nodiscard]] double depth(const Box& box, const Vec3& local) const { return 0.5 * box.size[axis] - sign * local[axis]; }
+  [[nodiscard]] Vec3 normal(const Box& box) const { return sign * box.R.col(axis); }
+};
+
+constexpr std::array<Face, 6> kFaces{{{2, 1}, {2, -1}, {1, 1}, {1, -1}, {0, 1}, {0, -1}}};
+
+/// The ways by which an element left one box after another: a seam, a corner of four tiles.
+struct ExitPath {
+  std::array<Vec3, 3> normals;
+  std::size_t count = 0;
+  [[nodiscard]] bool back(const Vec3& normal) const {
+    return std::any_of(normals.begin(), normals.begin() + count, [&](const Vec3& way) { return normal.dot(way) <= kBack; });
+  }
+};
+
+/// Limit of the searches of one query: a whole search of n boxes in one place needs n^4 looks at a box. The corner of a floor
+/// of tiles needs 276 searches, steps of 200 boxes on top of one another 50.
+struct Searches {
+  static constexpr std::size_t kFewest = 300, kLooks = 4'000'000;
+  std::size_t left;
+};
+
+/// The distance that is left into the open from a place where an element left box `left`; at least `bound` is enough. 0 after
+/// the last search.
+double remaining_exit_depth(const Boxes& boxes, const Box& left, const Vec3& place, const ExitPath& ways, double bound,
+                            Searches& searches) {
+  if (searches.left == 0) return 0;
+  --searches.left;
+  double most = 0;
+  for (const std::uint32_t i : boxes.near(place, kSame)) {
+    const Box& box = boxes[i];
+    if (most >= bound) break;
+    if (&box == &left) continue;
+    const Vec3 local = box.R.transpose() * (place - box.center);
+    if (((local.cwiseAbs() - 0.5 * box.size).array() > kSame).any()) continue;
+    double least = bound;
+    for (const Face& face : kFaces) {
+      const Vec3 normal = face.normal(box);
+      double cost = face.depth(box, local);
+      if (cost >= least || ways.back(normal)) continue;
+      if (ways.count < ways.normals.size()) {
+        ExitPath longer = ways;
+        longer.normals[longer.count++] = normal;
+        cost += remaining_exit_depth(boxes, box, place + cost * normal, longer, least - cost, searches);
+      }
+      least = std::min(least, cost);
+      if (least <= most) break;
+    }
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+/// A sphere whose centre is in the box leaves by the face of least depth that leads out.
+Push inside(const Boxes& boxes, const Box& box, const Vec3& centre, const Vec3& local, double radius, Searches& searches) {
+  double least = 2 * box.size.sum();
+  Push push{0, Vec3::UnitZ(), box.friction};
+  for (const Face& face : kFaces) {
+    const double depth = face.depth(box, local);
+    if (depth >= least) continue;
+    const Vec3 normal = face.normal(box);
+    const Vec3 place = centre + depth * normal;
+    if (normal.z() < kBack && place.z() < 2 * kSame) continue;
+    // Twice: at a seam, where the way to the next box is short, up is still the shorter one.
+    const double cost = depth + 2 * remaining_exit_depth(boxes, box, place, {{normal}, 1}, least - depth, searches);
+    if (cost >= least) continue;
+    least = cost;
+    push.penetration = radius + depth;
+    push.normal = normal;
+  }
+  return push;
+}
+
+Push against(const Boxes& boxes, const Box& box, const Vec3& centre, double radius, Searches& searches) {
+  const Vec3 local = box.R.transpose() * (centre - box.center);
+  const Vec3 nearest = local.cwiseMax(-0.5 * box.size).cwiseMin(0.5 * box.size);
+  const double distance = (local - nearest).norm();
+  if (!(distance > 0)) return inside(boxes, box, centre, local, radius, searches);
+  return {radius - distance, box.R * ((local - nearest) / distance), box.friction};
+}
+
+/// At least the distance from a place to what counts there, m: to all that a sphere touches, else to the nearest. `most`: a
+/// known bound.
+double nearest_distance(const Boxes& boxes, const Vec3& place, double radius, double most) {
+  if (most <= boxes.margin()) return most;
+  // High above the plane, but perhaps not above the boxes beneath.
+  double least = most;
+  for (const std::uint32_t i : boxes.near(place, 0)) {
+    const Vec3 local = boxes[i].R.transpose() * (place - boxes[i].center);
+    least = std::min(least, (1 + kSame) * (local.cwiseAbs() - 0.5 * boxes[i].size).cwiseMax(0).norm() + kSame);
+  }
+  return std::max(least, radius);
+}
+
+/// All that an element touches as one.
+class Sum {
+ public:
+  /// Keeps them from the deepest on.
+  void add(const Push& push) {
+    if (count_ > 0 && !(push.penetration > std::min(0.0, pushes_[0].penetration))) return;
+    if (count_ == kMost && pushes_[kMost - 1].penetration >= push.penetration) return;
+    count_ = std::min(count_ + 1, kMost);
+    std::size_t at = count_ - 1;
+    for (; at > 0 && pushes_[at - 1].penetration < push.penetration; --at) pushes_[at] = pushes_[at - 1];
+    pushes_[at] = push;
+  }
+  [[nodiscard]] double deepest() const { return pushes_[0].penetration; }
+
+  [[nodiscard]] Push take() const {
+    if (count_ < 2 || !(pushes_[1].penetration > 0)) return pushes_[0];
+    const std::array<double, kMost> share = shares();
+    Vec3 sum = Vec3::Zero();
+    double friction = 0;
+    double all = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      sum += share[i] * pushes_[i].normal;
+      friction += share[i] * pushes_[i].friction;
+      all += share[i];
+    }
+    const double size = sum.norm();
+    if (!(size > 0)) return {0, pushes_[0].normal, pushes_[0].friction};  // squeezed from both sides
+    return {size, sum / size, friction / all};
+  }
+
+ private:
+  [[nodiscard]] std::array<double, kMost> shares() const {
+    std::array<double, kMost> share{pushes_[0].penetration};
+    // The two deepest are solved exactly: the iteration converges slowly if two normals are almost equal.
+    const double c = pushes_[0].normal.dot(pushes_[1].normal);
+    const double rest = pushes_[1].penetration - c * pushes_[0].penetration;
+    if (c > 0 && rest > 0) {
+      share[0] = (pushes_[0].penetration - c * pushes_[1].penetration) / (1 - c * c);
+      share[1] = rest / (1 - c * c);
+    }
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      for (std::size_t i = 0; i < count_; ++i) {
+        double others = 0;
+        for (std::size_t j = 0; j < count_; ++j) {
+          if (j != i) others += share[j] * pushes_[i].normal.dot(pushes_[j].normal);
+        }
+        share[i] = std::max(0.0, pushes_[i].penetration - std::max(0.0, others));
+      }
+    }
+    return share;
+  }
+
+  std::array<Push, kMost> pushes_{};  ///< falling penetration
+  std::size_t count_ = 0;
+};
+
+/// m: height at which the vertical through a place leaves the box upwards; minus infinity where it misses the box.
+double top_at(const Box& box, const Vec3& place) {
+  const Vec3 at = box.R.transpose() * (Vec3(place.x(), place.y(), 0) - box.center);
+  const Vec3 up = box.R.row(2);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double bottom = -kInfinity;
+  double top = kInfinity;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double half = 0.5 * box.size[k];
+    if (up[k] == 0) {
+      if (std::abs(at[k]) > half) return -kInfinity;
+      continue;
+    }
+    const double one = (half - at[k]) / up[k];
+    const double other = (-half - at[k]) / up[k];
+    bottom = std::max(bottom, std::min(one, other));
+    top = std::min(top, std::max(one, other));
+  }
+  return bottom <= top ? top : -kInfinity;
+}
+
+}  // namespace
+
+GroundTouch Boxes::touch(const Vec3& centre, double radius, double friction) const {
+  Sum sum;
+  sum.add({radius - centre.z(), Vec3::UnitZ(), friction});
+  // An element that has sunk into the plane counts as beside a box on the plane, not beneath it.
+  const Vec3 lifted(centre.x(), centre.y(), std::max(centre.z(), radius + kSame));
+  Searches searches{std::max(Searches::kFewest, Searches::kLooks / std::max<std::size_t>(1, size()))};
+  for (const std::uint32_t i : near(lifted, nearest_distance(*this, lifted, radius, radius - std::min(0.0, sum.deepest())))) {
+    // Beyond this distance it neither touches nor is the nearest.
+    const Ball& ball = this->ball(i);
+    const double reach = ball.radius + radius - std::min(0.0, sum.deepest());
+    if ((lifted - ball.center).squaredNorm() < reach * reach) sum.add(against(*this, (*this)[i], lifted, radius, searches));
+  }
+  const Push push = sum.take();
+  return sphere_touch(push.penetration, push.normal, push.friction, centre, radius);
+}
+
+double Boxes::surface_below(const Vec3& point, double give) const {
+  double height = 0;
+  for (const std::uint32_t i : near(point, 0)) {
+    if (const double top = top_at((*this)[i], point); top <= point.z() + give) height = std::max(height, top);
+  }
+  return height;
+}
+
+double Boxes::highest() const {
+  double top = 0;
+  for (const Box& box : *this) top = std::max(top, box.center.z() + 0.5 * box.size.norm());
+  return top;
+}
+
+}  // namespace gaitlab

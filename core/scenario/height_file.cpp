@@ -1,0 +1,122 @@
+#include "core/scenario/height_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "core/files/atomic_file.h"
+#include "core/files/hash.h"
+#include "core/files/number_table.h"
+#include "core/settings/grid.h"
+#include "core/settings/text_file.h"
+
+namespace gaitlab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostBytes = sizeof(double) * kMostHeights + (std::uintmax_t{1} << 20);
+
+enum class HeightFormat { text, npy, png };
+
+/// Format by the file's first bytes, or by its name if the bytes do not match the name.
+HeightFormat format_of(const std::string& path, const std::string& start) {
+  const fs::path extension = fs::path(path).extension();
+  if (start.starts_with(kNpyMagic) || extension == ".npy") return HeightFormat::npy;
+  if (start.starts_with(kPngMagic) || extension == ".png") return HeightFormat::png;
+  return HeightFormat::text;
+}
+
+/// A file of heights that is read into a field.
+class HeightFile {
+ public:
+  HeightFile(const Node& map, const std::string& folder, Problems& problems)
+      : map_(map), file_(*map.find("file")), folder_(folder), path_(path_from(folder, file_.text)), problems_(problems) {}
+
+  SourceLocation read(Heightfield& field) {
+    std::optional<NumberTable> table = numbers();
+    if (!table || !is_of_record()) return place_;
+    std::vector<double> heights = std::move(table->values);
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+      heights[i] *= field.source.scale;
+      if (std::abs(heights[i]) <= kHeights.max) continue;  // false for NaN also
+      problems_.add({path_}, fmt::format("height [{}, {}], counted from 0, is {}; allowed are {}", i / table->columns,
+                                         i % table->columns, with_unit(heights[i], kHeights.unit), range_text(kHeights)));
+      return place_;
+    }
+    field.columns = table->columns;
+    field.values = std::move(heights);
+    field.source.hash = hash_;
+    field.source.file = fs::canonical(path_).string();
+    if (field.values.size() <= kMostWritten) field.source = {};
+    return place_;
+  }
+
+ private:
+  /// Numbers of the file; nothing with a problem.
+  std::optional<NumberTable> numbers() try {
+    const HeightFormat format = format_of(path_, read_start(path_, kPngMagic.size()));
+    if (format == HeightFormat::text) return text();
+    if (format == HeightFormat::png && map_.find("scale") == nullptr) {
+      problems_.add(file_.place,
+                    fmt::format("file '{}' holds grey values from 0 to 65535; expected scale: metres of one", path_));
+      return {};
+    }
+    const std::string bytes = read_file(path_, kMostBytes);
+    hash_ = hash_words(bytes);
+    place_ = {path_};
+    return format == HeightFormat::npy ? read_npy(bytes, kMostHeights) : read_grey_png(bytes, kMostHeights);
+  } catch (const TableError& error) {
+    problems_.add({path_}, error.what());
+    return {};
+  } catch (const InputError& error) {
+    problems_.add(file_.place, fmt::format("file '{}' {}", path_, error.problems().front().text));
+    return {};
+  }
+
+  std::optional<NumberTable> text() {
+    Problems found;
+    Rows rows;
+    try {
+      const std::string bytes = read_text(path_, file_.place);
+      hash_ = hash_words(bytes);
+      const Node node = grid_node(bytes, path_);
+      place_ = node.place;
+      rows = read_rows(node, "row", kHeights, found);
+    } catch (const InputError& error) {
+      add_all(error, found);
+    }
+    const bool sound = found.empty();
+    add_found(found, {path_, folder_, "file of heights", ""}, problems_);
+    if (!sound) return {};
+    NumberTable table{rows.size(), rows.empty() ? 0 : rows[0].size(), {}};
+    for (const std::vector<double>& row : rows) table.values.insert(table.values.end(), row.begin(), row.end());
+    return table;
+  }
+
+  bool is_of_record() {
+    const Node* recorded = map_.find("hash");
+    if (recorded == nullptr || recorded->text == hash_) return true;
+    problems_.add(recorded->place, fmt::format("file '{}' is not the file of the record: its hash is {}, recorded is {}", path_,
+                                               hash_, clipped(recorded->text)));
+    return false;
+  }
+
+  const Node& map_;
+  const Node& file_;
+  std::string folder_, path_, hash_ = {};
+  Problems& problems_;
+  SourceLocation place_ = file_.place;
+};
+
+}  // namespace
+
+SourceLocation read_height_file(const Node& map, const std::string& folder, Heightfield& field, Problems& problems) {
+  return HeightFile(map, folder, problems).read(field);
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,139 @@
+#include "core/simulation/recorder.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <new>
+#include <string>
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kTickRows = 2e-3;  // s, between rows of Recording::ticks at least
+
+/// Text of an amount of memory and its owner.
+std::string memory_text(double bytes, const char* whose) { return fmt::format("{} {:.3g} GB of memory", whose, bytes / 1e9); }
+
+/// Error of rows, which are kept until the end of the run, that exceed the memory.
+InputError too_many_rows(const Scenario& s, const RowsNeeded& needed, const std::string& there_is) {
+  return {s.place("duration"),
+          fmt::format("the run would record {:.3g} rows of {:.0f} columns, {:.3g} GB, and {}: take a longer trace.period than "
+                      "{:.3g} s, fewer trace.columns, or a shorter duration",
+                      needed.rows, needed.columns, needed.bytes() / 1e9, there_is, s.trace.period)};
+}
+
+/// InputError of a machine, a container (cgroup 2) or a process (ulimit -v) that has not so much.
+void check_memory(const Scenario& s, const RowsNeeded& needed) {
+  constexpr double kLittle = 1e8;  // bytes: always available, and the query takes longer than a short rollout
+  if (needed.bytes() < kLittle) return;
+  const auto check = [&](double bytes, const char* whose) {
+    if (bytes > 0 && needed.bytes() > bytes) throw too_many_rows(s, needed, memory_text(bytes, whose));
+  };
+  check(static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)), "this machine has");
+  double container = 0;
+  if (std::ifstream("/sys/fs/cgroup/memory.max") >> container) check(container, "this container has");
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    check(static_cast<double>(limit.rlim_cur), "ulimit -v allows");
+}
+
+}  // namespace
+
+Recorder::Recorder(const Scenario& scenario, const std::vector<ContactElement>& contacts, const Cpg* cpg,
+                   std::string_view command_unit, const Sample& sample, const Records& wanted)
+    : scenario_(scenario), probes_(std::make_unique<Probes>(scenario, contacts, cpg, command_unit, sample)) {
+  if (wanted.rows) {
+    recording.trace.columns = probes_->columns();
+    recording.rest.columns = probes_->rest_columns();
+  } else {
+    probes_.reset();  // trace.columns is checked all the same
+  }
+  const std::size_t joints = scenario.robot->joints.size();
+  recording.ticks.columns = tick_columns(joints);
+  recording.poses.columns = pose_columns(joints);
+  ticks_per_row_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kTickRows / scenario.control_period - 1e-9)));
+  check_memory(scenario, rows_needed());
+  if (wanted.loads != Loads::left_out) {
+    loads_ = std::make_unique<LoadMeter>(scenario, contacts, wanted.loads);
+    recording.loads.columns = loads_->columns();
+  }
+  reserve_rows(scenario);
+}
+
+RowsNeeded Recorder::rows_needed() const {
+  return {scenario_.duration / scenario_.trace.period + 2,
+          static_cast<double>(recording.trace.columns.size() + recording.rest.columns.size())};
+}
+
+void Recorder::reserve_rows(const Scenario& s) {
+  const auto reserve = [&](Trace& table, double rows) {
+    try {
+      table.values.reserve(static_cast<std::size_t>(rows + 3) * table.columns.size());
+    } catch (const std::bad_alloc&) {
+      throw too_many_rows(s, rows_needed(), "so much memory is not to be had");
+    }
+  };
+  for (Trace* table : {&recording.trace, &recording.rest}) reserve(*table, s.duration / s.trace.period);
+  const double ticks = s.duration / (s.control_period * static_cast<double>(ticks_per_row_));
+  for (Trace* table : {&recording.ticks, &recording.poses, &recording.loads})
+    reserve(*table, std::min(ticks, static_cast<double>(kMostTickRows)));
+}
+
+void Recorder::add_row() {
+  Recording& r = recording;
+  for (Trace* table : {&r.trace, &r.rest}) table->values.resize(table->values.size() + table->columns.size());
+  probes_->fill(Out(r.trace.values).last(r.trace.columns.size()), Out(r.rest.values).last(r.rest.columns.size()));
+}
+
+std::optional<Out> Recorder::add_tick(double t, bool last) {
+  Trace& ticks = recording.ticks;
+  const std::size_t columns = ticks.columns.size();
+  if (!ticks.values.empty() && ticks.values[ticks.values.size() - columns] == t) return {};
+  if (ticks.rows() > kMostTickRows) {
+    halve_ticks(ticks);
+    halve_rows(recording.loads);
+    halve_rows(recording.poses);
+    ticks_per_row_ *= 2;
+    if (!tick_due() && !last) return {};
+  }
+  ticks.values.resize(ticks.values.size() + columns);
+  const Out row = Out(ticks.values).last(columns);
+  row[0] = t;
+  loads_due_ = loads_ != nullptr;
+  return row.subspan(1);
+}
+
+void Recorder::add_pose(double t, const Sample& s) {
+  std::vector<double>& values = recording.poses.values;
+  const Vec3& p = s.state.position;
+  const Quat& q = s.state.orientation;
+  for (const double value : {t, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}) values.push_back(value);
+  values.insert(values.end(), s.state.q.begin(), s.state.q.end());
+  const std::vector<Joint>& joints = scenario_.robot->joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) values.push_back(joints[j].driven() ? s.setpoint[j] : s.state.q[j]);
+  double load = 0;
+  for (const ContactSample& contact : s.contacts) load += contact.fn;
+  for (const double value : {s.sums.com.x(), s.sums.com.y(), s.sums.com.z(), load}) values.push_back(value);
+}
+
+void Recorder::add_loads() {
+  Trace& loads = recording.loads;
+  loads.values.resize(loads.values.size() + loads.columns.size());
+  loads_->measure(Out(loads.values).last(loads.columns.size()));
+}
+
+void Recorder::finish(std::int64_t steps, double t, const Outcome& outcome, const Sample& last) {
+  if (loads_) loads_->drop_idle_feet(recording.loads);
+  recording.steps = steps;
+  recording.simulated = t;
+  recording.tally = last.tally;
+  recording.ledger = last.ledger;
+  recording.outcome = outcome;
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,182 @@
+// Samples of a simulation, for its recorders: at rows of the trace, at control ticks, and at the end.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/simulation/lane.h"
+#include "core/simulation/simulation.h"
+
+namespace gaitlab {
+
+Rotors Simulation::rotors(const Lane& lane) const {
+  return {actuator_ == nullptr ? In() : actuator_->reflected_inertia(), lanes_.size(), lane.index};
+}
+
+/// State, centre of mass and contacts of now. `places`: of all bodies, too.
+void Simulation::read_state(Lane& lane, bool places) {
+  Sample& s = lane.sample;
+  layout_.read(plant_state_, lane.index, s.state);
+  const std::optional<Vec3> com = plant_->com(lane.index);
+  if (places || !com) s.forward_kinematics(lane.robot);
+  if (com) s.sums.com = *com;
+  plant_->contacts(lane.index, s.contacts);
+}
+
+/// places: as read_state.
+Sample& Simulation::take_sample(Lane& lane, bool places) {
+  const std::size_t lanes = lanes_.size();
+  const std::size_t l = lane.index;
+  Sample& s = lane.sample;
+  s.t = time();
+  read_state(lane, places);
+  s.place_boxes(*plant_);
+  for (std::size_t j = 0; j < layout_.joints; ++j) {
+    const std::size_t i = j * lanes + l;
+    s.setpoint[j] = setpoint_[i];
+    s.command[j] = command_[i];
+    s.voltage[j] = voltage_[i];
+    s.current[j] = current_[i];
+    s.saturation[j] = saturation_[i];
+    s.torque[j] = torque_[i];
+  }
+  s.compute_hinges(lane.robot, lane.passive);
+  std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());
+  plant_->tally(l, s.tally);
+  if (step_error_ && lane.scenario.physics.estimate == Estimate::full) step_error_->put(l, s.tally);
+  s.ledger = Ledger::of(lane.ledger, s.energy(lane.robot, rotors(lane), lane.passive) - lane.energy_at_start);
+  return s;
+}
+
+/// The left limit of what is not the plant's state: the actuator law under the command in force.
+void Simulation::observe() {
+  evaluate_motors(plant_state_.subspan(layout_.speeds(), command_.size()));
+  if (actuator_ != nullptr) {
+    actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
+  }
+  plant_->update_contacts();
+}
+
+void Simulation::record() {
+  observe();
+  for (const auto& lane : lanes_) {
+    if (!trace_tick(*lane)) continue;
+    record(*lane);
+    if (lane->clock.ends(step_number())) end(*lane);
+  }
+}
+
+void Simulation::record(Lane& lane) {
+  Recorder& recorder = *lane.recorder;
+  if (!recorder.has_rows()) return;
+  Sample& s = take_sample(lane, recorder.wants_places());
+  if (recorder.wants_reactions()) s.compute_reactions(lane.contacts, *plant_, lane.index);
+  recorder.add_row();
+}
+
+/// Rows and ends within the step that starts now: each by a shorter step of its own, after which the state is put back, so that
+/// nothing depends on which rows there are.
+void Simulation::record_within_step() {
+  if (!scenarios_[0].physics.adaptive_step) return;
+  for (double at = 0;;) {
+    const auto next = [&](const Lane& lane) {
+      return lane.closed || !recorded(lane) ? std::numeric_limits<double>::infinity()
+                                            : lane.clock.row_within(step_number(), at);
+    };
+    double row = std::numeric_limits<double>::infinity();
+    for (const auto& lane : lanes_) row = std::min(row, next(*lane));
+    if (!std::isfinite(row)) return;
+    std::ranges::copy(state_, saved_.begin());
+    const auto ends = [&](const Lane& lane) {
+      return recorded(lane) && !lane.closed && lane.clock.ends_within(step_number(), row);
+    };
+    advance(row, ends);
+    ended_.clear();
+    for (const auto& lane : lanes_) {
+      if (ends(*lane)) ended_.push_back(lane.get());
+    }
+    within_ = row;
+    observe();
+    for (const auto& lane : lanes_) {
+      if (next(*lane) <= row) record(*lane);
+    }
+    for (Lane* lane : ended_) {
+      check(*lane);
+      if (!lane->closed) close(*lane);
+    }
+    within_ = 0;
+    std::ranges::copy(saved_, state_.begin());
+    if (lanes_.size() > 1) {
+      for (Lane* lane : ended_) place_at_start(*lane);
+    }
+    at = row;
+  }
+}
+
+/// Rows of Recording::ticks and poses; no pose of a state that has diverged. Contacts are those of the present state.
+void Simulation::record_tick(Lane& lane) {
+  const std::optional<Out> row = lane.recorder->add_tick(time(), lane.closed);
+  if (!row) return;
+  meter_.tick(lane.index, *row);
+  if (!fine(lane)) return;
+  read_state(lane, false);
+  Sample& s = lane.sample;
+  for (std::size_t j = 0; j < layout_.joints; ++j) s.setpoint[j] = setpoint_[j * lanes_.size() + lane.index];
+  lane.recorder->add_pose(time(), s);
+}
+
+/// Records the loads of the `wanted` lanes under the commands that begin now, which change torques at once; for a lane that
+/// ends, under the commands in force.
+void Simulation::record_loads(const std::function<bool(const Lane&)>& wanted) {
+  const auto due = [&](const auto& lane) { return lane->recorder != nullptr && lane->recorder->loads_due() && wanted(*lane); };
+  if (std::ranges::none_of(lanes_, due)) return;
+  if (actuator_ != nullptr)
+    actuator_->effort(command_, plant_state_.subspan(layout_.speeds(), command_.size()), torque_, slope_);
+  for (const auto& lane : lanes_) {
+    if (due(lane)) record_loads(*lane);
+  }
+}
+
+void Simulation::record_loads(Lane& lane) {
+  Recorder& recorder = *lane.recorder;
+  recorder.leave_out_loads();
+  if (!fine(lane)) return;
+  LoadMeter& meter = recorder.loads();
+  Sample& s = meter.sample();
+  s.t = time();
+  layout_.read(plant_state_, lane.index, s.state);
+  if (meter.want_reactions()) {
+    s.kinematics.update(lane.robot, s.state);
+  } else {
+    s.kinematics.place(lane.robot, s.state);
+  }
+  s.sums.com = centre_of_mass(lane.robot, s.kinematics);
+  plant_->contacts(lane.index, s.contacts);
+  for (std::size_t j = 0; j < layout_.joints; ++j) s.torque[j] = torque_[j * lanes_.size() + lane.index];
+  s.compute_hinges(lane.robot, lane.passive);
+  if (meter.want_reactions()) s.compute_reactions(lane.contacts, *plant_, lane.index);
+  recorder.add_loads();
+}
+
+/// Adds the numbers at the end to the rows of a lane.
+void Simulation::close(Lane& lane) {
+  lane.closed = true;
+  plant_->update_contacts();
+  record_tick(lane);
+  record_loads([&](const Lane& one) { return &one == &lane; });
+  lane.recorder->finish(step_number(), time(), lane.outcome, take_sample(lane, true));
+  take_statistics(lane);
+}
+
+/// Statistics of joints so far.
+void Simulation::take_statistics(Lane& lane) {
+  std::vector<JointStatistics>& joints = lane.recorder->recording.joints;
+  joints.clear();
+  for (std::size_t j = 0; j < layout_.joints; ++j) joints.push_back(meter_.statistics(j, lane.index));
+}
+
+Recording Simulation::take_recording(std::size_t lane) {
+  if (!lanes_[lane]->closed) close(*lanes_[lane]);
+  return std::move(lanes_[lane]->recorder->recording);
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,14 @@
+// The sheet of a run's figure: its size and title.
+#pragma once
+#include <string>
+
+#include "report/plot/canvas.h"
+
+namespace gaitlab::report {
+
+inline constexpr double kWidth = 1000, kTitleHeight = 44;  ///< px
+
+/// Draws the title in the middle; a long one is made smaller.
+void draw_run_title(Canvas& canvas, const std::string& title);
+
+}  // namespace gaitlab::report

@@ -1,0 +1,199 @@
+#include "studies/plan/bound_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/model/pattern.h"
+#include "core/settings/value.h"
+#include "core/settings/wording.h"
+#include "studies/study/number.h"
+
+namespace gaitlab::studies {
+
+namespace {
+
+const Node* find_key(const Node& root, const std::string& key) {
+  const Node* node = &root;
+  for (std::size_t at = 0; node != nullptr && at <= key.size();) {
+    const std::size_t end = std::min(key.find('.', at), key.size());
+    node = node->kind == Node::Kind::map ? node->find(key.substr(at, end - at)) : nullptr;
+    at = end + 1;
+  }
+  return node;
+}
+
+/// Settings that take the engine of `verify` in place of a scenario's, with its own step; empty: it is that engine, or none.
+std::vector<std::string> other_engine_of(const Verify& verify, const Scenario& scenario, const Catalog& catalog,
+                                         Problems& problems) {
+  const std::string& name = verify.engine;
+  if (name == "none" || name == scenario.physics.engine->name) return {};
+  const Engine* engine = catalog.engine(name);
+  if (engine == nullptr) {
+    problems.add(verify.place,
+                 "verify.engine " + in_quotes(name) + " is not known" + gaitlab::offer(name, catalog.engines(), "engines"));
+    return {};
+  }
+  std::vector<std::string> sets{"physics.engine=" + name};
+  if (engine->adaptive() != nullptr) {
+    sets.push_back(fmt::format("physics.integrator={}", engine->integrators.front().name));
+    sets.emplace_back("physics.step=auto");
+  } else {
+    sets.push_back(fmt::format("physics.integrator={}", engine->fixed().name));
+    sets.push_back("physics.step=" + number_text(engine->given_step(scenario.contact.model().has_step_of_its_own)));
+  }
+  return sets;
+}
+
+/// Quantities of joints that a pattern of the study names are the same in every scenario.
+void check_same(const std::vector<Quantity>& first, const std::vector<Quantity>& other, const SourceLocation& place,
+                Problems& problems) {
+  const auto check = [&](const std::vector<Quantity>& have, const std::vector<Quantity>& lack, const char* text) {
+    for (const Quantity& quantity : have) {
+      if (std::ranges::find(lack, quantity.name, &Quantity::name) != lack.end()) continue;
+      problems.add(place, fmt::format(fmt::runtime(text), in_quotes(quantity.name)));
+      return;
+    }
+  };
+  check(first, other, "there is no quantity {}, which the first scenario has");
+  if (problems.empty()) check(other, first, "there is a quantity {}, which the first scenario does not have");
+}
+
+}  // namespace
+
+BoundStudy::BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog)
+    : study_(std::move(study)), scenarios_(read_scenarios(study_, catalog)), scenario_text_(scenarios_text(scenarios_)) {
+  Problems problems;
+  followers_ = std::make_unique<Followers>(study_.parameters, problems);
+  problems.raise();
+  std::vector<Problems> found(scenarios_.size());
+  for (std::size_t s = 0; s < scenarios_.size(); ++s) {
+    check_own_names(s, found[s]);
+    find_nominal(scenarios_[s], found[s]);
+  }
+  add_of_each(scenarios_, found, problems);
+  find_columns(offer, problems);
+  choose_shown(problems);
+  if (shown_.empty()) problems.raise();  // what orders the points is one of them
+  if (Text& first = study_.objectives.front().expression; first.text.empty()) first.text = columns_[shown_.front()].name;
+  make_judges(offer, catalog, problems);
+  problems.raise();
+}
+
+/// A number of one's own that is called like a key of the scenario would be taken for it.
+void BoundStudy::check_own_names(std::size_t scenario, Problems& problems) const {
+  for (const Parameter& p : study_.parameters) {
+    if (p.sets.empty()) continue;
+    const std::string unknown = "unknown key " + in_quotes(p.key);
+    bool is_key = true;
+    try {
+      (void)with({p.key + "=0"}, scenario);
+    } catch (const InputError& error) {
+      is_key = std::ranges::none_of(error.problems(), [&](const Problem& one) { return one.text.starts_with(unknown); });
+    }
+    if (is_key)
+      problems.add(
+          p.place,
+          fmt::format("{} is a key of the scenario, and has keys that follow it (sets); expected another name", p.key));
+  }
+}
+
+void BoundStudy::find_nominal(StudyScenario& scenario, Problems& problems) const {
+  std::optional<Node> tree;
+  for (const Variation& v : study_.replicates.vary) {
+    const auto same = [&](const Parameter& p) {
+      return p.key == v.key || std::ranges::find(p.sets, v.key, &Follower::key) != p.sets.end();
+    };
+    if (!v.times || std::ranges::any_of(study_.parameters, same)) continue;
+    if (!tree) tree = parse_yaml(scenario.resolved, scenario.nominal.file);
+    const Node* node = find_key(*tree, v.key);
+    const Reading<double> value = node == nullptr ? Reading<double>{0, "is not a key of the scenario"} : read_number(*node, "");
+    if (!value.ok()) problems.add(v.place, v.key + " " + value.wrong + ", which a factor needs");
+    scenario.nominal_values[v.key] = value.value;
+  }
+}
+
+/// Those of the first scenario, which the others must have.
+void BoundStudy::find_columns(const QuantityOffer& offer, Problems& problems) {
+  columns_ = columns_of(study_, offer, scenarios_.front().joints);
+  constexpr std::size_t kMostColumns = 400;
+  if (columns_.size() > kMostColumns)
+    problems.add(study_.quantities_place,
+                 fmt::format("the journal would have {} columns of quantities; allowed are up to {}: name fewer joints",
+                             columns_.size(), kMostColumns));
+}
+
+void BoundStudy::choose_shown(Problems& problems) {
+  const std::vector<std::string> patterns = study_.quantities.empty() ? std::vector<std::string>{"speed"} : study_.quantities;
+  for (const std::string& pattern : patterns) {
+    bool any = false;
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      if (!glob(pattern, columns_[k].name)) continue;
+      any = true;
+      if (std::ranges::find(shown_, k) == shown_.end()) shown_.push_back(k);
+    }
+    if (any) continue;
+    std::vector<std::string> known;
+    for (const Quantity& column : columns_) known.push_back(column.name);
+    problems.add(study_.quantities_place,
+                 "no quantity is named " + in_quotes(pattern) + gaitlab::offer(pattern, known, "quantities"));
+  }
+}
+
+/// Refuses names in the study's expressions that a scenario lacks. The judges that stay are those of the first, which comes
+/// last.
+void BoundStudy::make_judges(const QuantityOffer& offer, const Catalog& catalog, Problems& problems) {
+  std::vector<Problems> found(scenarios_.size());
+  std::vector<std::vector<Quantity>> columns(scenarios_.size());
+  for (std::size_t s = scenarios_.size(); s-- > 0;) {
+    StudyScenario& one = scenarios_[s];
+    columns[s] = s == 0 ? columns_ : columns_of(study_, offer, one.joints);
+    judge_ = std::make_unique<Judge>(study_, columns[s], offer, one.joints, found[s]);
+    one.other_engine = other_engine_of(study_.verify, one.nominal, catalog, found[s]);
+    stops_ = std::make_unique<StopRules>(study_, offer, one.joints, found[s]);
+  }
+  check_stops(problems);
+  if (std::ranges::all_of(found, &Problems::empty)) {
+    for (std::size_t s = 1; s < scenarios_.size(); ++s) check_same(columns_, columns[s], study_.quantities_place, found[s]);
+  }
+  check_engines(catalog, found);
+  add_of_each(scenarios_, found, problems);
+}
+
+/// A rule that begins when every run has ended stops none.
+void BoundStudy::check_stops(Problems& problems) const {
+  const auto is_duration = [](const std::string& key) { return key == "duration"; };
+  for (const Parameter& p : study_.parameters) {
+    if (is_duration(p.key) || std::ranges::any_of(p.sets, is_duration, &Follower::key)) return;
+  }
+  if (std::ranges::any_of(study_.replicates.vary, is_duration, &Variation::key)) return;
+  for (const StopText& stop : study_.stops) {
+    if (stop.after < longest()) continue;
+    problems.add(stop.when.node.place,
+                 fmt::format("the rule begins at {} s, and the {} ends at {} s; expected an earlier time behind `after`",
+                             number_text(stop.after), scenarios_.size() > 1 ? "longest run" : "run", number_text(longest())));
+  }
+}
+
+/// The engine of `verify` is another than the study's.
+void BoundStudy::check_engines(const Catalog& catalog, std::vector<Problems>& found) const {
+  const std::string& engine = study_.verify.engine;
+  for (std::size_t s = 0; s < scenarios_.size(); ++s) {
+    if (scenarios_[s].nominal.physics.engine->name == engine)
+      found[s].add(study_.verify.place,
+                   fmt::format("verify.engine {} is the engine of the study itself; expected another, or none: known are {}",
+                               engine, fmt::join(catalog.engines(), ", ")));
+  }
+}
+
+double BoundStudy::longest() const {
+  double longest = 0;
+  for (const StudyScenario& one : scenarios_) longest = std::max(longest, one.nominal.duration);
+  return longest;
+}
+
+bool BoundStudy::has_other_engine() const {
+  return std::ranges::any_of(scenarios_, [](const StudyScenario& one) { return !one.other_engine.empty(); });
+}
+
+}  // namespace gaitlab::studies

@@ -1,0 +1,60 @@
+// A study bound to its scenarios: read and checked, with the parts that all of its runs share.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "studies/plan/stop_rules.h"
+#include "studies/study/followers.h"
+#include "studies/study/judge.h"
+#include "studies/study/scenarios.h"
+
+namespace gaitlab::studies {
+
+class BoundStudy {
+ public:
+  /// Reads the scenarios and checks the study against each. InputError with every problem found.
+  BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog);
+  BoundStudy(const BoundStudy&) = delete;  // judge and rules refer to the study
+  BoundStudy& operator=(const BoundStudy&) = delete;
+
+  [[nodiscard]] const Study& study() const { return study_; }
+  void set_runs(std::int64_t runs) { study_.runs = runs; }
+  [[nodiscard]] const std::vector<StudyScenario>& scenarios() const { return scenarios_; }
+  /// All scenarios, resolved.
+  [[nodiscard]] const std::string& scenario_text() const { return scenario_text_; }
+  /// Duration of the longest scenario, s.
+  [[nodiscard]] double longest() const;
+  [[nodiscard]] bool has_other_engine() const;
+  [[nodiscard]] const Followers& followers() const { return *followers_; }
+  [[nodiscard]] const Judge& judge() const { return *judge_; }
+  [[nodiscard]] const StopRules& stops() const { return *stops_; }
+  [[nodiscard]] const std::vector<Quantity>& columns() const { return columns_; }
+  /// Quantities to show, by column: those that the study's patterns name, in the order of the patterns; without any the speed.
+  [[nodiscard]] const std::vector<std::size_t>& shown() const { return shown_; }
+  /// A scenario by its number with these settings. InputError: it is refused with these values. One thread at a time.
+  [[nodiscard]] Scenario with(const std::vector<std::string>& sets, std::size_t scenario) const {
+    return scenarios_[scenario].file->with(sets);
+  }
+
+ private:
+  void check_own_names(std::size_t scenario, Problems& problems) const;
+  void find_nominal(StudyScenario& scenario, Problems& problems) const;
+  void find_columns(const QuantityOffer& offer, Problems& problems);
+  void choose_shown(Problems& problems);
+  void check_stops(Problems& problems) const;
+  void check_engines(const Catalog& catalog, std::vector<Problems>& found) const;
+  void make_judges(const QuantityOffer& offer, const Catalog& catalog, Problems& problems);
+
+  Study study_;
+  std::vector<StudyScenario> scenarios_;
+  std::string scenario_text_;
+  std::unique_ptr<Followers> followers_;
+  std::vector<Quantity> columns_;
+  std::unique_ptr<Judge> judge_;
+  std::unique_ptr<StopRules> stops_;
+  std::vector<std::size_t> shown_;
+};
+
+}  // namespace gaitlab::studies

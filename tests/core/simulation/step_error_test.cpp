@@ -1,0 +1,102 @@
+// The estimate of the torque error, against numbers computed by hand.
+#include "core/simulation/step_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace gaitlab {
+namespace {
+
+using Numbers = std::vector<double>;
+
+/// An estimate with its numbers.
+struct Estimate {
+  StateLayout layout;
+  Numbers numbers;
+  StepError error;
+
+  Estimate(StateLayout of, Numbers accuracy) : layout(of), numbers(StepError::size(of)), error(of, std::move(accuracy)) {
+    error.bind(numbers);
+  }
+  void see(const Numbers& torque, double slope = 1) { error.see(torque, Numbers(torque.size(), slope)); }
+  void compare(Companion which, const Numbers& torque, double t, double factor = 1, double weight = 1) {
+    error.compare(which, torque, factor, weight, t);
+  }
+  [[nodiscard]] StepTally tally(std::size_t lane = 0) const {
+    StepTally made;
+    made.torque_error.resize(layout.joints);
+    made.torque_peak.resize(layout.joints);
+    error.put(lane, made);
+    return made;
+  }
+};
+
+TEST(StepError, IsAWeightedRmsTimesTheFactor) {
+  Estimate one({2, 1}, {0.5});
+  one.see({3, -4});
+  one.compare(Companion::twin, {1, -4}, 0.1, 2, 1);  // differences 4, 0
+  one.see({1, 0});
+  one.compare(Companion::twin, {1, 3}, 0.2, 2, 3);  // 0, 6
+  const StepTally tally = one.tally();
+  EXPECT_EQ(tally.torque_error, (Numbers{std::sqrt(16.0 / 4), std::sqrt(3 * 36.0 / 4)}));
+  EXPECT_EQ(tally.torque_peak, (Numbers{3, 4}));
+  EXPECT_EQ(tally.event.share, std::sqrt(27.0) / 4);
+  EXPECT_EQ(tally.event.time, 0.1);
+  EXPECT_EQ(tally.event.joint, 0U);
+}
+
+TEST(StepError, NeedsASlopeOrADifference) {
+  Estimate lanes({1, 3}, {0.1, 0.1, 0.1});
+  lanes.error.see(Numbers{1, 1, 1}, Numbers{0, -1, 0});
+  lanes.compare(Companion::coarse, {2, 1, 1}, 0.1);  // a coarse companion alone is not enough
+  lanes.compare(Companion::twin, {1, 1, 2}, 0.1);
+  EXPECT_FALSE(lanes.tally(0).estimated);
+  EXPECT_TRUE(lanes.tally(1).estimated);
+  EXPECT_TRUE(lanes.tally(2).estimated);
+  EXPECT_EQ(lanes.tally(1).torque_error[0], 0);
+  EXPECT_EQ(lanes.tally(2).torque_error[0], 1);
+}
+
+TEST(StepError, AnEventIsBeyondThePeakOfTheWholeRun) {
+  Estimate one({1, 1}, {0.1});
+  EXPECT_FALSE(one.tally().estimated);
+  one.see({1});
+  one.compare(Companion::twin, {1.25}, 1);
+  EXPECT_EQ(one.tally().event.time, 1);
+  one.see({10});  // a quarter is now less than a tenth of the peak
+  one.compare(Companion::twin, {10}, 2);
+  EXPECT_LT(one.tally().event.time, 0);
+  one.compare(Companion::twin, {12}, 3);
+  one.compare(Companion::twin, {15}, 4);
+  EXPECT_EQ(one.tally().event.time, 3) << "the first that lasts, not the largest";
+}
+
+TEST(StepError, ASmallPeakCountsAsAShareOfTheLargest) {
+  Estimate one({2, 1}, {0.1});
+  one.see({100, 0.01});
+  one.compare(Companion::twin, {100, 0.135}, 1);  // 0.125 of 2 N m: below a tenth
+  EXPECT_LT(one.tally().event.time, 0);
+  EXPECT_NEAR(one.tally().event.share, 0.125 / 2, 1e-15);  // one rounding of numbers of size 0.1
+}
+
+TEST(StepError, TheCompanionThatPartsFirstCounts) {
+  Estimate one({2, 1}, {0.1});
+  one.see({1, 1});
+  one.compare(Companion::coarse, {1, 2}, 1);
+  one.compare(Companion::twin, {3, 1}, 2);
+  EXPECT_EQ(one.tally().event.joint, 1U);
+  EXPECT_EQ(one.tally().torque_error, (Numbers{2, 1}));
+  EXPECT_LT(one.tally().chaotic.time, 0);
+
+  Estimate tie({2, 1}, {0.1});
+  tie.see({1, 1});
+  tie.compare(Companion::coarse, {1, 2}, 1);
+  tie.compare(Companion::twin, {2, 1}, 1);
+  EXPECT_EQ(tie.tally().event.joint, 0U) << "the finer one at equal times";
+}
+
+}  // namespace
+}  // namespace gaitlab
