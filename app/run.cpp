@@ -124,9 +124,11 @@ void note_rows(const Scenario& scenario, const Simulation& simulation) {
   constexpr double kMuch = 1e8;  // bytes
   const RowsNeeded needed = simulation.rows_needed(0);
   if (!(needed.bytes() > kMuch)) return;
+  const bool in_file = needed.bytes() > static_cast<double>(kMostInMemory);
   say(scenario.file, "note",
-      fmt::format("records {:.3g} rows of {:.0f} columns, {:.3g} MB in memory; trace.period and trace.columns make it less",
-                  needed.rows, needed.columns, needed.bytes() / 1e6));
+      fmt::format("records {:.3g} rows of {:.0f} columns, {:.3g} MB in {}; trace.period and trace.columns make it less",
+                  needed.rows, needed.columns, needed.bytes() / 1e6,
+                  in_file ? fmt::format("a temporary file in {} (TMPDIR)", spill_folder().string()) : "memory"));
 }
 
 void print_files(const RunArguments& arguments, const std::filesystem::path& folder) {
@@ -150,6 +152,7 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
 
   Recording recording = simulation.take_recording(0);
+  std::optional<AllRows> all = thin_rows(recording);
   if (early) recording.outcome = std::move(*early);
   RunFiles files(folder.path());
   const auto summarised = [&] { return report::summarise(scenario, recording, wall.count()); };
@@ -159,7 +162,9 @@ int run(const Scenario& scenario, const RunArguments& arguments) {
   } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the trace first, then again
   }
   if (made) take_spread(scenario, recording, *made, arguments.quiet);
+  if (all) all->swap(recording);
   write_run(files, arguments.format, scenario, recording);
+  if (all) all->swap(recording);
   const report::Summary summary = made ? std::move(*made) : summarised();
   if (files.lost_any()) files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
   const report::Overlaps overlaps = report::overlaps(scenario, recording);

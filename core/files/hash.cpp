@@ -23,6 +23,13 @@ std::uint64_t fnv1a(std::string_view bytes, std::uint64_t state) {
 }
 
 void WordHash::add(std::string_view bytes) {
+  add_length(bytes.size());
+  add_words(bytes);
+}
+
+void WordHash::add_length(std::size_t bytes) { state_ = absorbed(state_, bytes); }
+
+void WordHash::add_words(std::string_view bytes) {
   constexpr std::size_t kWord = sizeof(std::uint64_t);
   std::uint64_t state = state_;  // kept in a register: the bytes may alias any object, also this one
   const auto absorb = [&](const char* from, std::size_t size) {
@@ -30,7 +37,6 @@ void WordHash::add(std::string_view bytes) {
     std::memcpy(&word, from, size);
     state = absorbed(state, word);
   };
-  state = absorbed(state, bytes.size());
   const std::size_t whole = bytes.size() / kWord * kWord;
   for (std::size_t at = 0; at < whole; at += kWord) absorb(bytes.data() + at, kWord);
   if (whole < bytes.size()) absorb(bytes.data() + whole, bytes.size() - whole);

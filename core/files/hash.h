@@ -22,6 +22,10 @@ class WordHash {
  public:
   /// Adds the length of `bytes`, then their words, the last one filled up with zeros.
   void add(std::string_view bytes);
+  /// The same in parts: first the length of all, then each part, of which only the last may be other than a multiple of 8
+  /// bytes.
+  void add_length(std::size_t bytes);
+  void add_words(std::string_view bytes);
   /// 16 hex digits.
   [[nodiscard]] std::string text() const;
 

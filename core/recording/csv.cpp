@@ -126,7 +126,7 @@ std::vector<Column> read_header(const CsvReader& reader) {
   throw reader.error(offset, fmt::format("\"{}\" is not a number", cell.substr(0, 40)));
 }
 
-void read_row(const CsvReader& reader, std::size_t columns, std::vector<double>& values) {
+void read_row(const CsvReader& reader, std::size_t columns, SpilledVector<double>& values) {
   const char* const first = reader.line().data();
   const char* const last = first + reader.line().size();
   const char* at = first;
@@ -154,6 +154,7 @@ void put_csv(const Trace& trace, const std::filesystem::path& path, std::size_t 
     if (buffer.size() <= size) return;
     put(std::string_view(buffer.data(), buffer.size()));
     buffer.clear();
+    release(trace.values);
   };
   const char* separator = "";
   for (const Column& column : trace.columns) {

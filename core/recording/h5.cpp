@@ -34,9 +34,9 @@ constexpr std::array<Format, 2> kFormats{{{"1", "FNV-1a", [](std::string_view by
                                           {"2", "hash", [](std::string_view bytes) { return hash_words(bytes); }}}};
 
 // The user block: text, so that `head -n 2` shows the type of the file.
-std::string header(const Format& format, std::size_t size, std::string_view hdf5) {
-  std::string text = fmt::format("{}{}{}{}; {} from byte 512 on: {}\n", kName, format.version, kSize, size, format.hash_name,
-                                 format.hash(hdf5));
+std::string header(const Format& format, std::size_t size, std::string_view hash) {
+  std::string text =
+      fmt::format("{}{}{}{}; {} from byte 512 on: {}\n", kName, format.version, kSize, size, format.hash_name, hash);
   text.resize(kUserBlock, '\0');
   return text;
 }
@@ -91,7 +91,7 @@ std::string complaint(std::string_view start, std::uintmax_t bytes) {
 // Whether the user block matches these bytes.
 bool is_whole(std::string_view bytes) {
   return std::ranges::any_of(kFormats, [&](const Format& format) {
-    return bytes.substr(0, kUserBlock) == header(format, bytes.size(), bytes.substr(kUserBlock));
+    return bytes.substr(0, kUserBlock) == header(format, bytes.size(), format.hash(bytes.substr(kUserBlock)));
   });
 }
 
@@ -116,9 +116,10 @@ void try_apart(const std::string& bytes, const SourceLocation& place) {
 
 }  // namespace
 
-void write_h5(const Trace& trace, const Provenance& origin, const std::filesystem::path& path, std::span<const Beside> beside) {
+void write_h5(const Trace& trace, const Provenance& origin, const std::filesystem::path& path,
+              std::span<const BesideOf> beside) {
   AtomicFile file(path);
-  std::string hdf5;
+  SpilledVector<char> hdf5;
   try {
     hdf5 = to_image(trace, origin, beside);
   } catch (const ImageError& error) {
@@ -126,8 +127,11 @@ void write_h5(const Trace& trace, const Provenance& origin, const std::filesyste
   } catch (const std::bad_alloc&) {
     throw NoImage(path.string() + ": cannot be written: out of memory");
   }
-  file.write(header(kFormats.back(), kUserBlock + hdf5.size(), hdf5));
-  file.write(hdf5);
+  WordHash words;
+  words.add_length(hdf5.size());
+  each_part(hdf5, [&](std::string_view bytes) { words.add_words(bytes); });
+  file.write(header(kFormats.back(), kUserBlock + hdf5.size(), words.text()));
+  each_part(hdf5, [&](std::string_view bytes) { file.write(bytes); });
   file.commit();
 }
 

@@ -27,6 +27,12 @@ struct Beside {
   Trace table;
 };
 
+/// The same, to be written.
+struct BesideOf {
+  const char* name;
+  const Trace* table;
+};
+
 /// The file could not be built for lack of memory; text files, which need little, may still be written.
 class NoImage : public RunError {
  public:
@@ -44,10 +50,10 @@ struct StoredTrace {
 /// NULs; the same for each table of `beside` as `/recording/NAME`; root attributes `format`, `scenario`, `outcome`, `csv_hash`,
 /// `seed`, `build`, `rows`, `checksum` (hash() of the trace). The file's first 512 bytes, which HDF5 leaves to the user, hold
 /// format, size and hash_words() of the rest. It contains no dates: the same trace gives the same bytes. The file appears whole
-/// or not at all; it is built in memory (about twice its size in addition to the trace). Throws RunError if it cannot be
+/// or not at all; it is built in memory, or beyond 200 MB in a temporary file (SpilledVector). Throws RunError if it cannot be
 /// written (see AtomicFile), and NoImage.
 void write_h5(const Trace& trace, const Provenance& origin, const std::filesystem::path& path,
-              std::span<const Beside> beside = {});
+              std::span<const BesideOf> beside = {});
 
 /// Reads a file of write_h5, bit for bit, or a file of format gaitlab-trace-1 (the same without `/recording`, texts of variable
 /// length). Throws InputError `PATH: error: ...`, one message each: cannot be read, is empty, is not a gaitlab trace (foreign

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <mutex>
+#include <new>
 #include <unordered_set>
 #include <utility>
 
@@ -18,8 +20,9 @@ namespace {
 // In memory only; HDF5 searches for a file first, so this path can never exist.
 constexpr const char* kNowhere = "/dev/null/gaitlab";
 constexpr std::size_t kGrowth = std::size_t{1} << 20;  // bytes
-constexpr hsize_t kChunkRows = 4096;                   // of one column: 32 kB, and neighbours in time compress best
-constexpr unsigned kGzip = 1;                          // level stated in the file; libdeflate packs the chunks
+using Image = SpilledVector<char>;
+constexpr hsize_t kChunkRows = 4096;  // of one column: 32 kB, and neighbours in time compress best
+constexpr unsigned kGzip = 1;         // level stated in the file; libdeflate packs the chunks
 
 // Checks the result of an HDF5 function: negative means failure.
 template <class Result>
@@ -74,6 +77,31 @@ class Handle {
   hid_t id_;
   Close close_;
 };
+
+// HDF5's calls for the memory of a file that it writes: `image`, an Image. A second copy of a long trace would not fit.
+void* grow(std::size_t size, void* image) {
+  try {
+    Image& bytes = *static_cast<Image*>(image);
+    bytes.resize(size);
+    return bytes.data();
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+
+H5FD_file_image_callbacks_t memory_of(Image& image) {
+  H5FD_file_image_callbacks_t calls{};
+  calls.image_malloc = [](std::size_t size, H5FD_file_image_op_t, void* to) { return grow(size, to); };
+  calls.image_realloc = [](void*, std::size_t size, H5FD_file_image_op_t, void* to) { return grow(size, to); };
+  calls.image_memcpy = [](void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
+    return std::memcpy(to, from, size);
+  };
+  calls.image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
+  calls.udata_copy = [](void* to) { return to; };
+  calls.udata_free = [](void*) -> herr_t { return 0; };
+  calls.udata = &image;
+  return calls;
+}
 
 Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
@@ -158,7 +186,7 @@ Handle dataset_properties(const std::array<hsize_t, 2>& shape) {
   return made;
 }
 
-void write_dataset(hid_t owner, const char* name, const Trace& trace) {
+void write_dataset(hid_t owner, const char* name, const Trace& trace, const Image& image) {
   const std::array<hsize_t, 2> shape{trace.rows(), trace.columns.size()};
   const Handle space(H5Screate_simple(2, shape.data(), nullptr), H5Sclose, "shape");
   const Handle properties = dataset_properties(shape);
@@ -166,6 +194,10 @@ void write_dataset(hid_t owner, const char* name, const Trace& trace) {
   if (!trace.values.empty()) {
     // Bypasses HDF5's filters, whose zlib took 27 % of an ordinary run.
     pack_chunks(trace, chunk_rows(shape[0]), [&](std::size_t row, std::size_t column, std::span<const std::byte> bytes) {
+      if (column == 0) {
+        release(trace.values);
+        release(image);
+      }
       const std::array<hsize_t, 2> at{row, column};
       checked(H5Dwrite_chunk(data, H5P_DEFAULT, 0, at.data(), bytes.size(), bytes.data()), "writing the values");
     });
@@ -174,13 +206,6 @@ void write_dataset(hid_t owner, const char* name, const Trace& trace) {
   write_texts(data, "units", trace, &Column::unit);
   write_texts(data, "definitions", trace, &Column::definition);
   data.close("closing the dataset");
-}
-
-std::string image(hid_t file) {
-  checked(H5Fflush(file, H5F_SCOPE_GLOBAL), "flush");
-  std::string bytes(static_cast<std::size_t>(checked(H5Fget_file_image(file, nullptr, 0), "size of the file")), '\0');
-  checked(H5Fget_file_image(file, bytes.data(), bytes.size()), "bytes of the file");
-  return bytes;
 }
 
 // --- reading ----------------------------------------------------------------------------------------------------------
@@ -275,6 +300,20 @@ void check_storage(hid_t data, const char* name) {
   }
 }
 
+// Rows of many chunks at a time, so that pages of a table in a file can leave memory.
+void read_rows(hid_t data, hid_t space, Trace& trace) {
+  constexpr std::size_t kRows = 4 * kChunkRows;
+  for (std::size_t row = 0; row < trace.rows(); row += kRows) {
+    const std::array<hsize_t, 2> start{row, 0};
+    const std::array<hsize_t, 2> count{std::min<std::size_t>(kRows, trace.rows() - row), trace.columns.size()};
+    checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), "selecting rows");
+    const Handle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose, "shape of the rows");
+    checked(H5Dread(data, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, &trace.values[row * trace.columns.size()]),
+            "reading the values");
+    release(trace.values);
+  }
+}
+
 Trace read_dataset(hid_t owner, const char* name, const std::string& bytes) {
   check_link(owner, name);
   const Handle data(H5Dopen2(owner, name, H5P_DEFAULT), H5Dclose, name);
@@ -292,19 +331,21 @@ Trace read_dataset(hid_t owner, const char* name, const std::string& bytes) {
   Trace trace;
   trace.columns = read_columns(data, columns, bytes);
   trace.values.resize(rows * columns);
-  if (!trace.values.empty())
-    checked(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, trace.values.data()), "reading the values");
+  if (!trace.values.empty()) read_rows(data, space, trace);
   return trace;
 }
 
 }  // namespace
 
-std::string to_image(const Trace& trace, const Provenance& origin, std::span<const Beside> beside) {
+Image to_image(const Trace& trace, const Provenance& origin, std::span<const BesideOf> beside) {
   const Library library;
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file creation");
   checked(H5Pset_userblock(creation, kUserBlock), "user block");
   plain(creation);
   const Handle access = file_access();
+  Image image;
+  H5FD_file_image_callbacks_t memory = memory_of(image);
+  checked(H5Pset_file_image_callbacks(access, &memory), "memory of the file");
   Handle file(H5Fcreate(kNowhere, H5F_ACC_TRUNC, creation, access), H5Fclose, "file");
   write_text(file, "format", std::string(std::end(kTraceFormats)[-1]));
   write_text(file, "scenario", origin.scenario);
@@ -314,16 +355,18 @@ std::string to_image(const Trace& trace, const Provenance& origin, std::span<con
   write_text(file, "build", origin.build);
   write_number(file, "rows", static_cast<std::int64_t>(trace.rows()));
   write_text(file, "checksum", hash(trace));
-  write_dataset(file, "trace", trace);
+  write_dataset(file, "trace", trace, image);
   if (!beside.empty()) {
     const Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "group");
     plain(properties);
     const Handle group(H5Gcreate2(file, "recording", H5P_DEFAULT, properties, H5P_DEFAULT), H5Gclose, "group");
-    for (const Beside& one : beside) write_dataset(group, one.name.c_str(), one.table);
+    for (const BesideOf& one : beside) write_dataset(group, one.name, *one.table, image);
   }
-  std::string bytes = image(file);
+  checked(H5Fflush(file, H5F_SCOPE_GLOBAL), "flush");
+  const ssize_t size = checked(H5Fget_file_image(file, nullptr, 0), "size of the file");
   file.close("closing the file");
-  return bytes;
+  image.resize(static_cast<std::size_t>(size));  // it grew by kGrowth at a time
+  return image;
 }
 
 StoredTrace from_image(const std::string& file_bytes) {

@@ -20,7 +20,7 @@ class ImageError : public std::runtime_error {
 };
 
 /// The bytes after the user block. One thread at a time uses HDF5; others wait. Throws ImageError.
-std::string to_image(const Trace& trace, const Provenance& origin, std::span<const Beside> beside);
+SpilledVector<char> to_image(const Trace& trace, const Provenance& origin, std::span<const BesideOf> beside);
 
 /// Trace from a whole file, user block included. Throws ImageError; the bytes must be those of to_image.
 StoredTrace from_image(const std::string& file);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace gaitlab {
 
@@ -75,6 +76,38 @@ RobotState Recording::state(const Robot& robot, std::size_t row) const {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) s.q.push_back(at(joint(j, "angle"), row));
   s.qd.assign(robot.joints.size(), 0.0);
   return s;
+}
+
+void AllRows::swap(Recording& r) {
+  std::swap(trace, r.trace);
+  std::swap(rest, r.rest);
+}
+
+namespace {
+
+Trace every(std::size_t stride, const Trace& all) {
+  Trace some;
+  some.columns = all.columns;
+  const std::size_t rows = all.rows();
+  some.values.reserve((rows / stride + 2) * all.columns.size());
+  for (std::size_t row = 0; row < rows; row = row + stride < rows || row + 1 == rows ? row + stride : rows - 1) {
+    const std::span<const double> values = all.row(row);
+    some.values.insert(some.values.end(), values.begin(), values.end());
+    if (row / stride % 1024 == 0) release(all.values);
+  }
+  return some;
+}
+
+}  // namespace
+
+std::optional<AllRows> thin_rows(Recording& r, std::size_t most) {
+  const std::size_t bytes = (r.trace.values.size() + r.rest.values.size()) * sizeof(double);
+  const std::size_t stride = (bytes + most - 1) / most;
+  if (stride <= 1) return {};
+  r.hash_of_all = hash(r.trace);
+  AllRows all{every(stride, r.trace), every(stride, r.rest)};
+  all.swap(r);
+  return all;
 }
 
 std::vector<Column> tick_columns(std::size_t joints) {

@@ -2,6 +2,7 @@
 // has just ended and for one in a folder.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,9 +54,10 @@ enum TickColumn : std::size_t {
 
 /// Recording of one rollout.
 struct Recording {
-  /// Rows at every trace tick, and at the end. trace: the columns that `trace.columns` names; rest: the other ones of
-  /// report_columns().
+  /// Rows at every trace tick, and at the end, or some of them (thin_rows). trace: the columns that `trace.columns` names;
+  /// rest: the other ones of report_columns().
   Trace trace, rest;
+  std::string hash_of_all;  ///< hash() of all rows of `trace`; empty: these are all
   /// At control ticks at least 2 ms apart (above 20 000 rows: every second of them, and so on), and at the end: for each joint
   /// the largest |torque| (and whether the motor was at a limit then), |set point - angle|, |speed|, |voltage|, |current| and
   /// share of the available torque since the row before, and from t = 0 the integrals of torque^2 and current^2 and the time at
@@ -82,6 +84,7 @@ struct Recording {
   Outcome outcome;
 
   [[nodiscard]] std::size_t rows() const { return trace.rows(); }
+  [[nodiscard]] std::string trace_hash() const { return hash_of_all.empty() ? hash(trace) : hash_of_all; }
   /// A column of `trace` or `rest` by name; empty if neither has it.
   [[nodiscard]] Series series(const std::string& column) const;
   /// `joint.N.QUANTITY`: angle, setpoint, torque.
@@ -103,6 +106,18 @@ struct Recording {
   /// Angles and pose at the time of a row; speeds 0.
   [[nodiscard]] RobotState state(const Robot& robot, std::size_t row) const;
 };
+
+/// All rows of a recording that keeps only some of them.
+struct AllRows {
+  Trace trace, rest;
+  /// Exchanges these rows with those of the recording.
+  void swap(Recording& r);
+};
+
+/// Reduces the rows of a recording to every k-th and the last, with the least k for which trace and rest have at most `most`
+/// bytes. Returns all rows, or nothing if k is 1. Travel, figures and pages use such rows; peaks and checks use `ticks`,
+/// `poses` and `loads`, which stay.
+std::optional<AllRows> thin_rows(Recording& r, std::size_t most = kMostInMemory);
 
 /// Columns of Recording::ticks for `joints` joints, and of Recording::poses; older folders have only the first of the latter.
 std::vector<Column> tick_columns(std::size_t joints);

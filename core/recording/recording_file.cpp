@@ -78,22 +78,32 @@ void each_number_of(OfRecording& r, std::size_t j, Visit visit) {
   visit("torque_error_peak", "N m", "largest motor torque where that error is asked for", r.tally.torque_peak[j]);
 }
 
-std::vector<Beside> tables(const Recording& r) {
-  Trace run;
+/// The numbers of the run and of its joints as tables.
+struct NumberTables {
+  Trace run, joints;
+};
+
+NumberTables number_tables(const Recording& r) {
+  NumberTables made;
+  auto& [run, joints] = made;
   each_number(r, [&](const std::string& name, const char* unit, const std::string& definition, const auto& number) {
     run.columns.push_back({name, unit, definition});
     run.values.push_back(static_cast<double>(number));
   });
-  Trace joints;
   for (std::size_t j = 0; j < r.joints.size(); ++j) {
     each_number_of(r, j, [&](const char* name, const char* unit, const char* definition, double number) {
       if (j == 0) joints.columns.push_back({name, unit, definition});
       joints.values.push_back(number);
     });
   }
-  std::vector<Beside> all{{"rest", r.rest},   {"ticks", r.ticks}, {"loads", r.loads},
-                          {"poses", r.poses}, {"joints", joints}, {"run", run}};
-  if (r.spread.rows() > 0) all.push_back({"spread", r.spread});
+  return made;
+}
+
+/// Tables beside the trace; `numbers` are those of the same recording, and outlive the result.
+std::vector<BesideOf> tables(const Recording& r, const NumberTables& numbers) {
+  std::vector<BesideOf> all{{"rest", &r.rest},   {"ticks", &r.ticks},         {"loads", &r.loads},
+                            {"poses", &r.poses}, {"joints", &numbers.joints}, {"run", &numbers.run}};
+  if (r.spread.rows() > 0) all.push_back({"spread", &r.spread});
   return all;
 }
 
@@ -130,7 +140,7 @@ void take_numbers(const fs::path& file, const Trace& joints, const Trace& run, R
   });
 }
 
-/// Moves tables made by tables() back into the recording.
+/// Moves tables of tables() back into the recording.
 void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r) {
   const auto find = [&](const char* name) { return std::ranges::find(beside, name, &Beside::name); };
   const auto take = [&](const char* name) -> Trace {
@@ -165,7 +175,7 @@ constexpr std::size_t kKept = std::size_t{1} << 24;  // bytes
 /// Writes recording.h5, with the data that trace.csv lacks.
 void write_beside(const Recording& r, Provenance origin, const fs::path& folder) {
   origin.csv_hash = hash(r.trace);
-  write_h5({}, origin, folder / kBesideCsv, tables(r));
+  write_h5({}, origin, folder / kBesideCsv, tables(r, number_tables(r)));
 }
 
 /// Runs a write that may run out of memory, with the message for that case.
@@ -194,7 +204,7 @@ void write_recording(const Recording& r, const Provenance& origin, const std::st
     std::string
         kept;  // HDF5 does not free the memory of an unfinished file: this reserve is for the text and the following code
     kept.reserve(kKept);
-    write_h5(r.trace, origin, file, tables(r));
+    write_h5(r.trace, origin, file, tables(r, number_tables(r)));
   });
   if (!why) return;
   if (short_of_memory(rows, [&] { write_csv(r.trace, rows); })) throw RunError(*why);
@@ -253,9 +263,10 @@ StoredRecording read_recording(const fs::path& folder) {
     if (done != read.recording.outcome.done())
       throw unfit(csv ? beside : file, fmt::format("outcome is {}, but {} is {}", read.origin.outcome, kEnded,
                                                    name_of(read.recording.outcome.ended)));
-    return read;
+  } else {
+    take_rows_alone(file, read);
   }
-  take_rows_alone(file, read);
+  (void)thin_rows(read.recording);
   return read;
 }
 

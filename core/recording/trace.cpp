@@ -15,22 +15,21 @@ std::string joined_names(const Trace& trace) {
   return names;
 }
 
-std::string_view bytes_of(const Trace& trace) {
-  return {reinterpret_cast<const char*>(trace.values.data()), trace.values.size() * sizeof(double)};
-}
-
 }  // namespace
 
 std::string hash(const Trace& trace) {
   WordHash words;
   words.add(joined_names(trace));
-  words.add(bytes_of(trace));
+  words.add_length(trace.values.size() * sizeof(double));
+  each_part(trace.values, [&](std::string_view bytes) { words.add_words(bytes); });
   return std::string(kWords) + words.text();
 }
 
 bool is_hash(std::string_view text, const Trace& trace) {
   if (text.starts_with(kWords)) return text == hash(trace);
-  return text == fmt::format("{:016x}", fnv1a(bytes_of(trace), fnv1a(joined_names(trace))));
+  std::uint64_t state = fnv1a(joined_names(trace));
+  each_part(trace.values, [&](std::string_view bytes) { state = fnv1a(bytes, state); });
+  return text == fmt::format("{:016x}", state);
 }
 
 }  // namespace gaitlab

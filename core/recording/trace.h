@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/files/hash.h"
+#include "core/files/spill.h"
 #include "core/recording/column_list.h"
 
 namespace gaitlab {
@@ -14,7 +15,7 @@ namespace gaitlab {
 /// Row-major table; the first column is `t`.
 struct Trace {
   ColumnList columns;
-  std::vector<double> values;  ///< rows() * columns.size()
+  SpilledVector<double> values;  ///< rows() * columns.size()
 
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
   [[nodiscard]] double at(std::size_t row, std::size_t column) const { return values[row * columns.size() + column]; }

@@ -2,24 +2,23 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <new>
 #include <string>
+#include <system_error>
 
 namespace gaitlab {
 
 namespace {
 
-constexpr double kTickRows = 2e-3;  // s, between rows of Recording::ticks at least
+constexpr std::size_t kReleasedRows = 4096;  // at a time: some 20 MB of a walking robot with all columns
+constexpr double kTickRows = 2e-3;           // s, between rows of Recording::ticks at least
 
-/// Text of an amount of memory and its owner.
-std::string memory_text(double bytes, const char* whose) { return fmt::format("{} {:.3g} GB of memory", whose, bytes / 1e9); }
-
-/// Error of rows, which are kept until the end of the run, that exceed the memory.
+/// Error of rows, which are kept until the end of the run, that exceed the memory or the disk.
 InputError too_many_rows(const Scenario& s, const RowsNeeded& needed, const std::string& there_is) {
   return {s.place("duration"),
           fmt::format("the run would record {:.3g} rows of {:.0f} columns, {:.3g} GB, and {}: take a longer trace.period than "
@@ -27,19 +26,25 @@ InputError too_many_rows(const Scenario& s, const RowsNeeded& needed, const std:
                       needed.rows, needed.columns, needed.bytes() / 1e9, there_is, s.trace.period)};
 }
 
-/// InputError of a machine, a container (cgroup 2) or a process (ulimit -v) that has not so much.
-void check_memory(const Scenario& s, const RowsNeeded& needed) {
+/// InputError if the disk, the container (cgroup 2) or the process (ulimit -v) offers less.
+void check_space(const Scenario& s, const RowsNeeded& needed) {
   constexpr double kLittle = 1e8;  // bytes: always available, and the query takes longer than a short rollout
   if (needed.bytes() < kLittle) return;
-  const auto check = [&](double bytes, const char* whose) {
-    if (bytes > 0 && needed.bytes() > bytes) throw too_many_rows(s, needed, memory_text(bytes, whose));
+  const auto check = [&](double bytes, const std::string& whose, const char* of) {
+    if (bytes > 0 && needed.bytes() > bytes)
+      throw too_many_rows(s, needed, fmt::format("{} {:.3g} GB of {}", whose, bytes / 1e9, of));
   };
-  check(static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)), "this machine has");
-  double container = 0;
-  if (std::ifstream("/sys/fs/cgroup/memory.max") >> container) check(container, "this container has");
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-    check(static_cast<double>(limit.rlim_cur), "ulimit -v allows");
+    check(static_cast<double>(limit.rlim_cur), "ulimit -v allows", "memory");
+  if (needed.bytes() > static_cast<double>(kMostInMemory)) {
+    std::error_code error;
+    const std::filesystem::space_info disk = std::filesystem::space(spill_folder(), error);
+    if (!error) check(static_cast<double>(disk.available), spill_folder().string() + " (TMPDIR) has", "free disk");
+    return;
+  }
+  double container = 0;
+  if (std::ifstream("/sys/fs/cgroup/memory.max") >> container) check(container, "this container has", "memory");
 }
 
 }  // namespace
@@ -57,7 +62,7 @@ Recorder::Recorder(const Scenario& scenario, const std::vector<ContactElement>& 
   recording.ticks.columns = tick_columns(joints);
   recording.poses.columns = pose_columns(joints);
   ticks_per_row_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kTickRows / scenario.control_period - 1e-9)));
-  check_memory(scenario, rows_needed());
+  check_space(scenario, rows_needed());
   if (wanted.loads != Loads::left_out) {
     loads_ = std::make_unique<LoadMeter>(scenario, contacts, wanted.loads);
     recording.loads.columns = loads_->columns();
@@ -88,6 +93,13 @@ void Recorder::add_row() {
   Recording& r = recording;
   for (Trace* table : {&r.trace, &r.rest}) table->values.resize(table->values.size() + table->columns.size());
   probes_->fill(Out(r.trace.values).last(r.trace.columns.size()), Out(r.rest.values).last(r.rest.columns.size()));
+  if (++unreleased_ == kReleasedRows) release_rows();
+}
+
+void Recorder::release_rows() {
+  release(recording.trace.values);
+  release(recording.rest.values);
+  unreleased_ = 0;
 }
 
 std::optional<Out> Recorder::add_tick(double t, bool last) {
@@ -109,7 +121,7 @@ std::optional<Out> Recorder::add_tick(double t, bool last) {
 }
 
 void Recorder::add_pose(double t, const Sample& s) {
-  std::vector<double>& values = recording.poses.values;
+  SpilledVector<double>& values = recording.poses.values;
   const Vec3& p = s.state.position;
   const Quat& q = s.state.orientation;
   for (const double value : {t, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}) values.push_back(value);

@@ -53,12 +53,14 @@ class Recorder {
 
  private:
   void reserve_rows(const Scenario& scenario);
+  void release_rows();
 
   const Scenario& scenario_;
   std::unique_ptr<Probes> probes_;    ///< nullptr: no rows
   std::unique_ptr<LoadMeter> loads_;  ///< nullptr: not wanted
   std::int64_t ticks_per_row_ = 1;    ///< control ticks per row of Recording::ticks
   bool loads_due_ = false;
+  std::size_t unreleased_ = 0;  ///< rows since release_rows() let their pages leave memory
 };
 
 }  // namespace gaitlab

@@ -135,7 +135,7 @@ std::vector<SummaryNumber> motion_numbers() {
       {.key = "trace_hash",
        .definition = "Hash of the names and the bytes of all columns, after the number of its format.",
        .words = true,
-       .value = [](R r) { return hash(r.record.trace); },
+       .value = [](R r) { return r.record.trace_hash(); },
        .compare = {250}},
   };
 }

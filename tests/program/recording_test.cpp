@@ -7,6 +7,7 @@
 #include "core/recording/run_files.h"
 #include "core/scenario/resolved.h"
 #include "core/simulation/probes.h"
+#include "tests/core/recording/tables.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -207,7 +208,7 @@ TEST(Recordings, ThatDoNotFitTogetherAreRefused) {
   const StoredTrace good = read_h5(folder / "trace.h5");
   EXPECT_TRUE(read_recording(folder.path()).missing.empty());
   const auto complaint = [&](const std::vector<Beside>& beside) -> std::string {
-    write_h5(good.trace, good.origin, folder / "trace.h5", beside);
+    write_h5(good.trace, good.origin, folder / "trace.h5", tables_of(beside));
     try {
       read_recording(folder.path());
     } catch (const InputError& error) {

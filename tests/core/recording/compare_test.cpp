@@ -40,7 +40,7 @@ ColumnDifference difference(const Signal& a, const Signal& b, double duration = 
   return found.columns.front();
 }
 
-Trace table(const std::vector<std::string>& names, std::vector<double> values) {
+Trace table(const std::vector<std::string>& names, SpilledVector<double> values) {
   Trace trace;
   for (const std::string& name : names) trace.columns.push_back({name, {}, {}});
   trace.values = std::move(values);

@@ -194,8 +194,9 @@ TEST_F(H5, OtherVersion) {
 }
 
 TEST_F(H5, KeepsTablesBesideTheTrace) {
-  Trace table{{{"x", "m", ""}}, {1, 2, 3, 4, 5}};
-  write_h5(sample(3), kOrigin, file_, std::vector<Beside>{{"ticks", table}, {"run", {}}});
+  const Trace table{{{"x", "m", ""}}, {1, 2, 3, 4, 5}};
+  const Trace none;
+  write_h5(sample(3), kOrigin, file_, std::vector<BesideOf>{{"ticks", &table}, {"run", &none}});
   const StoredTrace stored = read_h5(file_);
   expect_same(stored.trace, sample(3));
   EXPECT_EQ(stored.origin.outcome, "done");

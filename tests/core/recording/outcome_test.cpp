@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "core/recording/recording_file.h"
+#include "tests/core/recording/tables.h"
 #include "tests/folder.h"
 
 namespace gaitlab {
@@ -37,7 +38,7 @@ class StoredOutcomes : public testing::Test {
     std::vector<Beside> beside = stored.beside;
     Trace& run = std::ranges::find(beside, "run", &Beside::name)->table;
     run.values[run.find("ended")] = ended;
-    write_h5(stored.trace, stored.origin, own_.path() / "trace.h5", beside);
+    write_h5(stored.trace, stored.origin, own_.path() / "trace.h5", tables_of(beside));
     return read();
   }
 
@@ -67,7 +68,7 @@ TEST_F(StoredOutcomes, OfOlderFoldersAreDoneOrEarly) {
     const auto at = static_cast<std::ptrdiff_t>(run.find("ended"));
     run.columns.change([&](auto& columns) { columns.erase(columns.begin() + at); });
     run.values.erase(run.values.begin() + at);
-    write_h5(stored.trace, stored.origin, own_.path() / "trace.h5", beside);
+    write_h5(stored.trace, stored.origin, own_.path() / "trace.h5", tables_of(beside));
     EXPECT_EQ(read().ended, outcome.done() ? Ended::done : Ended::early);
     EXPECT_EQ(read().text(), outcome.text());
   }

@@ -5,6 +5,7 @@
 
 #include "core/errors.h"
 #include "core/recording/recording_file.h"
+#include "tests/core/recording/tables.h"
 #include "tests/folder.h"
 
 namespace gaitlab {
@@ -62,7 +63,7 @@ TEST_F(StoredPartings, AreNoneInOlderFolders) {
     run.columns.change([&](auto& columns) { columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(k)); });
     run.values.erase(run.values.begin() + static_cast<std::ptrdiff_t>(k));
   }
-  write_h5(stored.trace, stored.origin, own.path() / "trace.h5", beside);
+  write_h5(stored.trace, stored.origin, own.path() / "trace.h5", tables_of(beside));
   const Recording there = read_recording(own.path()).recording;
   EXPECT_LT(there.tally.event.time, 0);
   EXPECT_EQ(there.tally.ill.share, 0);

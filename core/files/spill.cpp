@@ -1,0 +1,52 @@
+#include "core/files/spill.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <string>
+
+namespace gaitlab {
+
+namespace {
+
+/// Descriptor of a new file without a name, or -1.
+int unnamed_file(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (descriptor >= 0) return descriptor;
+  std::string name = (folder / "gaitlab-XXXXXX").string();  // a file system without O_TMPFILE
+  const int named = ::mkostemp(name.data(), O_CLOEXEC);
+  if (named >= 0) ::unlink(name.c_str());
+  return named;
+}
+
+}  // namespace
+
+std::filesystem::path spill_folder() {
+  const char* const chosen = std::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): nothing sets variables
+  return chosen != nullptr && *chosen != '\0' ? chosen : "/var/tmp";
+}
+
+void* map_spilled(std::size_t bytes) {
+  if (bytes > std::numeric_limits<std::size_t>::max() / 2) throw std::bad_alloc();
+  const int descriptor = unnamed_file(spill_folder());
+  if (descriptor < 0) throw std::bad_alloc();
+  // Reserved, since a full disk would be a signal (SIGBUS) at the first access to a page.
+  void* mapped = MAP_FAILED;
+  if (::posix_fallocate(descriptor, 0, static_cast<off_t>(bytes)) == 0)
+    mapped = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+  ::close(descriptor);
+  if (mapped == MAP_FAILED) throw std::bad_alloc();
+  return mapped;
+}
+
+void unmap_spilled(void* from, std::size_t bytes) noexcept { ::munmap(from, bytes); }
+
+void release_spilled(const void* from, std::size_t bytes) noexcept {
+  ::madvise(const_cast<void*>(from), bytes, MADV_DONTNEED);  // of a shared file: its content stays
+}
+
+}  // namespace gaitlab

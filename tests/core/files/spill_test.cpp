@@ -1,0 +1,92 @@
+#include "core/files/spill.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <new>
+#include <optional>
+#include <string>
+
+#include "core/files/hash.h"
+#include "tests/folder.h"
+
+namespace gaitlab {
+namespace {
+
+constexpr std::size_t kMany = kMostInMemory / sizeof(std::uint64_t) + 12'345;
+
+/// Sets TMPDIR, and puts the former value back.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const std::string& folder) {
+    if (const char* const now = std::getenv("TMPDIR")) before_ = now;
+    ::setenv("TMPDIR", folder.c_str(), 1);
+  }
+  ~TemporaryFolder() { before_ ? ::setenv("TMPDIR", before_->c_str(), 1) : ::unsetenv("TMPDIR"); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+ private:
+  std::optional<std::string> before_;
+};
+
+/// Resident memory of this process in pages.
+long resident_pages() {
+  long all = 0;
+  long resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return resident;
+}
+
+TEST(Spill, KeepsItsContentWhilePagesLeaveMemory) {
+  SpilledVector<std::uint64_t> numbers;
+  numbers.reserve(kMany);
+  for (std::size_t k = 0; k < kMany; ++k) numbers.push_back(k * k);
+  const long full = resident_pages();
+  release(numbers);
+  // 200 MB are 50 000 pages of 4 kB; other threads of the process change a few hundred.
+  EXPECT_LT(resident_pages(), full - 40'000);
+  for (std::size_t k = 0; k < kMany; ++k) ASSERT_EQ(numbers[k], k * k);
+}
+
+TEST(Spill, GrowsFromMemoryIntoAFile) {
+  SpilledVector<std::uint64_t> numbers(kMany / 2, 7);
+  EXPECT_FALSE(Spilled<std::uint64_t>::in_file(numbers.capacity()));
+  release(numbers);  // of memory, whose content would be lost
+  numbers.resize(kMany, 9);
+  EXPECT_TRUE(Spilled<std::uint64_t>::in_file(numbers.capacity()));
+  EXPECT_EQ(numbers[kMany / 2 - 1], 7U);
+  EXPECT_EQ(numbers[kMany - 1], 9U);
+}
+
+TEST(Spill, LeavesNoFile) {
+  const test::Folder folder;
+  const TemporaryFolder here(folder.path().string());
+  const SpilledVector<char> bytes(kMostInMemory + 1);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Spill, WithoutAFolderIsShortOfMemory) {
+  const TemporaryFolder nowhere("/nowhere");
+  EXPECT_THROW(SpilledVector<char>(kMostInMemory + 1), std::bad_alloc);
+  EXPECT_NO_THROW(SpilledVector<char>(1000));
+}
+
+TEST(Spill, HasPartsThatAddUpToTheWhole) {
+  SpilledVector<char> bytes((std::size_t{1} << 26) + 1001);
+  for (std::size_t k = 0; k < bytes.size(); k += 977) bytes[k] = static_cast<char>(k);
+  WordHash parts;
+  parts.add_length(bytes.size());
+  std::size_t count = 0;
+  each_part(bytes, [&](std::string_view part) {
+    parts.add_words(part);
+    ++count;
+  });
+  EXPECT_EQ(count, 2U);
+  EXPECT_EQ(parts.text(), hash_words({bytes.data(), bytes.size()}));
+}
+
+}  // namespace
+}  // namespace gaitlab

@@ -1,0 +1,53 @@
+// Rows of long runs, of which figures and pages get a part.
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "core/recording/recording.h"
+
+namespace gaitlab {
+namespace {
+
+/// Rows of t, t^2 (trace) and -t (rest): 24 bytes each.
+Recording of_rows(std::size_t rows) {
+  Recording r;
+  r.trace.columns = {{"t", "s", ""}, {"square", "", ""}};
+  r.rest.columns = {{"minus", "", ""}};
+  for (std::size_t k = 0; k < rows; ++k) {
+    const auto t = static_cast<double>(k);
+    r.trace.values.insert(r.trace.values.end(), {t, t * t});
+    r.rest.values.push_back(-t);
+  }
+  return r;
+}
+
+std::vector<double> times(const Recording& r) { return r.series("t").values(); }
+
+TEST(ThinRows, KeepsRowsThatAreFew) {
+  Recording r = of_rows(10);
+  EXPECT_FALSE(thin_rows(r, 240).has_value());
+  EXPECT_EQ(r.rows(), 10U);
+  EXPECT_TRUE(r.hash_of_all.empty());
+}
+
+TEST(ThinRows, KeepsEveryKthAndTheLast) {
+  // 240 bytes into 239: every second row; into 100: every third.
+  for (const auto& [most, kept] : {std::pair<std::size_t, std::vector<double>>{239, {0, 2, 4, 6, 8, 9}}, {100, {0, 3, 6, 9}}}) {
+    Recording r = of_rows(10);
+    const std::string hash_before = r.trace_hash();
+    std::optional<AllRows> all = thin_rows(r, most);
+    ASSERT_TRUE(all.has_value());
+    EXPECT_EQ(times(r), kept);
+    for (std::size_t k = 0; k < r.rows(); ++k) {
+      EXPECT_EQ(r.trace.at(k, 1), kept[k] * kept[k]);
+      EXPECT_EQ(r.rest.at(k, 0), -kept[k]);
+    }
+    EXPECT_EQ(r.trace_hash(), hash_before);
+    all->swap(r);
+    EXPECT_EQ(r.rows(), 10U);
+    EXPECT_EQ(hash(r.trace), hash_before);
+  }
+}
+
+}  // namespace
+}  // namespace gaitlab
