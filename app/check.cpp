@@ -81,9 +81,10 @@ int check(const CheckArguments& arguments) {
   const Scenario s = read(arguments, catalog);
   warn_of_start(s, arguments.quiet);
   constexpr std::size_t kManyBoxes = 1000;
-  if (const std::size_t boxes = s.ground.boxes().size(); boxes > kManyBoxes && !arguments.quiet)
+  if (const std::size_t boxes = s.ground.boxes().size(); boxes > kManyBoxes && !arguments.quiet) {
     say(arguments.file, "note",
         fmt::format("takes a step among {} boxes, which lasts seconds where many lie in one place", boxes));
+  }
   const RunTime time = measure(s);
   const auto simulation = made(s, time);
   const Robot& robot = *s.robot;

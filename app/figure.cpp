@@ -84,10 +84,11 @@ std::vector<report::PaperRun> read_runs(const report::Recipe& recipe, const std:
   const std::vector<Named> folders = folders_of(recipe, given);
   Problems problems;
   for (const Named& run : folders) {
-    if (kind_of(run.text) == fs::file_type::not_found)
+    if (kind_of(run.text) == fs::file_type::not_found) {
       problems.add(recipe.place({"runs", run.name}),
                    fmt::format("run {}: {} does not exist; simulate it first, or name its folder with --run {}=FOLDER",
                                in_quotes(run.name), run.text, run.name));
+    }
   }
   problems.raise();
   std::vector<report::PaperRun> runs;

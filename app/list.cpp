@@ -129,10 +129,11 @@ int explain(const ManualArguments& arguments) {
     known.insert(known.end(), {"study", "verdict"});
     unknown("kind", kind, known);
   }
-  if (name.empty())
+  if (name.empty()) {
     throw InputError(SourceLocation{"gaitlab explain"},
                      "NAME is missing: name as `gaitlab list` prints it; of a module also its file, NAME.yaml; expected "
                      "gaitlab explain [KIND] [NAME]");
+  }
   if (kind == "module") return explain_module(name, catalog);
   const std::vector<std::string> all = names(kind, catalog);
   if (std::find(all.begin(), all.end(), name) == all.end()) {

@@ -105,10 +105,11 @@ class Others {
       const std::vector<std::string> other = lines(text_of(message->bytes));
       constexpr std::array<const char*, 3> kWhat{"another study", "another scenario", "another build of the program"};
       for (std::size_t k = 1; k < own.size(); ++k) {
-        if (other[k] != own[k])
+        if (other[k] != own[k]) {
           throw InputError(SourceLocation{"gaitlab-mpi"}, "rank " + std::to_string(message->rank) + " on " + other[0] +
                                                               " has " + kWhat[k - 1] + " than rank 0 on " + own[0] +
                                                               "; expected the same files and the same program everywhere");
+        }
       }
     }
   }

@@ -287,12 +287,14 @@ std::vector<std::vector<Swapped>> read_matrix(const SwapArguments& arguments, Ca
       all.push_back(read_all(one, catalog));
       const std::string& name = all.back().front().scenario->name;
       const auto same = std::ranges::find(names, name, &std::pair<std::string, std::string>::first);
-      if (same != names.end())
+      if (same != names.end()) {
         problems.push_back({SourceLocation{file},
                             fmt::format("its name, {}, is that of {}, too; expected a name: of its own", name, same->second)});
-      if (name == "swap.csv" || name == "swap.json")
+      }
+      if (name == "swap.csv" || name == "swap.json") {
         problems.push_back(
             {SourceLocation{file}, "its name, " + name + ", is that of a file of the swap; expected another name:"});
+      }
       names.emplace_back(name, file);
     } catch (const InputError& error) {
       for (const Problem& problem : error.problems()) {

@@ -74,9 +74,10 @@ std::string report(const std::vector<Problem>& problems) {
     text += line(problems[i].place, "error", problems[i].text);
     for (const auto& [place, note] : problems[i].notes) text += "\n" + line(place, "note", note);
   }
-  if (problems.size() > kMostProblems)
+  if (problems.size() > kMostProblems) {
     text += "\n" + one_line(problems.front().place.file) + ": error: " + std::to_string(problems.size() - kMostProblems) +
             " more errors";
+  }
   return text;
 }
 

@@ -18,9 +18,10 @@ std::optional<std::string> Lines::next(const std::atomic<bool>& stop) {
   if (stop || (end == std::string::npos && at_ == text_.size())) return {};
   ++number_;
   const std::size_t size = std::min(end, text_.size()) - at_;
-  if (size > kLongest)
+  if (size > kLongest) {
     throw InputError(SourceLocation{"stdin", number_, 1},
                      fmt::format("is longer than {} bytes; expected a question", kLongest));
+  }
   std::string line = text_.substr(at_, size);
   at_ = std::min(at_ + size + 1, text_.size());
   return line;

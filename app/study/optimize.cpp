@@ -31,10 +31,11 @@ struct OptimizeArguments : StudyRunArguments {
 };
 
 Study searched_study(const OptimizeArguments& a) {
-  if (!studies::is_study(a.file))
+  if (!studies::is_study(a.file)) {
     throw InputError(SourceLocation{a.file},
                      "is not the file of a study; expected one with gaitlab_study: 1 (gaitlab explain "
                      "study)");
+  }
   Study study = studies::read_study(a.file, studies::Purpose::optimize);
   if (!a.method.empty()) study.method = named<studies::Method>(a.method).value();
   if (a.runs > 0) study.runs = a.runs;

@@ -147,9 +147,10 @@ int merge_study(const StudyArguments& a) {
   const fs::path file = folder / studies::kJournalFile;
   const studies::Shards shards = studies::shards_in(folder);
   std::error_code none;
-  if (shards.count == 0 && !fs::exists(file, none))
+  if (shards.count == 0 && !fs::exists(file, none)) {
     throw InputError(SourceLocation{a.folder},
                      "holds no shards; expected files shards/I-of-N.db, as gaitlab sweep --shard I/N writes them");
+  }
   const studies::Lock lock(folder / "lock");
   std::optional<Journal> all;
   Ranges missing;
@@ -161,14 +162,16 @@ int merge_study(const StudyArguments& a) {
   const std::uint64_t rows = all->rows();
   fmt::print("{}: {} of {} runs\n", file.string(), rows, all->head().runs);
   write_study_files(*all, studies::results(*all), folder);
-  if (missing.count() > 0)
+  if (missing.count() > 0) {
     say(a.folder, "error",
         fmt::format("{} of {} shards are missing or not whole; run them again: --array={}", missing.count(), shards.count,
                     missing.text()));
+  }
   const std::uint64_t lacking = shards.count == 0 && rows < all->head().runs ? all->head().runs - rows : 0;
-  if (lacking > 0)
+  if (lacking > 0) {
     say(a.folder, "error",
         fmt::format("{} of {} runs have not ended; continue with: {}", lacking, all->head().runs, all->head().command));
+  }
   return missing.count() > 0 || lacking > 0 ? 1 : 0;
 }
 
@@ -191,9 +194,10 @@ std::vector<std::string> differences(const std::vector<std::string>& names, cons
     const std::string then = cell(columns.quantities[k]);
     const std::string now = std::isfinite(quantities[k]) ? number_text(quantities[k] + 0.0) : "";
     const bool same = then.empty() ? now.empty() : !now.empty() && studies::number_of(then) == quantities[k];
-    if (!same)
+    if (!same) {
       found.push_back(
           fmt::format("{}: then {}, now {}", columns.quantities[k], then.empty() ? "none" : then, now.empty() ? "none" : now));
+    }
   }
   return found;
 }
@@ -232,9 +236,10 @@ std::vector<std::string> settings_of_row(const Journal& journal, const std::vect
   studies::read_followers(parameters, head.definition);
   Problems problems;
   const studies::Followers followers(parameters, problems);
-  if (!problems.empty())
+  if (!problems.empty()) {
     throw InputError(SourceLocation{studies::kJournalFile},
                      "is not a journal that this program wrote: " + problems.list().front().text);
+  }
   std::vector<std::string> sets;
   for (const auto& [key, value] : followers.settings(values)) sets.push_back(key + "=" + value);
   sets.insert(sets.end(), drawn.begin(), drawn.end());
@@ -246,9 +251,10 @@ int rerun_study(const StudyArguments& a) {
   Journal journal = opened(a.folder);
   const studies::JournalHead& head = journal.head();
   const std::vector<std::string> row = journal.row(static_cast<std::uint64_t>(a.run));
-  if (row.empty())
+  if (row.empty()) {
     throw InputError(SourceLocation{"RUN"},
                      fmt::format("{} is not in the journal; it has {} of {} runs", a.run, journal.rows(), head.runs));
+  }
   const std::vector<std::string> names = journal.columns().all();
   Catalog catalog = careful_catalog(a.plugins);
   const std::vector<std::string> sets = settings_of_row(journal, names, row);

@@ -219,9 +219,10 @@ std::vector<std::string> write_study_files(Journal& journal, const Results& resu
   if (results.points.empty()) return files;
   const std::vector<std::size_t> parameters = chosen_parameters(head);
   std::vector<std::size_t> figures;
-  for (const std::string& name : head.shown)
+  for (const std::string& name : head.shown) {
     figures.push_back(
         static_cast<std::size_t>(std::ranges::find(head.quantities, name, &studies::Quantity::name) - head.quantities.begin()));
+  }
   const Values values = values_of(journal, parameters, figures);
   const Drawn drawn{
       head, results, values, parameters, rows_of(results, values), study_note(head, results.runs), best_of(journal, results)};

@@ -59,21 +59,23 @@ void keep_runs(studies::Plan& plan, studies::Journal& journal, const std::filesy
   const std::uint64_t wanted = plan.most_runs();
   if (there <= wanted || !plan.raise_budget(there)) return;
   journal.expect(plan.most_runs());
-  if (!quiet)
+  if (!quiet) {
     say(folder.string(), "note",
         fmt::format("has runs up to number {}, beyond the budget of {}; all of them count", there - 1, wanted));
+  }
 }
 
 void refuse_copies(const char* command) {
   if (team()) return;
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
     const char* text = std::getenv(name);
-    if (text != nullptr && std::strtoll(text, nullptr, 10) > 1)
+    if (text != nullptr && std::strtoll(text, nullptr, 10) > 1) {
       throw InputError(
           SourceLocation{command},
           fmt::format("was started {} times side by side ({}); expected once, as gaitlab-mpi under mpirun, or once "
                       "per shard with sweep --shard",
                       clipped(text), name));
+    }
   }
 }
 

@@ -264,13 +264,15 @@ std::string study_summary(Journal& journal, const studies::Results& results, con
   text += sensitivity_text(journal, results);
   constexpr std::size_t kLimits = 4;
   const std::vector<studies::BrokenLimit> limits = studies::broken_limits(journal);
-  for (std::size_t k = 0; k < std::min(kLimits, limits.size()); ++k)
+  for (std::size_t k = 0; k < std::min(kLimits, limits.size()); ++k) {
     text += fmt::format("{}{} ({})", k == 0 ? "what most runs break: " : ", ", limit_text(limits[k].text),
                         counted(limits[k].runs, "run"));
+  }
   if (!limits.empty()) text += "\n";
-  for (const auto& [outcome, one] : results.failures.by_outcome)
+  for (const auto& [outcome, one] : results.failures.by_outcome) {
     text += fmt::format("{} {}, first: run {}{}: {}\n", one.count, clipped(outcome), one.first_run,
                         in_which_scenario(head, one.first_run), one_line(one.message));
+  }
   text += verification_text(journal);
   if (results.runs > 0)
     text += fmt::format("one of them again, with its trace: gaitlab study rerun {} RUN\n", shell_word(folder.string()));

@@ -107,9 +107,10 @@ int sweep_study(const SweepArguments& a) {
   }
   const bool all_failed = standing.wanted > 0 && standing.failed == standing.wanted;
   if (!shard.whole()) {
-    if (!a.quiet)
+    if (!a.quiet) {
       fmt::print("{}: {} runs ended; when all shards have, gaitlab study merge {}\n", file.string(), standing.ended,
                  shell_word(folder.string()));
+    }
     return all_failed ? 1 : 0;
   }
   write_results(journal, folder, a.quiet);

@@ -45,9 +45,10 @@ Study typed_study(const SweepArguments& a, Problems& problems) {
   }
   if (!a.grids.empty() && !a.randoms.empty())
     problems.add(SourceLocation{"--random"}, "has no place beside --grid; expected one of them alone");
-  if (study.parameters.empty() && a.replicates == 0)
+  if (study.parameters.empty() && a.replicates == 0) {
     problems.add(SourceLocation{"gaitlab sweep"},
                  "nothing changes from run to run; expected --grid KEY=A:B:N, --random KEY=A:B or --seeds N");
+  }
   if (!a.randoms.empty()) {
     study.method = a.sobol ? studies::Method::sobol : studies::Method::random;
     study.runs = a.runs;
@@ -76,9 +77,10 @@ Study wanted_study(const SweepArguments& a) {
     refuse_beside_a_study(a, problems);
     problems.raise();
     study = studies::read_study(a.file);
-    if (studies::is_search(study.method))
+    if (studies::is_search(study.method)) {
       throw InputError(SourceLocation{a.file}, fmt::format("its method {} searches; use gaitlab optimize {}",
                                                            name_of(study.method), shell_word(a.file)));
+    }
     if (a.runs > 0 && study.method == studies::Method::grid)
       problems.add(SourceLocation{"--runs"}, "has no place here: a grid has as many runs as there are combinations");
     if (a.runs > 0) study.runs = a.runs;

@@ -18,10 +18,11 @@ bool take_lock(int descriptor, const std::filesystem::path& folder) {
   const int error = errno;
   if (error == EWOULDBLOCK) return false;
   static std::string noted;  // a study locks its folder first, then the file `lock` in it
-  if (std::exchange(noted, folder.string()) != folder.string())
+  if (std::exchange(noted, folder.string()) != folder.string()) {
     say(folder.string(), "note",
         fmt::format("the file system has no locks ({}); let one process at a time write here",
                     std::generic_category().message(error)));
+  }
   return true;
 }
 

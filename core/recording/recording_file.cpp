@@ -260,9 +260,10 @@ StoredRecording read_recording(const fs::path& folder) {
     read.recording.outcome = Outcome::of(read.origin.outcome);
     const bool done = read.recording.outcome.done();
     take_tables(csv ? beside : file, stored.beside, read.recording);
-    if (done != read.recording.outcome.done())
+    if (done != read.recording.outcome.done()) {
       throw unfit(csv ? beside : file, fmt::format("outcome is {}, but {} is {}", read.origin.outcome, kEnded,
                                                    name_of(read.recording.outcome.ended)));
+    }
   } else {
     take_rows_alone(file, read);
   }

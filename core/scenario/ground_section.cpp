@@ -138,9 +138,10 @@ void finish_shape(Heightfield& field, const GroundNodes& section) {
     return;
   }
   for (const char* key : {"scale", "hash"}) {
-    if (const Node* given = map->find(key); given != nullptr && file == nullptr)
+    if (const Node* given = map->find(key); given != nullptr && file == nullptr) {
       problems.add(given->place,
                    fmt::format("{} is that of a file, and the heights are given as values; expected no {}", key, key));
+    }
   }
   const std::size_t before = problems.size();
   SourceLocation grid = values != nullptr ? values->place : file->place;

@@ -151,9 +151,10 @@ bool too_large(const TypeLibrary& library, const std::vector<std::size_t>& type_
                Problems& problems) {
   std::size_t bodies = 0;
   for (const std::size_t type : type_of_module) bodies += library.types[type].bodies.size();
-  if (bodies > kMostBodies)
+  if (bodies > kMostBodies) {
     problems.add(place,
                  fmt::format("the robot has {} bodies; allowed are up to {}, which take 2 GB of memory", bodies, kMostBodies));
+  }
   return bodies > kMostBodies;
 }
 

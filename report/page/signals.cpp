@@ -142,9 +142,10 @@ std::vector<std::string> left_out(const Scenario& scenario, const std::vector<Si
   };
   std::vector<const char*> shown;
   if (!scenario.robot->joints.empty()) shown.push_back("joint.*.speed");
-  if (!scenario.robot->joints.empty() && scenario.actuator.entry != nullptr)
+  if (!scenario.robot->joints.empty() && scenario.actuator.entry != nullptr) {
     shown.insert(shown.end(),
                  {"joint.*.setpoint", "joint.*.torque", "joint.*.voltage", "joint.*.current", "joint.*.saturation"});
+  }
   std::erase_if(shown, has);
   std::vector<std::string> missing;
   if (!shown.empty()) missing.push_back(fmt::format("trace.columns leaves out {}", fmt::join(shown, ", ")));

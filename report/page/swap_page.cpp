@@ -124,9 +124,10 @@ std::string robot_picture(const std::vector<SwapEntry>& entries) {
 std::string verdict_cell(const Verdict& verdict) {
   const bool bad = verdict.word == Word::infeasible || verdict.word == Word::failed;
   std::string why = verdict.word == Word::feasible && !verdict.rests_on.empty() ? "over " + verdict.rests_on : verdict.why();
-  if (verdict.count(CheckStatus::warn) > 0)
+  if (verdict.count(CheckStatus::warn) > 0) {
     why += fmt::format("{}{} warning{}", why.empty() ? "" : "; ", verdict.count(CheckStatus::warn),
                        verdict.count(CheckStatus::warn) == 1 ? "" : "s");
+  }
   const char* const mark = bad ? "fail" : verdict.word == Word::feasible ? "pass" : "open";
   const char* const sign = bad ? "✕" : verdict.word == Word::feasible ? "✓" : "?";
   return fmt::format("<b class=\"{}\">{} {}</b><small>{}</small>", mark, sign, name_of(verdict.word), xml_escaped(why));

@@ -49,9 +49,10 @@ void judge_length(const Recording& r, const Summary& summary, Evidence& made) {
     return;
   }
   made.rests_on = fmt::format("these {:.3g} s; the set points do not repeat", r.simulated);
-  if (r.simulated < kLeastTime * (1 - kRelative))
+  if (r.simulated < kLeastTime * (1 - kRelative)) {
     made.too_short = {fmt::format("{:.3g} s are less than {:g} s; take a longer duration", r.simulated, kLeastTime),
                       "duration"};
+  }
 }
 
 /// unknown: gains the names of unknown numbers.

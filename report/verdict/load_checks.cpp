@@ -59,9 +59,10 @@ struct Window {
 
 /// Reason why the loads of feet and docks are not known; empty: they are.
 std::string unknown(const Scenario& scenario, const Recording& record) {
-  if (const ContactModel& contact = scenario.contact.model(); !contact.element_forces)
+  if (const ContactModel& contact = scenario.contact.model(); !contact.element_forces) {
     return fmt::format("not available with contact.law: {}, which yields impulses that do not all act at contact elements",
                        contact.text);
+  }
   if (record.loads.rows() < 2)
     return "loads were not recorded: `gaitlab run`, `test` and `swap` record them, unless a run ends at once";
   return "";

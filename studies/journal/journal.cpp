@@ -212,9 +212,10 @@ void Journal::each_numbers(const std::vector<std::string>& columns, const std::f
 std::uint64_t Journal::take(Journal& other) {
   if (other.head_.definition != head_.definition || other.head_.scenario != head_.scenario)
     throw InputError(SourceLocation{other.file_.string()}, "is a journal of another study than " + file_.string());
-  if (other.head_.build != head_.build)
+  if (other.head_.build != head_.build) {
     throw InputError(SourceLocation{other.file_.string()},
                      "was written by another build than " + file_.string() + ": " + other.head_.build + ", and " + head_.build);
+  }
   Transaction transaction(database_);
   Statement all = other.database_.prepare("SELECT * FROM run ORDER BY run");
   while (all.step()) insert_->bind_row(all).run();

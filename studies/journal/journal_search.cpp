@@ -30,9 +30,10 @@ void Journal::write(std::span<const Generation> generations) {
 std::vector<Generation> Journal::generations() {
   std::vector<Generation> all;
   Statement rows = database_.prepare("SELECT * FROM search ORDER BY search, generation");
-  while (rows.step())
+  while (rows.step()) {
     all.push_back({count_at(rows, 0), count_at(rows, 1), count_at(rows, 2), count_at(rows, 3), count_at(rows, 4),
                    count_at(rows, 5), count_at(rows, 6), number_at(rows, 7), number_at(rows, 8), number_at(rows, 9)});
+  }
   return all;
 }
 

@@ -126,13 +126,15 @@ Shards shards_in(const fs::path& folder) {
     const std::optional<ShardName> parts = shard_name(name);
     if (!parts) continue;
     const std::optional<Shard> shard = shard_of(*parts);
-    if (!shard)
+    if (!shard) {
       throw InputError(SourceLocation{(folder / "shards" / name).string()},
                        "is not a shard of a study; expected I-of-N.db with I from 0 to N - 1, without zeros in front");
-    if (shards.count != 0 && shard->count != shards.count)
+    }
+    if (shards.count != 0 && shard->count != shards.count) {
       throw InputError(SourceLocation{(folder / "shards").string()},
                        fmt::format("holds shards of {} and of {}; expected shards of one division",
                                    std::min(shard->count, shards.count), std::max(shard->count, shards.count)));
+    }
     shards.count = shard->count;
     shards.indices.push_back(shard->index);
   }

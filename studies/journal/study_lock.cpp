@@ -91,9 +91,10 @@ Lock::Lock(fs::path file) : file_(std::move(file)) {
       taken = take_lock(descriptor_, file_.parent_path());
     }
     const std::string who = holder_in(start_of(descriptor_));
-    if (!taken)
+    if (!taken) {
       throw refuse((who.empty() ? "another process" : who) +
                    " is writing this study; wait for it, or see its results so far with `gaitlab study show`");
+    }
     if (!is_lock(descriptor_)) throw refuse(kNoLock);
   } catch (...) {
     ::close(descriptor_);

@@ -91,10 +91,11 @@ void BoundStudy::check_own_names(std::size_t scenario, Problems& problems) const
     } catch (const InputError& error) {
       is_key = std::ranges::none_of(error.problems(), [&](const Problem& one) { return one.text.starts_with(unknown); });
     }
-    if (is_key)
+    if (is_key) {
       problems.add(
           p.place,
           fmt::format("{} is a key of the scenario, and has keys that follow it (sets); expected another name", p.key));
+    }
   }
 }
 
@@ -117,10 +118,11 @@ void BoundStudy::find_nominal(StudyScenario& scenario, Problems& problems) const
 void BoundStudy::find_columns(const QuantityOffer& offer, Problems& problems) {
   columns_ = columns_of(study_, offer, scenarios_.front().joints);
   constexpr std::size_t kMostColumns = 400;
-  if (columns_.size() > kMostColumns)
+  if (columns_.size() > kMostColumns) {
     problems.add(study_.quantities_place,
                  fmt::format("the journal would have {} columns of quantities; allowed are up to {}: name fewer joints",
                              columns_.size(), kMostColumns));
+  }
 }
 
 void BoundStudy::choose_shown(Problems& problems) {
@@ -179,10 +181,11 @@ void BoundStudy::check_stops(Problems& problems) const {
 void BoundStudy::check_engines(const Catalog& catalog, std::vector<Problems>& found) const {
   const std::string& engine = study_.verify.engine;
   for (std::size_t s = 0; s < scenarios_.size(); ++s) {
-    if (scenarios_[s].nominal.physics.engine->name == engine)
+    if (scenarios_[s].nominal.physics.engine->name == engine) {
       found[s].add(study_.verify.place,
                    fmt::format("verify.engine {} is the engine of the study itself; expected another, or none: known are {}",
                                engine, fmt::join(catalog.engines(), ", ")));
+    }
   }
 }
 

@@ -20,9 +20,10 @@ StopRules::StopRules(const Study& study, const QuantityOffer& offer, const std::
       return {{}, "unknown quantity " + in_quotes(name) + gaitlab::offer(name, offer.so_far, "quantities")};
     if (of_joint && std::ranges::find(joints, joint) == joints.end())
       return {{}, "no joint is called " + in_quotes(joint) + gaitlab::offer(joint, joints, "joints")};
-    if (std::ranges::find(offer.so_far, name) == offer.so_far.end())
+    if (std::ranges::find(offer.so_far, name) == offer.so_far.end()) {
       return {{},
               fmt::format("{} is known when a run has ended; while it runs there are {}", name, fmt::join(offer.so_far, ", "))};
+    }
     const std::pair quantity{name, joint};
     const auto at = std::ranges::find(quantities_, quantity);
     const auto number = static_cast<std::size_t>(at - quantities_.begin());

@@ -145,9 +145,10 @@ Answers::Answers(const Plan& plan, std::filesystem::path file, const std::string
   journal_ = std::make_unique<Journal>(file);
   const JournalHead& head = journal_->head();
   const auto refuse = [&](const std::string& what) { throw InputError(SourceLocation{file.string()}, what); };
-  if (head.build != build && taken == Journal::Build::same)
+  if (head.build != build && taken == Journal::Build::same) {
     refuse("was written by another build, which may give other numbers: " + head.build + ", and this is " + build +
            "; take its answers all the same with --accept-build");
+  }
   if (stop_lines(head.definition) != stop_lines(definition(plan.bound())))
     refuse("is of a study with other rules for stopping runs; its runs may have ended at other times");
   const std::vector<std::string> names = journal_->columns().all();

@@ -54,9 +54,10 @@ Bytes packed(std::span<const Row> rows) {
 
 std::vector<Job> jobs_of(const Bytes& bytes) {
   std::vector<Job> jobs;
-  for (const Json& one : Json::from_cbor(bytes))
+  for (const Json& one : Json::from_cbor(bytes)) {
     jobs.push_back(
         {row_of(one.at(0)), one.at(1).get<std::vector<std::string>>(), one.at(2).get<std::size_t>(), one.at(3).get<bool>()});
+  }
   return jobs;
 }
 

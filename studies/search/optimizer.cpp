@@ -111,11 +111,12 @@ class Optimizer {
   void check(std::uint64_t first) {
     const std::uint64_t run = first * plan_.points().runs_of_point();
     if (run >= added_ * plan_.points().runs_of_point() || !before_[run]) return;
-    if (journal_.row(run)[1] != plan_.row(run).point)
+    if (journal_.row(run)[1] != plan_.row(run).point) {
       throw InputError(
           SourceLocation{"study.db"},
           fmt::format("run {} is at another point than this program requires, with {}; choose another folder (--out)", run,
                       evolution_library()));
+    }
   }
 
   [[nodiscard]] SearchPlace place(std::uint64_t points) const {

@@ -81,9 +81,10 @@ std::string reason(const Plan& plan, const std::vector<Row>& rows, const PointRe
   for (std::size_t k = 0; k < plan.study().objectives.size(); ++k) {
     const double then = was.score.objectives[k];
     const double now = is.score.objectives[k];
-    if (!(std::abs(now - then) <= plan.study().verify.change * std::abs(then)))
+    if (!(std::abs(now - then) <= plan.study().verify.change * std::abs(then))) {
       add(fmt::format("{} is {:.4g} instead of {:.4g}, beyond the {:.3g} % of verify.change",
                       clipped(plan.judge().objectives()[k]), now, then, 100 * plan.study().verify.change));
+    }
   }
   for (const Row& row : rows) {
     const bool breaks = is.score.violation > 0 && row.score && row.score->violation > 0;

@@ -192,9 +192,10 @@ std::vector<std::string> Guards::broken(std::span<const double> quantities, cons
   if (verdict_ && verdict != "feasible" && !made_up_for(quantities, verdict))
     texts.push_back(verdict + (why.empty() ? "" : ": " + why));
   for (const MarginGuard& guard : all_) {
-    if (!guard.of_verdict && guard.broken(quantities) > 0)
+    if (!guard.of_verdict && guard.broken(quantities) > 0) {
       texts.push_back(fmt::format("check {} has a margin of {:.4g}; the study requires {}", guard.check,
                                   quantities[guard.column], number_text(guard.least)));
+    }
   }
   return texts;
 }

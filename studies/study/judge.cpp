@@ -57,10 +57,11 @@ std::vector<Quantity> columns_of(const Study& study, const QuantityOffer& offer,
   for (const Text& text : study.constraints) add_named(text);
   for (const Guard& guard : study.guards) {
     const auto check = std::ranges::find(offer.checks, guard.check, &CheckOffer::id);
-    if (guard.asks == Guard::Asks::limit && check != offer.checks.end() && check->limited)
+    if (guard.asks == Guard::Asks::limit && check != offer.checks.end() && check->limited) {
       columns.push_back(
           {margin_column(guard), "",
            fmt::format("Margin of check {} against the limit {} of the study.", guard.check, number_text(guard.number))});
+    }
   }
   for (const std::string& pattern : study.quantities) {
     if (pattern.find('[') == std::string::npos) continue;

@@ -52,11 +52,12 @@ void read_followers_of(const Node& node, Parameter& parameter, Problems& problem
   const std::string& name = parameter.key;
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   constexpr std::array<std::string_view, 4> kTaken{"pi", "and", "or", "not"};  // in expressions
-  if (!is_name(name, "_") || !letter(name[0]) || std::ranges::find(kTaken, name) != kTaken.end())
+  if (!is_name(name, "_") || !letter(name[0]) || std::ranges::find(kTaken, name) != kTaken.end()) {
     problems.add(
         parameter.place,
         in_quotes(name) +
             " cannot be a parameter of the study with `sets`; expected a name of letters, digits and _, a letter first");
+  }
   if (node.kind != Node::Kind::map || node.keys.empty()) {
     problems.add(node.place, name + ".sets is " + (node.kind == Node::Kind::map ? "empty" : found(node)) +
                                  "; expected keys of the scenario with expressions: {cpg.offset: 0.3*" + clipped(name) + "}");

@@ -26,9 +26,10 @@ void check_search(const Study& study, const SourceLocation& place, Problems& pro
   } else if (population > 0 && population < least) {
     problems.add(place, fmt::format("a population of {} is too small for {}; expected at least {}", population, method, least));
   }
-  if (problems.empty() && study.runs > 0 && static_cast<std::uint64_t>(study.runs) < least_runs(study))
+  if (problems.empty() && study.runs > 0 && static_cast<std::uint64_t>(study.runs) < least_runs(study)) {
     problems.add(place, fmt::format("a budget of {} runs is less than the {} of the searches' first generation", study.runs,
                                     least_runs(study)));
+  }
 }
 
 /// A key that follows a parameter must not be set otherwise.
@@ -43,10 +44,11 @@ void check_followers(const Study& study, Problems& problems) {
           problems.add(f.place, fmt::format("{} follows {} and {}; expected one of them", f.key, other.key, own.key));
       }
       const auto drawn = [&](const Variation& v) { return v.key == f.key && !v.times; };
-      if (std::ranges::any_of(study.replicates.vary, drawn))
+      if (std::ranges::any_of(study.replicates.vary, drawn)) {
         problems.add(f.place, fmt::format("{} follows {} and is drawn for every replicate; expected vary: {{{}: {{times: "
                                           "...}}}}, or one of the two",
                                           f.key, own.key, f.key));
+      }
     }
   }
 }
@@ -74,27 +76,31 @@ void check_study(const Study& study, const SourceLocation& place, Problems& prob
   for (const Parameter& p : study.parameters) {
     if (study.method == Method::grid && !p.in_grid())
       problems.add(p.place, p.key + " has no count; expected one for a grid, or method: {type: random} or sobol");
-    if (study.of_sensitivity() && !p.values.empty())
+    if (study.of_sensitivity() && !p.values.empty()) {
       problems.add(p.place,
                    fmt::format("{} has values one by one; method {} needs low and high", p.key, name_of(study.method)));
+    }
     if (study.method != Method::grid && p.count > 0 && !study.asked)
       problems.add(p.place, fmt::format("{} has a count, which a grid takes; method.type is {}", p.key, name_of(study.method)));
     const auto same = [&](const Variation& v) { return v.key == p.key && !v.times; };
-    if (std::ranges::any_of(study.replicates.vary, same))
+    if (std::ranges::any_of(study.replicates.vary, same)) {
       problems.add(p.place, p.key + " is a parameter and drawn for every replicate; expected vary: {" + p.key +
                                 ": {times: ...}}, or one of the two");
+    }
   }
   if (study.asked) return;
   if (study.method == Method::grid && study.runs > 0)
     problems.add(place, "method grid runs every combination; remove `budget: {{runs: ...}}`");
-  if (study.of_sensitivity() && study.runs > 0)
+  if (study.of_sensitivity() && study.runs > 0) {
     problems.add(place, fmt::format("method {} takes no budget of runs; expected method: {{{}: N}}", name_of(study.method),
                                     study.method == Method::morris ? "trajectories" : "samples"));
+  }
   if (study.method != Method::grid && !study.of_sensitivity() && study.runs == 0)
     problems.add(place, "missing budget: {runs: N}, which method " + std::string(name_of(study.method)) + " needs");
-  if (study.runs > 0 && study.runs < static_cast<std::int64_t>(study.runs_of_point()))
+  if (study.runs > 0 && study.runs < static_cast<std::int64_t>(study.runs_of_point())) {
     problems.add(place, fmt::format("a budget of {} runs is less than the {} {} of one point", study.runs,
                                     study.runs_of_point(), study.scenarios.empty() ? "replicates" : "runs"));
+  }
   constexpr double kMostRuns = 1e9;
   double runs = static_cast<double>(study.runs_of_point());
   for (const Parameter& p : study.parameters)

@@ -96,9 +96,10 @@ void read_stops(const Node& node, Study& study, Problems& problems) {
       const std::string seconds = item.text.substr(at + kAfter.size());
       const char* end = seconds.data() + seconds.size();
       const auto read = std::from_chars(seconds.data(), end, stop.after);
-      if (read.ec != std::errc() || read.ptr != end || !(stop.after >= 0) || !std::isfinite(stop.after))
+      if (read.ec != std::errc() || read.ptr != end || !(stop.after >= 0) || !std::isfinite(stop.after)) {
         problems.add(item.place,
                      "a rule ends with after " + in_quotes(seconds) + "; expected a number of seconds: fell after 2");
+      }
       stop.when.text.resize(at);
     }
     study.stops.push_back(std::move(stop));

@@ -178,9 +178,10 @@ Recipe read_recipe(const std::string& file) {
   if (recipe.root.find("panels") != nullptr && recipe.panels.empty() && problems.empty())
     problems.add(recipe.place({"panels"}), "panels is empty; nothing would be drawn");
   constexpr std::size_t kLetters = 26;  // panels and their data files are distinguished by a letter
-  if (recipe.panels.size() > kLetters)
+  if (recipe.panels.size() > kLetters) {
     problems.add(recipe.place({"panels"}),
                  fmt::format("panels has {} entries; allowed are up to {}", recipe.panels.size(), kLetters));
+  }
   // A panel of an unknown kind has been refused already: its missing keys are not known.
   const bool whole = problems.empty();
   for (std::size_t i = 0; i < recipe.panels.size(); ++i) check_panel(recipe, i, names, whole, problems);

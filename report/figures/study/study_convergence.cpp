@@ -101,9 +101,10 @@ std::string convergence_svg(const ConvergenceFigure& figure) {
 std::string convergence_csv(const ConvergenceFigure& figure) {
   std::string text = "search,generation,restart,points,best,median,kept,spread\n";
   for (std::size_t s = 0; s < figure.searches.size(); ++s) {
-    for (const ConvergencePoint& p : figure.searches[s])
+    for (const ConvergencePoint& p : figure.searches[s]) {
       text += fmt::format("{},{},{},{},{},{},{},{}\n", s, csv_cell(p.generation), csv_cell(p.restart), csv_cell(p.points),
                           csv_cell(p.best), csv_cell(p.median), csv_cell(p.kept), csv_cell(p.spread));
+    }
   }
   return text;
 }

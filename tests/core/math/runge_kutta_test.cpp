@@ -16,9 +16,10 @@ template <class Sum>
 double error_of_growth(int n, const Sum& sum) {
   RungeKutta method(1);
   double x = 1;
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < n; ++i) {
     method.step(
         {&x, 1}, 1.0 / n, [](double, In at, Out out) { out[0] = at[0]; }, sum);
+  }
   return std::abs(x - std::exp(1.0));
 }
 
