@@ -179,7 +179,7 @@ TEST(Compare, ColumnsAreChosenByPattern) {
 TEST(Compare, ManyMissingColumnsAreShortened) {
   std::vector<std::string> names{"t"};
   for (int i = 0; i < 12; ++i) names.push_back("c" + std::to_string(i));
-  const TraceDifference found = compare(table(names, std::vector<double>(13, 0)), table({"t"}, {0}));
+  const TraceDifference found = compare(table(names, SpilledVector<double>(13, 0)), table({"t"}, {0}));
   EXPECT_EQ(found.findings, Sentences{"12 columns in A only: c0, c1, c2, c3, c4, c5, c6, c7 and 4 more"});
   EXPECT_EQ(found.only_a.size(), 12U);
 }
