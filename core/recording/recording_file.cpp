@@ -117,7 +117,7 @@ void take_numbers(const fs::path& file, const Trace& joints, const Trace& run, R
   each_number(r, [&](const std::string& name, const char*, const std::string&, auto& number) {
     using Number = std::remove_reference_t<decltype(number)>;
     const bool added = name == kHinges || name == kEnded || name.starts_with(kParting);
-    if (added && run.find(name) == run.columns.size()) return;  // older folders do not have it
+    if (added && run.find(name) == run.columns.size()) return;  // older folders lack this number
     const double read = value(run, 0, name);
     // Largest value of a flag, an enum, or a count. A double contains counts exactly up to 2^53.
     constexpr double kMost = std::is_same_v<Number, bool>    ? 1
@@ -140,8 +140,8 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   };
   r.rest = take("rest");
   r.ticks = take("ticks");
-  if (find("loads") != beside.end()) r.loads = take("loads");  // older folders do not have it
-  if (find("poses") != beside.end()) r.poses = take("poses");  // likewise
+  if (find("loads") != beside.end()) r.loads = take("loads");  // older folders lack these tables
+  if (find("poses") != beside.end()) r.poses = take("poses");
   if (find("spread") != beside.end()) r.spread = take("spread");
   const Trace joints = take("joints");
   const Trace run = take("run");
