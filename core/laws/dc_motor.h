@@ -8,8 +8,8 @@
 namespace gaitlab {
 
 /// i = (u - Ks n w) / R, |u| <= u_max, |i| <= i_max; T = eta Kt i n.  (eq. 1, 2; limits: text of the paper)
-/// u: voltage, V; w: joint speed, rad/s; i: current, A; T: torque on the joint, N m. Inductance is neglected, as in the paper.
-/// V: double or lanes.
+/// u: voltage, V; w: joint speed, rad/s; i: current, A; T: torque on the joint, N m; n: gear ratio; eta: efficiency. Inductance
+/// is neglected, as in the paper. V: double or lanes.
 ///
 /// As printed, eq. 2 multiplies the torque by eta in both directions. A joint that drives its motor then needs only eta T
 /// instead of T / eta, and the gear creates energy. `reversal_speed` > 0 makes the efficiency directional:

@@ -1,4 +1,4 @@
-// HDF5 part of trace.h5, built in memory. Only this module uses the HDF5 library.
+// HDF5 part of trace.h5, built in memory by the only module that uses the HDF5 library.
 #pragma once
 #include <stdexcept>
 #include <string>
