@@ -278,8 +278,8 @@ class Implicit {
   }
 
   /// Torque of a stop if a step h ends with the speed qd: -ks (q + h qd - q_lim) - cs qd, or 0 if the stop would pull. If the
-  /// joint starts within its range, the damping torque is the mean over the step, -cs (q + h qd - q_lim) / h, because the
-  /// damping torque at the end of the step would jump.
+  /// joint starts within its range, the damping torque is -cs (q + h qd - q_lim) / h, the mean over the step. The damping
+  /// torque at the end of the step would jump.
   Stop stop_at_end(std::span<const T> x, std::size_t j, const T& qd, double h) const {
     using math::select;
     const T& q = x[StateLayout::kAngles + j];

@@ -51,7 +51,7 @@ struct KernelSettings {
 };
 
 std::unique_ptr<Kernel> make_kernel_1(const KernelSettings&);
-std::unique_ptr<Kernel> make_kernel_4(const KernelSettings&);  ///< AVX2
-std::unique_ptr<Kernel> make_kernel_8(const KernelSettings&);  ///< AVX-512
+std::unique_ptr<Kernel> make_kernel_4(const KernelSettings&);  ///< four rollouts, with AVX2
+std::unique_ptr<Kernel> make_kernel_8(const KernelSettings&);  ///< eight rollouts, with AVX-512
 
 }  // namespace gaitlab::articulated

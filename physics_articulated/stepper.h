@@ -31,17 +31,8 @@ struct History {
 };
 
 /// Advances the state by one step. The state has the entries of StateLayout, SI. The constructor allocates. Further memory is
-/// needed only if a search does not converge, or if a step of a robot with more than about 1000 joints (300 in four lanes) is
-/// divided further than any before.
-///
-/// implicit (order 1): one implicit step (implicit.h).
-/// extrapolated (order 2): 2 x(two steps of h / 2) - x(one step of h), Richardson.
-/// adaptive: the result of `extrapolated` if its error estimate is within the accuracy, else x(h)/3 - 2 x(h/2) + 8/3 x(h/4)
-/// (order 3) if the estimate of this result is, else two such steps of half the length.
-/// rk4 (order 4, explicit): the classical method on the whole state, for h lambda <= 1.
-///
-/// If the search of an implicit step does not converge, the step is taken in two halves, only in the affected lanes, down to h
-/// / 64. Joints that are then still off their law are counted.
+/// needed only if a search does not converge, or if a step is divided further than any before and the robot has more than about
+/// 1000 joints (300 in four lanes).
 template <class T>
 class Stepper {
  public:

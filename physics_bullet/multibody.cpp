@@ -44,7 +44,7 @@ void MultiBody::set_up_root() {
     body_.setBaseInertia(bt(moments_[0]));
     return;
   }
-  // A planar base is a chain of links for x, z and the turn about y that carries the root link.
+  // A planar base is a chain of links for x, z and the rotation about y. The last of these is the root link.
   const btVector3 none(0, 0, 0);
   body_.setBaseInertia(none);
   body_.setupPrismatic(0, 0, none, -1, btQuaternion::getIdentity(), btVector3(1, 0, 0), none, none, true);

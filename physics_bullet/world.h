@@ -35,7 +35,7 @@ struct WorldTouch {
     Vec3 point = Vec3::Zero();
   };
   Side a, b;
-  Vec3 normal = Vec3::Zero();    ///< from b to a
+  Vec3 normal = Vec3::Zero();    ///< unit vector from b to a
   double push = 0;               ///< impulse on a along the normal, N s
   Vec3 friction = Vec3::Zero();  ///< impulse on a tangential to the surface, N s
   double distance = 0;           ///< m; negative if there is penetration

@@ -1,4 +1,4 @@
-// Load of a dock, normal to its faces and along them.
+// Load of a dock, with components normal to the docked faces and in their plane.
 #pragma once
 #include <cmath>
 
@@ -12,7 +12,7 @@ struct DockLoad {
   double tension = 0;  ///< N, positive: pulls the modules apart
   double shear = 0;    ///< N, in the plane of the faces
   double bending = 0;  ///< N m, about an axis in the plane of the faces
-  double torsion = 0;  ///< N m, of the parent on the child, right-hand about the parent face's outward normal
+  double torsion = 0;  ///< N m, of the parent on the child, right-hand about the outward normal of the parent face
 };
 
 /// Load of a dock. `on_child` is the wrench of the parent on the child (InverseDynamics::dock). `normal` is the outward unit

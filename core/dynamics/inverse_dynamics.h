@@ -24,7 +24,7 @@ class InverseDynamics {
   void update(const Kinematics& kinematics, const Acceleration& acceleration, const Vec3& gravity,
               std::span<const BodyWrench> wrenches = {});
 
-  [[nodiscard]] In torques() const { return torques_; }  ///< per joint, N m, positive along the axis
+  [[nodiscard]] In torques() const { return torques_; }  ///< joint torques, N m, positive along the axis
   /// External wrench that the base requires, about the origin of the base frame. 0 for a free base.
   [[nodiscard]] const Wrench& base() const { return carried_[tree_.order[0]]; }
   /// Wrench of the parent on the child, about the origin of the hinge: the sum of motor torque, stop and bearing.

@@ -1,4 +1,4 @@
-// Numbers of steps in a period.
+// Number of steps in a period.
 #pragma once
 #include <cmath>
 #include <cstdint>

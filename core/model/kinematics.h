@@ -37,7 +37,7 @@ struct Kinematics {
   std::vector<Vec3> p;      ///< origin of the link frame, m
   std::vector<Vec3> omega;  ///< rad/s
   std::vector<Vec3> v;      ///< velocity of the origin of the link frame, m/s
-  std::vector<Quat> turns;  ///< rotation of each joint at its angle (links 1..), link frame at angle 0 <- link frame
+  std::vector<Quat> turns;  ///< per link (1..): rotation of the link frame by its joint, relative to angle 0
 };
 
 /// Kinematics with all angles and speeds 0 and the base frame equal to the world frame.
@@ -46,7 +46,7 @@ Kinematics at_zero(const Robot& robot);
 /// Mechanical sums over all links.
 struct Sums {
   Vec3 com = Vec3::Zero(), momentum = Vec3::Zero();
-  Vec3 angular_momentum = Vec3::Zero();  ///< about the world origin
+  Vec3 angular_momentum = Vec3::Zero();  ///< angular momentum about the world origin
   double kinetic = 0, potential = 0;     ///< J
 };
 /// Centre of mass as in Sums, m.

@@ -30,7 +30,7 @@ struct BodyType {
   std::vector<Shape> shapes = {};
 };
 
-inline constexpr double kNoStop = std::numeric_limits<double>::infinity();  ///< hi, and -lo, of a hinge that turns freely
+inline constexpr double kNoStop = std::numeric_limits<double>::infinity();  ///< value of hi and -lo if a hinge turns freely
 
 /// A hinge. At angle 0 the frame of the child is the hinge frame. A positive angle is a right-hand turn of the child relative
 /// to the parent.

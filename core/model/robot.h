@@ -46,7 +46,7 @@ struct Body {
 
 /// A point (radius 0) or sphere that may touch the ground.
 struct ContactElement {
-  std::string name;  ///< `m3/passive/p0`, spheres `s0`
+  std::string name;  ///< `m3/passive/p0` for a point, `m3/passive/s0` for a sphere
   std::size_t body = 0;
   std::size_t link = 0;
   Vec3 centre = Vec3::Zero();  ///< m, link frame
@@ -89,9 +89,9 @@ struct EnumNames<ContactSet> {
 };
 
 /// Builds the robot from `type_of_module` (index into types, one per module) and the docks. Throws one InputError with all
-/// problems, each at its row: wrong gender, connectors that differ, a face used twice, an unknown module or face, two parents,
-/// a loop, a gap in the numbering, an orientation that does not exist or that a face does not allow. In lattice types, two
-/// blocks in one cell at zero angles are also an error.
+/// problems, each at its row. Problems of a dock are a wrong gender, connectors that differ, a face used twice, an unknown
+/// module or face, and an orientation that does not exist or that a face does not allow. Problems of the tree are two parents,
+/// a loop, a gap in the numbering, and, in lattice types, two blocks in one cell at zero angles.
 Robot assemble(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of_module, const std::vector<Dock>& docks);
 
 /// Contact elements of the set `on`, by body, then in file order. The set `feet` contains the feet of the free body of every

@@ -30,7 +30,7 @@ struct ColumnDifference {
   double relative_maximum = 0;  ///< maximum / scale; 0 if maximum and scale are 0
   std::optional<double>
       first_divergence;        ///< s; first time with a difference above `divergence` * scale, or with a NaN in one trace only
-  double time_shift = 0;       ///< s; positive: B is late (see best_shift); 0 if no shift explains the difference
+  double time_shift = 0;       ///< s; positive if B is late (see best_shift); 0 if no shift explains the difference
   double rms_after_shift = 0;  ///< rms if time_shift is 0
 };
 

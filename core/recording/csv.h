@@ -17,9 +17,10 @@ void write_csv(const Trace& trace, const std::filesystem::path& path, Existing e
 std::string csv_text(const Trace& trace, const std::filesystem::path& path);
 
 /// Reads a file of write_csv. Units and definitions are not in the file and stay empty. nan and inf are accepted as numbers.
-/// Throws InputError at FILE if the file cannot be read. Throws InputError at FILE:LINE:COL (columns count bytes) for: an empty
-/// file, no header, an empty or repeated column name, a row with too few or too many cells, a cell that is not a number or
-/// outside the range of a double, a last line without line end (a truncated file).
+/// Throws InputError at FILE if the file cannot be read. Throws InputError at FILE:LINE:COL (columns count bytes) if the file
+/// is empty, has no header, or has an empty or repeated column name. The same error results from a row with too few or too many
+/// cells, from a cell that is not a number or outside the range of a double, and from a last line without line end (a truncated
+/// file).
 Trace read_csv(const std::filesystem::path& path);
 
 }  // namespace gaitlab

@@ -6,7 +6,7 @@
 namespace gaitlab {
 
 /// Result of the search for a limit cycle. T is the period and x_c a column. The scale s_c is half the peak-to-peak value of
-/// x_c over the last 2 T, at least a tenth of that of the largest column and at least 1e-3 rad.
+/// x_c over the last 2 T. It is at least 1e-3 rad, and at least a tenth of the scale of the largest column.
 ///     e(t) = max over c of RMS over [t, t + T] of (x_c(u + T) - x_c(u)) / s_c
 /// `error` is e at the last possible t (two periods before the end). `found` means error < 0.02.
 struct MotionCycle {
@@ -18,14 +18,9 @@ struct MotionCycle {
 };
 
 /// Searches for the shortest period in rows x columns of angles and set points (rad, row-major, sampled every `sample_period`
-/// s, without gaps). There is no result if: the data have less than two periods; no motion repeats to 2 %; no column moves by
-/// more than 2e-3 rad over the last two periods (any period would fit); a number is not finite; there are fewer than 12 rows;
-/// the period is below 5 samples.
-///
-/// Columns that are constant between control ticks (set points) are first joined by straight lines. Otherwise a period that is
-/// not a multiple of the tick would shift the steps from cycle to cycle and count as an error. A lag is first tested on at most
-/// 256 points of its window, in steps of 1/256 of the lag, then at every sample. The period between samples is the vertex of a
-/// parabola. The search takes about 10 ms for 4001 rows x 32 columns.
+/// s, without gaps). The search requires finite numbers, at least 12 rows, at least 5 samples per period, and two periods in
+/// the data. It finds nothing if no motion repeats to 2 %. It also finds nothing if no column moves by more than 2e-3 rad over
+/// the last two periods, because any period would then fit.
 MotionCycle find_limit_cycle(std::span<const double> values, std::size_t columns, double sample_period);
 
 }  // namespace gaitlab

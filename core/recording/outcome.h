@@ -6,8 +6,8 @@
 
 namespace gaitlab {
 
-/// Ends of a run. plugin: a plugin threw an exception; stopped: a rule of a study ended the run; not_run: the robot was only
-/// checked; early: early end in a run folder of an older format, without the reason.
+/// End of a run. `plugin` means that a plugin threw an exception, `stopped` that a rule of a study ended the run, `not_run`
+/// that the robot was only checked. `early` is an early end in a run folder of an older format, which lacks the reason.
 enum class Ended { done, diverged, plugin, stopped, interrupted, not_run, early };
 
 template <>

@@ -57,7 +57,7 @@ struct Recording {
   Trace trace, rest;
   /// Rows at control ticks that are at least 2 ms apart, and at the end. Above 20 000 rows, every second row is removed,
   /// repeatedly. For each joint, a row has the largest |torque|, |set point - angle|, |speed|, |voltage|, |current| and share
-  /// of the available torque since the previous row, and the motor limit at the largest torque. It also has, from t = 0, the
+  /// of the available torque since the previous row. It also has the motor limit at the largest torque and, from t = 0, the
   /// integrals of torque^2 and current^2 and the time at each limit. All steps count, so that a peak or an RMS of any part of
   /// the run does not depend on trace.period.
   Trace ticks;

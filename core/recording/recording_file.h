@@ -12,9 +12,9 @@ namespace gaitlab {
 inline constexpr const char* kBesideCsv = "recording.h5";  ///< data that trace.csv lacks
 
 /// Writes trace.h5 or, if `format` is csv, trace.csv and recording.h5, which has the data that the CSV file cannot contain.
-/// Tables of `/recording` are `rest`, `ticks`, `loads` and `poses` (see Recording), `joints` with the statistics and the torque
-/// error of one joint per row, and `run` with one row of numbers of the whole run. Throws RunError if a file cannot be written.
-/// If memory is too short for trace.h5, the rows are in trace.csv, which is written row by row.
+/// Tables of `/recording` are `rest`, `ticks`, `loads` and `poses` (see Recording), `joints` and `run`. A row of `joints` has
+/// the statistics and the torque error of one joint. The only row of `run` has the numbers of the whole run. Throws RunError if
+/// a file cannot be written. If memory is too short for trace.h5, the rows are in trace.csv, which is written row by row.
 void write_recording(const Recording& recording, const Provenance& origin, const std::string& format,
                      const std::filesystem::path& folder);
 

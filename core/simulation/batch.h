@@ -42,7 +42,7 @@ struct RolloutEnd {
   std::vector<Problem> refused = {};  ///< empty if the rollout began
 };
 
-/// Source of a batch's rollouts and receiver of their results.
+/// Functions that supply the rollouts of a batch and receive their results.
 struct BatchStream {
   /// Returns the next rollout, or nothing after the last one. Called by one thread at a time.
   std::function<std::optional<Rollout>()> next;

@@ -52,7 +52,7 @@ class LaneClock {
 
  private:
   static constexpr double kSame = 1e-7;         ///< steps; more than the rounding error of 1e8 steps
-  static constexpr double kPicoseconds = 1e12;  ///< per second
+  static constexpr double kPicoseconds = 1e12;  ///< picoseconds per second
 
   double step_, duration_, period_;  ///< step_ in s, the others in steps
   std::int64_t control_every_;

@@ -30,14 +30,14 @@ class LoadMeter {
   /// Face of the parent to which module `module` is docked.
   struct DockFace {
     std::size_t module = 0, link = 0;
-    Vec3 normal = Vec3::Zero();  ///< link frame
+    Vec3 normal = Vec3::Zero();  ///< outward normal of the face, link frame
   };
   /// A body with contact elements, and its load and slip so far.
   struct Foot {
     std::size_t body = 0;
     std::vector<std::size_t> elements;
     double load = 0;            ///< N, at the previous tick
-    double slid = 0;            ///< m
+    double slid = 0;            ///< slip distance, m
     Vec3 point = Vec3::Zero();  ///< point of action of the load, m
     bool idle = true;
   };

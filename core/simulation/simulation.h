@@ -37,9 +37,11 @@ bool estimated_by_rollouts(const Scenario& s);
 ///
 /// The constructor throws std::invalid_argument if the lanes cannot share a simulation or the engine does not offer that number
 /// of lanes. It throws InputError if h lambda > 1 for the standing robot, with the largest step allowed and the joint or
-/// contact that sets it. step() does not allocate, except at control ticks if loads are recorded, and for robots with hundreds
-/// of joints when a step is divided further than any before. If a lane that is alone diverges or its plugin throws, step()
-/// throws SimulationError. With several lanes, only that lane ends, with its outcome().
+/// contact that sets it.
+///
+/// In general step() does not allocate. It allocates at control ticks if loads are recorded, and for robots with hundreds of
+/// joints when a step is divided further than any before. If a lane that is alone diverges or its plugin throws, step() throws
+/// SimulationError. With several lanes, only that lane ends, with its outcome().
 class Simulation {
  public:
   explicit Simulation(std::span<const Scenario> lanes, Records records = {});
@@ -50,9 +52,9 @@ class Simulation {
   void step();
   [[nodiscard]] bool done() const;  ///< true if every lane has ended
   [[nodiscard]] const Outcome& outcome(std::size_t lane) const;
-  /// Sets a function that is called for each running lane once every simulated second with the recording so far, of which only
-  /// rows, ticks, joint statistics and time are filled. The function returns "" to continue, or a reason to end the lane. The
-  /// calls for a lane do not depend on the other lanes.
+  /// Sets a function that is called for each running lane once every simulated second. Of the recording so far, only rows,
+  /// ticks, joint statistics and time are filled. The function returns "" to continue, or a reason to end the lane. The calls
+  /// for a lane do not depend on the other lanes.
   void watch(std::function<std::string(std::size_t lane, const Recording& so_far)> watch) { watch_ = std::move(watch); }
   /// Steps to the end and calls `progress(share of the steps)` about 200 times. Returns false if `stop` was set before the end.
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);

@@ -14,7 +14,7 @@ struct StateLayout {
   static constexpr std::size_t kPosition = 0;          ///< origin of the base frame, 3
   static constexpr std::size_t kOrientation = 3;       ///< quaternion w x y z, base -> world
   static constexpr std::size_t kVelocity = 7;          ///< velocity of the origin of the base frame, 3
-  static constexpr std::size_t kAngularVelocity = 10;  ///< 3
+  static constexpr std::size_t kAngularVelocity = 10;  ///< angular velocity of the base, 3
   static constexpr std::size_t kAngles = 13;           ///< joint angles, followed by the joint speeds
 
   [[nodiscard]] std::size_t size() const { return (kAngles + 2 * joints) * lanes; }
@@ -31,7 +31,7 @@ struct StepEffort {
   struct Part {
     In torque;  ///< motor torque, N m (joint * lanes + lane)
     In speed;   ///< joint speed at that torque, rad/s, for the computation of power
-    In angle;   ///< rad
+    In angle;   ///< joint angle, rad
     In sum;     ///< per lane: weight in integrals, s; negative if an extrapolation subtracts the part
     In share;   ///< per lane: weight in shares of time, s; 0 for an auxiliary part of the integration or if `instant`
     bool instant = false;  ///< start of the step under its command, without duration; counts for peaks only

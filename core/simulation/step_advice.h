@@ -8,14 +8,14 @@
 
 namespace gaitlab {
 
-/// Largest step of the series 1, 1.25, 2, 2.5, 5 times a power of ten that is at most `limit` and divides the control period,
-/// the trace period and the duration; 0 if no step above 1e-9 s does.
+/// Largest usable step of the series 1, 1.25, 2, 2.5, 5 times a power of ten. A usable step is at most `limit` and divides the
+/// control period, the trace period and the duration. Returns 0 if no step above 1e-9 s is usable.
 double usable_step(const Scenario& scenario, double limit);
 
-/// Step for an engine with a stability limit: the largest usable step up to `longest` at which h lambda of the standing robot
-/// is at most 0.8, so that a gait may raise it to 1. If contacts set lambda, h lambda is at most 0.45, because a gait that puts
-/// the weight on half of the feet doubles the friction of each foot. Returns 0 if no step above a hundredth of this limit
-/// divides the periods. Throws the errors of the constructor of Simulation.
+/// Step for an engine with a stability limit: the largest usable step up to `longest` with h lambda of at most 0.8 for the
+/// standing robot. The reserve is for a gait, which may raise h lambda to 1. If contacts set lambda, h lambda is at most 0.45,
+/// because a gait that puts the weight on half of the feet doubles the friction of each foot. Returns 0 if no step above a
+/// hundredth of this limit divides the periods. Throws the errors of the constructor of Simulation.
 double stable_step(const Scenario& scenario, double longest);
 
 /// Text with the source of the rate: "the motor of joint m0/active", "the hinge stop of joint m0/active", "the contact

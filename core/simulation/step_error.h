@@ -45,8 +45,8 @@ constexpr std::size_t kCompanions = 3, kDifferences = 4;
 /// speed have no estimate. All changing numbers are in the array of bind(); only the constructor allocates.
 class StepError {
  public:
-  static constexpr double kApart = 5e-3;                       ///< s
-  static constexpr double kGrowth = 15e-3;                     ///< s, rounded up to control periods
+  static constexpr double kApart = 5e-3;    ///< longest interval between comparisons, s
+  static constexpr double kGrowth = 15e-3;  ///< s, rounded up to control periods; not compared at the start of a window
   static constexpr double kFiner = 0.5, kCoarser = 3;          ///< accuracy of twin and coarse companion over that of the run
   static constexpr double kOfFiner = 2.26, kOfCoarser = 0.58;  ///< error of the run over its difference to them
   static constexpr double kSafety = 1.25;                      ///< because events lower the order, and windows miss some events
