@@ -17,6 +17,9 @@ namespace gaitlab::articulated {
 /// Featherstone, Rigid Body Dynamics Algorithms, 2008, 7.3. It is in world axes about the origin of the base frame, in which
 /// inertia and force of a child are added to the parent unchanged. Forces are those at the start of the step. Weight is a force
 /// on each link and not an acceleration of the base, so that dampers act on true velocities.
+///
+/// forward_kinematics() is called first, then solve() any number of times. respond() uses the matrix of the last solve(). The
+/// state has the entries of StateLayout, SI; the quaternion may have any length except 0. Only the constructor allocates.
 template <class T>
 class Body {
  public:

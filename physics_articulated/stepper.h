@@ -33,6 +33,16 @@ struct History {
 /// Advances the state by one step. The state has the entries of StateLayout, SI. The constructor allocates. Further memory is
 /// needed only if a search does not converge, or if a step is divided further than any before and the robot has more than about
 /// 1000 joints (300 in four lanes).
+///
+/// - implicit (order 1): one implicit step (implicit.h).
+/// - extrapolated (order 2): 2 x(two steps of h / 2) - x(one step of h), Richardson.
+/// - adaptive: the result of `extrapolated` if its estimated error is within the accuracy. Otherwise the result of order 3,
+/// x(h)/3 - 2 x(h/2) + 8/3 x(h/4), if the estimated error of this result is within the accuracy. Otherwise two such steps of
+/// half the length.
+/// - rk4 (order 4, explicit): the classical method on the whole state, for h lambda <= 1.
+///
+/// If the search of an implicit step does not converge, the step is taken in two halves, only in the affected lanes, down to h
+/// / 64. Joints that are then still off their law are counted.
 template <class T>
 class Stepper {
  public:
