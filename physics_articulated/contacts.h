@@ -137,7 +137,7 @@ class Contacts {
     for (std::size_t i = first_[link]; i < first_[link + 1]; ++i) {
       const Contact<T>& c = touching_[i];
       if (!math::any_lane(math::mask_or(c.friction_limit > T(0.0), math::mask_or(c.fn > T(0.0), c.normal_damping > T(0.0)))))
-        continue;  // in the air
+        continue;  // element in the air in all lanes
       load.add_force(c.x, c.force());
       if (h > 0) load.add_resistance(c.x, c.slope(h));
     }
@@ -184,7 +184,7 @@ class Contacts {
       const auto down = c.depth - T(h) * (c.vn + dn) > T(0.0);
       const auto held_before = dot(c.held, c.held) > T(0.0);
       if (!math::any_lane(mask_or(down, mask_or(held_before, mask_or(c.friction_limit > T(0.0), c.normal_damping > T(0.0))))))
-        continue;  // in the air
+        continue;  // element in the air in all lanes
       const T fn = normal(c, c.vn + dn, h).fn;
       const T held = dot(c.n, c.held);
       all = mask_or(all, math::abs(fn - held) > kNormalTolerance * math::select(fn > held, fn, held) + kNormalFloor);
@@ -320,7 +320,7 @@ class Contacts {
   const Environment<T>& environment_;
   T per_v_lim_;
   std::vector<std::size_t> order_;    // elements by link
-  std::vector<Contact<T>> touching_;  // in the order of order_
+  std::vector<Contact<T>> touching_;  // contacts found, sorted by link
   std::vector<std::size_t> first_;    // index in touching_ of the first element of each link, and the end
   std::vector<T> extent_;             // largest distance of the points of a link from its origin, m
 };

@@ -34,7 +34,7 @@ MultiBody::MultiBody(const Robot& robot, Base base, const std::vector<ContactEle
   body_.setUseGyroTerm(true);
   body_.setCanSleep(false);
   body_.setHasSelfCollision(false);
-  body_.useRK4Integration(false);  // of first order for a floating base, and not used
+  body_.useRK4Integration(false);  // the RK4 of Bullet has order 1 for a floating base
   body_.useGlobalVelocities(false);
   set_up_shapes(elements);
 }

@@ -7,8 +7,8 @@
 
 namespace gaitlab::math {
 
-/// x+ = x + h sum_i weight_i k_i, where k_1 = f(t, x) and k_(i+1) = f(t + reach_i h, x + reach_i h k_i). The method is stable
-/// for h |lambda| < 2.8.
+/// Computes x+ = x + h sum_i weight_i k_i, where k_1 = f(t, x) and k_(i+1) = f(t + reach_i h, x + reach_i h k_i). The method is
+/// stable for h |lambda| < 2.8.
 class RungeKutta {
  public:
   static constexpr std::array<double, 4> kWeight{1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};

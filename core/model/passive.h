@@ -1,4 +1,5 @@
-// Spring, damper and friction of a hinge without a motor, with the standard library only because kernels include this file.
+// Spring, damper and friction of a hinge without a motor. Kernels include this file, which may therefore include the standard
+// library only.
 #pragma once
 
 namespace gaitlab {

@@ -26,7 +26,7 @@ struct Link {
 };
 
 struct Joint {
-  std::string name;  ///< `m3/passive`
+  std::string name;  ///< for example `m3/passive`
   std::size_t module = 0;
   std::size_t link = 0;   ///< link that the joint moves
   double lo = 0, hi = 0;  ///< rad or +-kNoStop; positive: right-hand turn of the outer body relative to the inner body
@@ -36,7 +36,7 @@ struct Joint {
 };
 
 struct Body {
-  std::string name;  ///< `m3/link`
+  std::string name;  ///< for example `m3/link`
   std::size_t module = 0;
   std::size_t type = 0;  ///< index in the bodies of the module type
   std::size_t link = 0;

@@ -77,8 +77,8 @@ struct StepTally {
   std::vector<double> torque_peak;   ///< largest torque per joint at the times of comparison, N m
 };
 
-/// Largest damping rate lambda, 1/s: the largest eigenvalue of M^-1 (B + sum J^T G J); and the part that causes it. A step h of
-/// an explicit integrator is stable for h lambda <= 1.
+/// Largest damping rate lambda, 1/s, and its cause. lambda is the largest eigenvalue of M^-1 (B + sum J^T G J). A step h of an
+/// explicit integrator is stable for h lambda <= 1.
 struct Stability {
   double rate = 0;
   enum class Source { motor, stop, contact, hinge } source = Source::motor;

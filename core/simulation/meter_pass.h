@@ -20,7 +20,7 @@ struct MeterPass {
     const double *voltage, *current, *saturation, *power_in, *copper, *gear, *available;
   } in = {};
   const double *lo = nullptr, *hi = nullptr, *driven = nullptr;  ///< lo, hi: rad; driven: 1 for a joint with a motor, else 0
-  const double *weight = nullptr, *share = nullptr, *seen = nullptr;  ///< s; s; seen: 1 if peaks count, else 0
+  const double *weight = nullptr, *share = nullptr, *seen = nullptr;  ///< weight, share: s; seen: 1 if peaks count, else 0
   double* sums[kJointStatistics.size()] = {};
   struct {
     double *peak, *error, *limit, *speed, *envelope, *voltage, *current;
