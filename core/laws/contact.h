@@ -34,7 +34,8 @@ struct BasicPenaltyContact {
     const math::Mask<T> acts = math::mask_and(p > 0.0, fn > 0.0);
     return {select(acts, fn, zero), select(acts, damper, zero), select(acts, stiffness(p), zero), acts};
   }
-  // Kn p^k, N, and its slope, N/m; Cd p^d, N s/m, and its slope, N s/m^2. The values may be NaN for p <= 0 (in the air).
+  // Terms of the normal force: Kn p^k, N, and its slope, N/m; Cd p^d, N s/m, and its slope, N s/m^2. The terms may be NaN for p
+  // <= 0 (in the air).
   [[nodiscard]] T spring(const T& p) const { return kn * power(p, k); }
   [[nodiscard]] T stiffness(const T& p) const { return kn * k * power(p, k - 1.0); }
   [[nodiscard]] T damping(const T& p) const { return cd * power(p, d); }

@@ -31,7 +31,7 @@ struct ColumnDifference {
   std::optional<double>
       first_divergence;        ///< s; first time with a difference above `divergence` * scale, or with a NaN in one trace only
   double time_shift = 0;       ///< s; positive if B is late (see best_shift); 0 if no shift explains the difference
-  double rms_after_shift = 0;  ///< rms if time_shift is 0
+  double rms_after_shift = 0;  ///< RMS difference after the shift; rms if time_shift is 0
 };
 
 struct TraceDifference {

@@ -30,7 +30,7 @@ double peak_of_unit(const Trace& trace, const std::string& unit) {
   return peak;
 }
 
-/// Row for `count` steps. distance(i, j) is |u(h_i) - u(h_j)| / scale.
+/// ConvergenceRow for `count` steps. distance(i, j) is |u(h_i) - u(h_j)| / scale.
 template <class Distance>
 ConvergenceRow row(const std::string& name, std::size_t count, Distance&& distance) {
   ConvergenceRow r{name};

@@ -109,10 +109,10 @@ struct Recording {
 std::vector<Column> tick_columns(std::size_t joints);
 std::vector<Column> pose_columns(std::size_t joints);
 constexpr std::size_t old_pose_columns(std::size_t joints) { return 8 + joints; }
-/// Merges each two rows after the first into one: the later row, with the larger of both peaks.
+/// Merges each two rows after the first into the later row, with the larger peaks of the two rows.
 void halve_ticks(Trace& ticks);
-/// Merges each two rows after the first into one: the later row, with the larger dock loads and the smaller stability margin of
-/// both.
+/// Merges each two rows after the first into the later row, with the larger dock loads and the smaller stability margin of the
+/// two rows.
 void halve_rows(Trace& table);
 
 }  // namespace gaitlab

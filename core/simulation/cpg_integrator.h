@@ -1,4 +1,4 @@
-// The integrator of a CPG's states between control ticks.
+// Integrator of the states of a CPG between control ticks.
 #pragma once
 #include <cstdint>
 
@@ -7,8 +7,8 @@
 
 namespace gaitlab {
 
-/// Classical Runge-Kutta method of order 4 with a fixed sub-step h, stable for h |lambda| <= 2.8 if lambda is an eigenvalue of
-/// the CPG. Allocates only at construction.
+/// Classical Runge-Kutta method of order 4 with a fixed sub-step h. It is stable for h |lambda| <= 2.8, where lambda is an
+/// eigenvalue of the Jacobian of the CPG. Allocates only at construction.
 class CpgIntegrator {
  public:
   explicit CpgIntegrator(std::size_t states) : method_(states) {}

@@ -1,4 +1,4 @@
-// The largest damping rate of a robot, which limits an explicit step.
+// Largest damping rate of a robot, which limits an explicit step.
 #pragma once
 #include <vector>
 
