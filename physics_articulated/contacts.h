@@ -174,8 +174,8 @@ class Contacts {
     return sum;
   }
   /// Lanes in which a force at the iterate differs from its law by more than the tolerance. The tolerance of the normal force
-  /// is 0.1 % and 1e-5 N, and that of the friction vector a tenth of f Fn. If an element changes between sticking and sliding,
-  /// the tolerance of friction is 1e-6 of f Fn. Tighter tolerances cost solves and change no error.
+  /// is 0.1 % and 1e-5 N. The tolerance of the friction vector is a tenth of f Fn. If an element changes between sticking and
+  /// sliding, the tolerance of friction is 1e-6 of f Fn. Tighter tolerances cost solves and change no error.
   [[nodiscard]] math::Mask<T> off(double h) const {
     using math::mask_or;
     math::Mask<T> all{};

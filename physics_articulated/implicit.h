@@ -31,7 +31,7 @@ class Implicit {
   static constexpr int kSolves = 100;               ///< largest number of solves in one step; most steps need 1
   static constexpr double kTorqueTolerance = 1e-9;  ///< share of the largest torque of a motor at rest
   static constexpr double kStopTolerance = 1e-9;    ///< N m
-  static constexpr double kRounding = 1e-11;  ///< relative rounding error of the torque of a passive hinge, from that of q
+  static constexpr double kRounding = 1e-11;        ///< relative rounding error of the torque of a passive hinge, due to q
 
   Implicit(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator)
       : body(tree, environment.gravity),

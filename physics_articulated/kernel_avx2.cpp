@@ -1,4 +1,4 @@
-// Kernel of four rollouts for processors with AVX2. Functions compiled here must not be compiled in another file, too, because
+// Kernel of four rollouts for processors with AVX2. Functions compiled here must not also be compiled in another file, because
 // the linker could keep either copy.
 #include <immintrin.h>
 

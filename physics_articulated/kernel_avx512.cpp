@@ -1,4 +1,4 @@
-// Kernel of eight rollouts for processors with AVX-512. Functions compiled here must not be compiled in another file, too,
+// Kernel of eight rollouts for processors with AVX-512. Functions compiled here must not also be compiled in another file,
 // because the linker could keep either copy.
 #include <immintrin.h>
 

@@ -161,8 +161,8 @@ class Stepper {
 
   /// Lanes in which no speed differs by more than `share` of the accuracy. The difference of a joint speed is converted to a
   /// torque, relative to the largest torque of the joint so far. The difference of the base speeds is relative to kBaseSpeed
-  /// and kBaseTurn, because errors of the base change the torques only later. Motor limits and sliding contacts are those of
-  /// the last solve of each lane.
+  /// and kBaseTurn, because errors of the base change the torques only later. Motor limits and sliding contacts refer to the
+  /// last solve of each lane.
   template <class Difference>
   math::Mask<T> within(double share, const math::Mask<T>& which, Difference difference) {
     math::Mask<T> within = which;

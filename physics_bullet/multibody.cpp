@@ -123,7 +123,7 @@ void MultiBody::set(const RobotState& s, const Kinematics& k) {
   for (std::size_t i = 1; i < robot_.links.size(); ++i) {
     const auto joint = static_cast<std::size_t>(robot_.links[i].joint);
     btMultibodyLink& link = body_.getLink(index_of(i));
-    // The same as updateCacheMultiDof, except that the rotation is that of Kinematics, with the sine and cosine of gaitlab.
+    // The same as updateCacheMultiDof, except that the rotation is taken from Kinematics, with the sine and cosine of gaitlab.
     const Quat& t = k.turns[i];
     const Vec3 v = principal_[i].transpose() * t.vec();
     link.m_jointPos[0] = s.q[joint];
@@ -166,7 +166,7 @@ void MultiBody::read_velocities(RobotState& s, double h) const {
     s.velocity = Vec3(body_.getJointVel(0), 0, body_.getJointVel(1));
     s.angular_velocity = Vec3(0, body_.getJointVel(2), 0);
   } else if (base_ == Base::floating) {
-    // v + h v' of the origin of the base frame. v' of Bullet is that of the COM, without the last term.
+    // v + h v' of the origin of the base frame. Bullet computes v' of the COM, without the last term.
     const Vec3 before = s.angular_velocity;
     s.angular_velocity = vec(body_.getBaseOmega());
     s.velocity = vec(body_.getBaseVel()) - s.angular_velocity.cross(base_com_) - h * before.cross(before.cross(base_com_));

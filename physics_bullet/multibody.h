@@ -19,8 +19,8 @@ inline btQuaternion bt(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 inline Vec3 vec(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Computes generalised accelerations by the articulated-body algorithm of Bullet. gaitlab integrates positions and velocities.
-/// Rotations are computed with the sine and cosine of gaitlab, not those of libm. The constructor sets every option of
-/// btMultiBody that would have an effect.
+/// Rotations are computed with the sine and cosine of gaitlab, not of libm. The constructor sets every option of btMultiBody
+/// that would have an effect.
 class MultiBody {
  public:
   MultiBody(const Robot& robot, Base base, const std::vector<ContactElement>& elements);
@@ -35,7 +35,7 @@ class MultiBody {
   void load(const RobotState& state, const Kinematics& kinematics, const Vec3& gravity, In torque,
             std::span<const BodyWrench> wrenches);
   void accelerate(const RobotState& state, Acceleration& out);
-  /// Reads the velocities of Bullet into s, h seconds after set(s). The rest of s remains that of set(s).
+  /// Reads the velocities of Bullet into s, h seconds after set(s). The rest of s is unchanged since set(s).
   void read_velocities(RobotState& s, double h) const;
   /// Computes y = M^-1 f at the state of the last accelerate() (generalised vectors as in stability.h).
   void inverse_mass(In force, Out acceleration);
@@ -81,7 +81,7 @@ class MultiBody {
   std::vector<Mat3> principal_;  ///< axes of the link frame of Bullet (principal, at the COM) in the link frame
   std::vector<Vec3> moments_;    ///< principal moments
   std::vector<Quat>
-      at_zero_;  ///< rotation from the principal frame of the parent to that of the link at angle 0, transposed for Bullet
+      at_zero_;  ///< rotation from the principal frame of the parent to the one of the link at angle 0, transposed for Bullet
   std::vector<int> index_of_joint_;
   btMultiBody body_;
   std::vector<std::unique_ptr<btSphereShape>> spheres_;

@@ -15,7 +15,7 @@ namespace gaitlab {
 /// alpha + omega x I omega about its COM, minus the external wrenches on the body. A hinge or dock carries the sum over all
 /// bodies beyond it. The torque of a joint is the component of the carried moment along the joint axis. Moments are summed
 /// about the origin of the base frame, then moved to the hinge or dock. Only the inertia of bodies is included; the caller adds
-/// that of rotors. update() does not allocate.
+/// the inertia of rotors. update() does not allocate.
 class InverseDynamics {
  public:
   explicit InverseDynamics(const Robot& robot);

@@ -15,7 +15,7 @@ namespace gaitlab {
 std::span<const std::size_t> base_entries(Base base);
 
 /// Mass matrix M(q) in M v' + c = f, with v = (base entries, joint speeds); units kg, kg m, kg m^2. The matrix is symmetric,
-/// and positive definite if every joint carries some inertia. The algorithm is that of Featherstone, Rigid Body Dynamics
+/// and positive definite if every joint carries some inertia. The algorithm is from Featherstone, Rigid Body Dynamics
 /// Algorithms (2008), 6.2, in world axes about the origin of the base frame, in which composite inertias are added unchanged.
 /// The cost is O(links * depth). update() does not allocate.
 class MassMatrix {

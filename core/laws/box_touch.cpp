@@ -90,8 +90,7 @@ Push inside(const Boxes& boxes, const Box& box, const Vec3& centre, const Vec3& 
     const Vec3 normal = face.normal(box);
     const Vec3 place = centre + depth * normal;
     if (normal.z() < kBack && place.z() < 2 * kSame) continue;
-    // The remaining distance counts twice. At a seam, where the way to the next box is short, the way up is then still the
-    // shorter one.
+    // The remaining distance counts twice, so that the way up is still the shorter way at the seam to a near box.
     const double cost = depth + 2 * remaining_exit_depth(boxes, box, place, {{normal}, 1}, least - depth, searches);
     if (cost >= least) continue;
     least = cost;

@@ -324,7 +324,7 @@ void check_cells(const Robot& robot) {
     if (fresh) continue;
     problems.add(module.dock.place, fmt::format("overlapping cells: {} and {} are in the same lattice cell at zero angles",
                                                 at->second->name, body.name));
-    break;  // a wrong row displaces all modules after it, too
+    break;  // a wrong row also displaces all modules after it
   }
   problems.raise();
 }

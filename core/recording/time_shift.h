@@ -14,9 +14,9 @@ struct TimeShift {
 /// parabola through three samples, with cubic interpolation between samples. It covers shifts up to the smaller of 5 % of the
 /// duration and 0.5 s. Means are over the rows that have a partner at every such shift.
 ///
-/// Of equally good shifts (a periodic signal) the smallest is returned. A shift counts only if at most half of the RMS remains.
-/// Otherwise `time` is 0, and `rms` is the RMS difference of the unshifted signals over all rows. Both signals must have the
-/// same length and only finite values; `spacing` is in s. The cost is at most about 1e6 products and 10 passes.
+/// If several shifts are equally good (a periodic signal), the result is the smallest. A shift counts only if at most half of
+/// the RMS remains. Otherwise `time` is 0, and `rms` is the RMS difference of the unshifted signals over all rows. Both signals
+/// must have the same length and only finite values; `spacing` is in s. The cost is at most about 1e6 products and 10 passes.
 TimeShift best_shift(std::span<const double> first, std::span<const double> second, double spacing);
 
 }  // namespace gaitlab

@@ -21,10 +21,10 @@ struct BatchSettings {
 
 /// Runs every scenario to its end. The scenarios may differ in everything. Scenarios with the same engine, integrator, step,
 /// actuator plugin and structure of the robot share lane groups (can_share). The result of a rollout does not depend on
-/// threads, lanes or other rollouts: it is bit by bit that of the rollout alone. end(i, recording) is called once for each
-/// rollout i, from several threads at once and in any order. If a rollout diverges or its plugin throws, the recording ends at
-/// that step (Recording::outcome). Throws InputError if a step is refused or a plugin cannot be made. The error is that of the
-/// first such scenario, and is thrown after all rollouts have ended.
+/// threads, lanes or other rollouts: it has the same bits as the result of the rollout alone. end(i, recording) is called once
+/// for each rollout i, from several threads at once and in any order. If a rollout diverges or its plugin throws, the recording
+/// ends at that step (Recording::outcome). Throws InputError if a step is refused or a plugin cannot be made. The error
+/// describes the first such scenario, and is thrown after all rollouts have ended.
 void run_batch(std::span<const Scenario> rollouts, const BatchSettings& settings,
                const std::function<void(std::size_t, Recording&&)>& end);
 
@@ -55,7 +55,7 @@ struct BatchStream {
   std::function<void(std::vector<RolloutEnd>&&)> end;
 };
 
-/// run_batch for any number of rollouts. A free thread takes, from the first `look_ahead` waiting rollouts, those that can
+/// run_batch for any number of rollouts. A free thread takes, from the first `look_ahead` waiting rollouts, a group that can
 /// share lanes. Only the waiting and the running rollouts exist at a time. Once `stop` is set, no lane group begins, and
 /// running rollouts end at their next step without a call of `end`. Returns false if the batch was stopped. An exception of
 /// `next`, `begin` or `end` stops the batch and is rethrown when all threads have ended.
@@ -104,8 +104,8 @@ void run_stream(const std::function<std::optional<Scenario>()>& next, const Batc
   }
 }
 
-/// Makes one scenario per entry of `own` from a scenario file. `sets` are the overrides of all rollouts and own[i] those of
-/// rollout i, in the syntax of --set. Throws one InputError with the problems of all rollouts.
+/// Makes one scenario per entry of `own` from a scenario file. `sets` are the overrides of all rollouts and own[i] the
+/// overrides of rollout i, in the syntax of --set. Throws one InputError with the problems of all rollouts.
 std::vector<Scenario> rollouts(const std::string& file, const std::vector<std::string>& sets,
                                std::span<const std::vector<std::string>> own, Catalog& catalog);
 

@@ -104,7 +104,7 @@ void Simulation::make_estimate() {
   const StateLayout layout{layout_.joints, recorded_};
   step_error_ = std::make_unique<StepError>(layout, accuracy);
 
-  // One array for all changing numbers: those of this simulation, of step_error_ and of the separate companions.
+  // One array for all changing numbers: numbers of this simulation, of step_error_ and of the separate companions.
   const std::size_t own = own_.size();
   const std::size_t sums = StepError::size(layout);
   std::size_t size = own + sums;

@@ -9,7 +9,7 @@
 
 namespace gaitlab {
 
-/// Control ticks are at whole steps. With a fixed step, trace rows and the end of the rollout are at whole steps, too. With an
+/// Control ticks are at whole steps. With a fixed step, trace rows and the end of the rollout are also at whole steps. With an
 /// adaptive integrator, trace rows and the end may be within a step. Times are in s.
 class LaneClock {
  public:

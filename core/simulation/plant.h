@@ -24,7 +24,7 @@ struct ContactSample {
   Vec3 point = Vec3::Zero();  ///< point of action, m, world
 };
 
-/// Motion of a box of the ground that has a mass. Position (m) and velocity (m/s) are those of the centre, world axes.
+/// Motion of a box of the ground that has a mass. Position (m) and velocity (m/s) refer to the centre, world axes.
 struct BoxMotion {
   Vec3 position = Vec3::Zero();
   Quat orientation = Quat::Identity();
@@ -87,7 +87,7 @@ class Plant {
   [[nodiscard]] virtual std::optional<Vec3> com(std::size_t /*lane*/) const { return {}; }
   /// Writes the motion of the ground boxes that have a mass. Entries of other boxes stay unchanged.
   virtual void boxes(std::span<BoxMotion> /*out*/) const {}
-  /// Writes all counters except those of the torque error.
+  /// Writes all members except the estimate of the torque error.
   virtual void tally(std::size_t /*lane*/, StepTally& /*out*/) const {}
   /// nullptr if the actuator evaluates its laws itself.
   [[nodiscard]] virtual MotorLaws* motor_laws() { return nullptr; }

@@ -24,7 +24,7 @@ struct Sample {
   void place_boxes(const Plant& plant);
   /// Fills the torques of stops and passive hinges from the state. `passive` lists the joints without a motor.
   void compute_hinges(const Robot& robot, const std::vector<std::size_t>& passive);
-  /// Kinetic and potential energy, including that of rotors and of springs of passive hinges, J.
+  /// Kinetic and potential energy, including the energy of rotors and of springs of passive hinges, J.
   [[nodiscard]] double energy(const Robot& robot, const Rotors& rotors, const std::vector<std::size_t>& passive) const;
   /// Fills reactions from this sample and the accelerations that `plant` computes for it.
   void compute_reactions(const std::vector<ContactElement>& elements, Plant& plant, std::size_t lane);

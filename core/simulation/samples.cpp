@@ -112,7 +112,7 @@ void Simulation::record_within_step() {
   }
 }
 
-/// Adds a row to Recording::ticks and, unless the state has diverged, to Recording::poses. Contacts are those of the present
+/// Adds a row to Recording::ticks and, unless the state has diverged, to Recording::poses. The contacts belong to the present
 /// state.
 void Simulation::record_tick(Lane& lane) {
   const std::optional<Out> row = lane.recorder->add_tick(time(), lane.closed);

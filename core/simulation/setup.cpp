@@ -86,7 +86,7 @@ PlantSettings Simulation::plant_settings() const {
   return settings;
 }
 
-/// Number of changing values of this simulation, without those of separate companions.
+/// Number of changing values of this simulation, without the values of separate companions.
 std::size_t Simulation::state_size() const {
   std::size_t size = 1 + layout_.size() + plant_->history() + 2 * layout_.joints * lanes_.size();
   for (const auto& lane : lanes_) {

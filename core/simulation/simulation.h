@@ -52,9 +52,9 @@ class Simulation {
   void step();
   [[nodiscard]] bool done() const;  ///< true if every lane has ended
   [[nodiscard]] const Outcome& outcome(std::size_t lane) const;
-  /// Sets a function that is called for each running lane once every simulated second. Of the recording so far, only rows,
-  /// ticks, joint statistics and time are filled. The function returns "" to continue, or a reason to end the lane. The calls
-  /// for a lane do not depend on the other lanes.
+  /// Sets a function that is called for each running lane once every simulated second. Only rows, ticks, joint statistics and
+  /// time of the recording are then filled. The function returns "" to continue, or a reason to end the lane. The calls for a
+  /// lane do not depend on the other lanes.
   void watch(std::function<std::string(std::size_t lane, const Recording& so_far)> watch) { watch_ = std::move(watch); }
   /// Steps to the end and calls `progress(share of the steps)` about 200 times. Returns false if `stop` was set before the end.
   bool run(const std::function<void(double)>& progress = {}, const std::atomic<bool>* stop = nullptr);
@@ -135,13 +135,13 @@ class Simulation {
   std::unique_ptr<Plant> plant_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   StateLayout layout_;
-  std::unique_ptr<Actuator> own_actuator_;  ///< actuator of the recorded lanes; nullptr if actuator_ has only these
-  std::vector<double> numbers_;             ///< all changing numbers, also those of apart_; empty in a separate companion
-  Out state_;                               ///< numbers_; in a separate companion a part of the numbers_ of the run
-  Out own_;                                 ///< state_ without the numbers of apart_ and step_error_
-  std::vector<std::unique_ptr<Simulation>> apart_;        ///< companions that are separate simulations, not lanes of this one
-  TwinWindows how_;                                       ///< times at which the twin runs beside this simulation
-  std::unique_ptr<StepError> step_error_;                 ///< nullptr if there is no estimate
+  std::unique_ptr<Actuator> own_actuator_;          ///< actuator of the recorded lanes; nullptr if actuator_ has only these
+  std::vector<double> numbers_;                     ///< all changing numbers, including apart_; empty in a separate companion
+  Out state_;                                       ///< numbers_; in a separate companion a part of the numbers_ of the run
+  Out own_;                                         ///< state_ without the numbers of apart_ and step_error_
+  std::vector<std::unique_ptr<Simulation>> apart_;  ///< companions that are separate simulations, not lanes of this one
+  TwinWindows how_;                                 ///< times at which the twin runs beside this simulation
+  std::unique_ptr<StepError> step_error_;           ///< nullptr if there is no estimate
   Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; the last two by joint * lanes + lane
   std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, available_,
       largest_;                   ///< scratch by joint * lanes + lane; largest_ has the recorded lanes only

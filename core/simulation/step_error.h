@@ -47,7 +47,7 @@ class StepError {
  public:
   static constexpr double kApart = 5e-3;    ///< longest interval between comparisons, s
   static constexpr double kGrowth = 15e-3;  ///< s, rounded up to control periods; not compared at the start of a window
-  static constexpr double kFiner = 0.5, kCoarser = 3;          ///< accuracy of twin and coarse companion over that of the run
+  static constexpr double kFiner = 0.5, kCoarser = 3;  ///< accuracy of twin and coarse companion over accuracy of the run
   static constexpr double kOfFiner = 2.26, kOfCoarser = 0.58;  ///< error of the run over its difference to them
   static constexpr double kSafety = 1.25;                      ///< because events lower the order, and windows miss some events
   static constexpr double kStart = 1.0 / 3;   ///< weight of the first window; other windows have the weight 1 of a whole cycle
@@ -62,10 +62,10 @@ class StepError {
   /// Stores the torques of the run and their slopes at a time of comparison (index joint * lanes + lane). Called over the whole
   /// run, also outside of windows.
   void see(In torque, In slope);
-  /// Compares the torques of a companion with those of the last see(), t seconds after the start.
+  /// Compares the torques of a companion with the torques of the last see(), t seconds after the start.
   void compare(Companion which, In torque, double factor, double weight, double t);
-  /// Writes the estimate of a lane so far. The peaks are those of see(); the first milliseconds, in which a motor may jump to
-  /// its limit, do not count.
+  /// Writes the estimate of a lane so far. The peaks are the largest torques in see(). The first milliseconds, in which a motor
+  /// may jump to its limit, do not count.
   void put(std::size_t lane, StepTally& tally) const;
 
  private:
