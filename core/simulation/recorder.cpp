@@ -14,12 +14,12 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kTickRows = 2e-3;  // s, between rows of Recording::ticks at least
+constexpr double kTickRows = 2e-3;  // shortest interval between rows of Recording::ticks, s
 
 /// Text of an amount of memory and its owner.
 std::string memory_text(double bytes, const char* whose) { return fmt::format("{} {:.3g} GB of memory", whose, bytes / 1e9); }
 
-/// Error of rows, which are kept until the end of the run, that exceed the memory.
+/// Error for rows that exceed the memory. Rows are kept until the end of the run.
 InputError too_many_rows(const Scenario& s, const RowsNeeded& needed, const std::string& there_is) {
   return {s.place("duration"),
           fmt::format("the run would record {:.3g} rows of {:.0f} columns, {:.3g} GB, and {}: take a longer trace.period than "
@@ -27,9 +27,9 @@ InputError too_many_rows(const Scenario& s, const RowsNeeded& needed, const std:
                       needed.rows, needed.columns, needed.bytes() / 1e9, there_is, s.trace.period)};
 }
 
-/// InputError of a machine, a container (cgroup 2) or a process (ulimit -v) that has not so much.
+/// Throws InputError if the rows exceed the memory of the machine, the container (cgroup 2) or the process (ulimit -v).
 void check_memory(const Scenario& s, const RowsNeeded& needed) {
-  constexpr double kLittle = 1e8;  // bytes: always available, and the query takes longer than a short rollout
+  constexpr double kLittle = 1e8;  // bytes; not checked, because the query takes longer than a short rollout
   if (needed.bytes() < kLittle) return;
   const auto check = [&](double bytes, const char* whose) {
     if (bytes > 0 && needed.bytes() > bytes) throw too_many_rows(s, needed, memory_text(bytes, whose));
@@ -51,7 +51,7 @@ Recorder::Recorder(const Scenario& scenario, const std::vector<ContactElement>& 
     recording.trace.columns = probes_->columns();
     recording.rest.columns = probes_->rest_columns();
   } else {
-    probes_.reset();  // trace.columns is checked all the same
+    probes_.reset();  // by now Probes has checked trace.columns
   }
   const std::size_t joints = scenario.robot->joints.size();
   recording.ticks.columns = tick_columns(joints);
