@@ -37,8 +37,9 @@ struct Recorded {
   [[nodiscard]] std::pair<Vector, Vector> get_bounds() const { return {low, high}; }
 };
 
-/// Algorithm of one generation at a time, with memory. Step sizes below which cmaes and xnes would end are 0: on a flat
-/// population, with all points refused, they would end at once. Bounds are not forced: the box is mirrored instead.
+/// Algorithm that evolves one generation at a time and keeps its memory. The step sizes at which cmaes and xnes end are set to
+/// 0, because otherwise these algorithms end at once on a flat population, as when all points are refused. Bounds are not
+/// forced, because the box is mirrored instead.
 pagmo::algorithm made(const EvolutionSettings& s) {
   constexpr double kOwn = -1;  // selects the algorithm's default
   switch (s.algorithm) {
