@@ -82,7 +82,7 @@ struct OneOf {
 };
 /// Meaning of a value per joint for a verdict.
 /// - limit: limit of the actuator; a run without such limits measures the demand of a gait. If a limit of 0 means "not stated",
-/// `usual` is the value that applies instead; if `usual` is null, 0 is a limit like any other.
+///   `usual` is the value that applies instead; if `usual` is null, 0 is a limit like any other.
 /// - rating: value stated by the maker. 0 for every joint means "not stated", and the resolved scenario omits the key.
 /// - required: value without a default. Its initial value 0 means "not given" and is outside its range.
 enum class Role { setting, limit, rating, required };
