@@ -18,8 +18,8 @@ struct EquationTables {
 /// Inputs of a run. A span that no text uses may be empty.
 struct EquationInputs {
   double t = 0;
-  In state, angle, speed, torque;  ///< by joint; the index of `state` is slot * joints + joint
-  In touching;                     ///< by module
+  In state, angle, speed, torque;  ///< index of state: slot * joints + joint; index of the other spans: joint
+  In touching;                     ///< index: number of the module
 };
 
 /// Program of instructions. Each instruction is a loop over all joints or, within a neighbour sum, over all couplings, whose

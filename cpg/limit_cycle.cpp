@@ -144,8 +144,8 @@ void CycleNetwork::start(Out state) const {
 
 void CycleNetwork::derivative(const Measured&, In state, Out rate) const {
   const std::size_t n = oscillator_->states();
-  // First, the first block of `rate` contains the phases, and the last block the paces. Both are overwritten after they were
-  // read.
+  // The first block of `rate` contains the phases, and the last block the paces, until both have been read. Then the rates
+  // overwrite them.
   const Out phase = rate.subspan(0, joints_);
   const Out pace = rate.subspan(n * joints_, joints_);
   for (std::size_t i = 0; i < joints_; ++i) {

@@ -31,7 +31,7 @@ class Oscillator {
 };
 
 struct LimitCycle {
-  double period = 0;     ///< in the oscillator's unit of time
+  double period = 0;     ///< period in the oscillator's unit of time
   double amplitude = 0;  ///< peak of the output's magnitude
   PhaseTable angle;
   std::vector<double> orbit;  ///< states at even phases from 0 to 2 pi; index phase * states + state

@@ -17,8 +17,8 @@ namespace gaitlab::golden {
 
 namespace {
 
-constexpr double kMargin = 0.9;       // of the limit, because the measured order may differ at other steps
-constexpr double kLeastOrder = 0.25;  // for a lower order, a finer step hardly helps
+constexpr double kMargin = 0.9;       // factor below 1, because the measured order may differ at other steps
+constexpr double kLeastOrder = 0.25;  // below this order, a finer step hardly helps
 constexpr std::size_t kMostExplained = 3;
 
 double widest(const std::vector<Band>& bands, double Band::*part) {

@@ -10,9 +10,9 @@ namespace gaitlab::golden {
 
 namespace {
 
-constexpr double kOfTheLargest = 1e-3;  // of the largest range among columns of one unit
-constexpr double kOfTheUnit = 1e-6;     // of the unit: um, urad, uN m, uA, without significance in the model
-constexpr double kLeastOfRange = 1e-6;  // of the range; above the rounding of other compilers, as it grows over a run
+constexpr double kOfTheLargest = 1e-3;  // share of the largest range among columns of one unit
+constexpr double kOfTheUnit = 1e-6;     // number of units: 1 um, urad, uN m or uA is without significance in the model
+constexpr double kLeastOfRange = 1e-6;  // share of the range; above the rounding of other compilers, as it grows over a run
 
 struct Extent {
   std::string unit;

@@ -13,12 +13,13 @@ namespace gaitlab::golden {
 
 struct TestArguments {
   std::vector<std::string> scenarios;     ///< files and folders; empty for the folder `scenarios`
-  std::optional<std::string> golden;      ///< folder of a golden that belongs to another scenario
+  std::optional<std::string> golden;      ///< folder of the golden to compare with, instead of the scenario's own
   std::optional<std::string> engine;      ///< engine in place of the scenario's, with its default step and integrator
-  std::optional<std::string> junit, out;  ///< junit: file of the results as XML; out: folder for figures
+  std::optional<std::string> junit, out;  ///< junit: file for results as XML; out: folder for figures
   bool fail_infeasible = false;           ///< true if an infeasible run is a failure
   bool strict = false;                    ///< true if every scenario in a folder must have a golden
-  /// True to show all columns, numbers and settings, instead of the worst columns and numbers and the first settings.
+  /// True to show all columns, numbers and settings. Otherwise only the worst columns and numbers and the first settings are
+  /// shown.
   bool all = false;
   int jobs = 1;  ///< number of threads
 };

@@ -12,7 +12,7 @@ namespace gaitlab::golden {
 
 namespace {
 
-constexpr double kSameTime = 1e-6;  // of the row spacing
+constexpr double kSameTime = 1e-6;  // share of the row spacing
 constexpr std::size_t kNamesShown = 8;
 
 std::string enumerate(const std::vector<std::string>& names) {

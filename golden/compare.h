@@ -50,10 +50,10 @@ struct GoldenDifference {
 
 /// Compares a run with the golden: first the form, then every column over the common rows, then the numbers. Maximum, shift and
 /// first time outside do not decide, because a contact that changes one step earlier alters a maximum by tens of percent.
-/// `other_engine` is true if the run used another engine than the golden. Columns are then compared in the same way, because
-/// they do not depend on the engine. Numbers comprise all steps, so that they do: the other engine has bands of at least
-/// kOtherEngine. Peak torques of joints are omitted. They occur in the first step after a control tick, for which one method
-/// evaluates the motor at the start and another takes the mean (10 % difference).
+/// `other_engine` is true if the run used another engine than the golden. Columns are compared in the same way for any engine.
+/// Numbers of another engine have bands of at least kOtherEngine, because they depend on every step. Peak torques of joints are
+/// then omitted, because they occur in the first step after a control tick, for which one method evaluates the motor at the
+/// start and another takes the mean (10 % difference).
 GoldenDifference compare(const Golden& golden, const GoldenRun& run, bool other_engine = false);
 
 }  // namespace gaitlab::golden

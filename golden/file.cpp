@@ -22,7 +22,7 @@ constexpr std::string_view kVersion = "1";
 constexpr std::string_view kSize = "bytes in all: ";
 constexpr std::string_view kHash = "; FNV-1a of what follows: ";
 constexpr double kSteps = 65534;              // number of grid steps, which is the largest integer
-constexpr double kEven = 1e-6;                // of the row spacing; rounding of k h is about 1e-16 of t
+constexpr double kEven = 1e-6;                // share of the row spacing; rounding of k h is about 1e-16 of t
 constexpr std::size_t kMostInflation = 1032;  // largest factor by which deflate can expand
 constexpr std::size_t kSizeDigits = 20;       // digits of a size in the header, padded so that the header has a fixed length
 

@@ -42,12 +42,13 @@ struct GoldenProvenance {
 
 struct Golden {
   GoldenProvenance origin;
-  std::vector<Approval> history;  ///< all approvals; the last one is valid
+  std::vector<Approval> history;  ///< all approvals in order; the last approval is valid
   RoundedTrace run;
-  std::vector<double> rounding;  ///< by column, in its unit squared: mean square of the error of rounding the trace
-  std::vector<Band> bands;       ///< by column of the trace; the band of `t` is empty
+  /// Mean square of the error of rounding each column of the trace, in the column's unit squared.
+  std::vector<double> rounding;
+  std::vector<Band> bands;  ///< one band per column of the trace; the band of `t` is empty
   std::vector<Number> numbers;
-  std::vector<Band> number_bands;  ///< by number
+  std::vector<Band> number_bands;  ///< one band per element of `numbers`
   std::string verdict = {};        ///< word of the verdict, such as `feasible`; empty in an older golden
 };
 

@@ -15,7 +15,8 @@ namespace gaitlab::golden {
 /// - changed: the ten columns and the ten numbers with the largest changes, within their bands or not.
 enum class Shown { brief, strayed, changed };
 
-inline constexpr std::size_t kFewSettings = 5, kAllSettings = 1000;  ///< kAllSettings is used if the user asks for all
+/// Largest number of changed settings in a text, by default and if the user asks for all settings.
+inline constexpr std::size_t kFewSettings = 5, kAllSettings = 1000;
 
 /// Line such as `since approval 2 (stiffer feet):`.
 std::string since_approval(const Golden& golden);

@@ -16,8 +16,9 @@ struct DriveRatings {
   double speed = 0;                               ///< largest speed at the joint, rad/s
 };
 
-/// Function from command and joint speed to torque. It has no memory and does not allocate. Each element joint * lanes + lane
-/// depends on the same element of the inputs, so that one plain loop serves one lane or eight.
+/// Function from command and joint speed to torque. It has no memory and does not allocate. Inputs and outputs have an element
+/// joint * lanes + lane for each joint and lane. An output element depends only on the input elements with its index, so that
+/// one loop serves one lane or eight.
 class Actuator {
  public:
   virtual ~Actuator() = default;

@@ -84,7 +84,7 @@ class Catalog final : public Registry {
   Catalog() = default;
   Catalog(Catalog&&) = default;  // entries point to their origins, so that a catalog cannot be copied
   /// Adds an entry. Its name must begin with a letter, followed by letters, digits, _ and -. Throws std::invalid_argument for
-  /// any other name, and, with both origins, for a name that its kind has already.
+  /// any other name. Throws it also, with the origins of both entries, if the kind already has an entry with this name.
   void add(const Entry& entry) override;
   void add(const Engine& engine);
   /// Sets the origin of the entries that are added afterwards: kBuiltIn, or the path of a library.

@@ -15,7 +15,7 @@ enum class Kind { cpg, controller, actuator };
 struct Entry {
   Kind kind;
   std::string_view name;
-  std::string_view manual;  ///< manual: equation, reference, minimal YAML
+  std::string_view manual;  ///< text with equation, reference and minimal YAML
   std::shared_ptr<void> (*settings)();
   void (*fields)(void* settings, Fields&);
   /// Makes a new Cpg, Controller or Actuator. An actuator gets one settings pointer per lane, any other plugin exactly one.

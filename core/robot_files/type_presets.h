@@ -31,8 +31,8 @@ std::vector<DefaultFigure> default_figures(const Entry& entry);
 std::string by_default(const std::vector<std::string>& keys, const Entry& entry);
 
 /// Presets for one kind of plugin, actuator or controller. Each joint uses the presets of its module type; presets of its hinge
-/// replace them key by key. Types of module disagree if they name different types of plugin. If no module type has format 2,
-/// one motor serves all joints, and module types with different motors disagree as well.
+/// replace these key by key. Module types disagree if they name different types of plugin. If no module type has format 2, one
+/// motor serves all joints, and module types with different motors disagree as well.
 class TypePresets {
  public:
   /// `robot` is null if it could not be read. `documents` has one entry per module type of the robot. Both must outlive this

@@ -115,8 +115,8 @@ std::string first_line(std::string_view text) { return std::string(text.substr(0
 /// A section whose keys depend on the value of one of its keys.
 class Alternatives {
  public:
-  /// `head` is the schema of the section, from which only the deciding key is kept. `preset` is the value of an absent key; ""
-  /// stands for any value.
+  /// `head` is the schema of the section, from which only the deciding key is kept. `preset` is the value of that key if it is
+  /// absent; "" permits any value.
   Alternatives(const Json& head, std::string key, std::string preset) : key_(std::move(key)), preset_(std::move(preset)) {
     json_ = {{"type", "object"}, {"description", head["description"]}};
     json_["properties"][key_] = head["properties"][key_];

@@ -12,7 +12,7 @@ namespace gaitlab {
 struct BaseFields {
   Scenario& scenario;
   bool with_position = true;  ///< for writing: true if the position is written
-  std::size_t numbers = 2;    ///< result: number of elements of the position
+  std::size_t numbers = 2;    ///< set by fields(): number of elements of the position
   void fields(Fields& f);
 };
 
@@ -35,8 +35,8 @@ struct PluginFields {
   std::function<void(const Entry&, void* settings)> presets = {};  ///< sets defaults that replace those of the plugin
   const Problems* problems = nullptr;                              ///< for reading: new problems show that the type is wrong
   bool own_keys = true;  ///< false for the manual of the scenario, because the plugin's manual contains these keys
-  bool none = false;     ///< result: true if `none` was chosen
-  bool sound = true;     ///< result: true if the settings can be used
+  bool none = false;     ///< set by fields(): true if `none` was chosen
+  bool sound = true;     ///< set by fields(): true if the settings can be used
 
   void fields(Fields& f);
 

@@ -11,8 +11,8 @@ namespace gaitlab {
 /// Input of one evaluation of the dynamics.
 struct DynamicsInput {
   RobotState state;
-  Acceleration acceleration;  ///< for inverse dynamics only
-  std::vector<double> tau;    ///< joint torques, N m; for forward dynamics only
+  Acceleration acceleration;  ///< used for inverse dynamics only
+  std::vector<double> tau;    ///< joint torques, N m; used for forward dynamics only
   std::vector<BodyWrench> wrenches;
   SourceLocation place = {};  ///< place of the joint angles: key `q` in the file, or the file
 };

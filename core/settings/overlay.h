@@ -1,4 +1,5 @@
-// The option `--set key.path=value`, which changes a scenario's tree before it is read, so that the reader checks both alike.
+// The option `--set key.path=value`, which changes a scenario's tree before it is read, so that its values are checked like
+// those of the file.
 #pragma once
 #include <string>
 #include <vector>

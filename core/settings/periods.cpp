@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kTolerance = 1e-9;  // relative deviation of a ratio from the nearest whole number
 
-/// Largest period of which a and b are whole multiples, by Euclid's algorithm. 0 if there is none above 1e-7 times the smaller
-/// one.
+/// Largest period of which a and b are whole multiples, by Euclid's algorithm. Returns 0 if no such period is above 1e-7 times
+/// the smaller of a and b.
 double common_divisor(double a, double b) {
   const double smallest = std::min(a, b) * 1e-7;
   while (b > smallest) {

@@ -12,7 +12,7 @@ Json scalar() { return {{"type", {"string", "number", "boolean"}}}; }
 
 Json bounded(const char* type, const Spec& spec) {
   Json json{{"type", type}};
-  // The smallest number above 0 stands for an open end of the range at 0.
+  // Ranges use the smallest number above 0 to mean "more than 0".
   if (spec.min == kPositive) {
     json["exclusiveMinimum"] = 0;
   } else if (std::isfinite(spec.min)) {

@@ -18,9 +18,9 @@ struct NamedFile {
   std::string key;     ///< key at the start of a line in every such file, such as gaitlab_module; may be empty
 };
 
-/// True if messages may quote a file that a text in `folder` names. The file must be within `folder` after links are followed,
-/// or belong to the program. Otherwise a foreign scenario could name any file of this machine, and the public log of a CI would
-/// quote it.
+/// True if messages may quote a file that a text in `folder` names. After links are followed, the file must be within `folder`
+/// or be part of the program's data. Otherwise a foreign scenario could make messages quote any file of this machine, for
+/// example in the public log of a CI.
 bool may_quote(const std::string& path, const std::string& folder);
 /// End of a message about a file that may not be quoted.
 inline constexpr const char* kNotShown = "its text is not shown, because it lies outside the folder of the file that names it";

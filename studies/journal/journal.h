@@ -19,7 +19,7 @@ namespace gaitlab::studies {
 struct Row {
   std::uint64_t run = 0;
   std::string point;     ///< name derived from the parameter values; a point has the same name in every study of the scenario
-  std::string scenario;  ///< name of the scenario; empty if the study has only one scenario
+  std::string scenario;  ///< name of the scenario; empty if the study has a single scenario
   std::uint64_t replicate = 0;
   std::int64_t seed = 0;
   std::string outcome;              ///< one of done, diverged, refused, plugin, crashed
@@ -50,7 +50,7 @@ struct JournalObjective {
 struct JournalHead {
   std::string name, build, definition, command;
   std::string scenario;  ///< resolved text of the scenario; for several scenarios in the format of scenarios_text()
-  std::vector<std::string> scenarios;  ///< names of the scenarios; empty if the study has only one
+  std::vector<std::string> scenarios;  ///< names of the scenarios; empty if the study has a single scenario
   std::vector<JournalObjective> objectives;
   std::string combine = "worst";
   double quantile = 0.5;
@@ -73,14 +73,14 @@ struct Generation {
   double spread = 0;  ///< largest deviation of a coordinate, as a share of the range of its parameter
 };
 
-/// Result of one more run of one of the best points, with half the step or in another engine.
+/// Result of another run of one of the best points, such as a run with half the step or in another engine.
 struct Verification {
   std::uint64_t run = 0;  ///< first run of the point
   std::string what;       ///< kind of run, such as `as run`, `half step`, or the name of an engine
   std::vector<double> objectives;
   double violation = 0;
   std::string verdict;  ///< verdict of the first infeasible replicate; without such a replicate, verdict of the first replicate
-  std::string reason;   ///< reason why the run does not verify the point; "" if it does
+  std::string reason;   ///< reason why the run does not verify the point; "" if the point is verified
 };
 
 /// Effort of packs of runs. Only these data of a journal differ from machine to machine.

@@ -43,11 +43,12 @@ Results results(Journal& journal);
 /// 1, every run has an estimate, provided that the engine offers it.
 struct Estimated {
   static constexpr std::array kShares{0.01, 0.02, 0.05};
-  std::uint64_t runs = 0, others = 0;  ///< runs: with an estimate; others: without an estimate
+  std::uint64_t runs = 0, others = 0;  ///< number of runs with an estimate, and number of runs without
   std::array<std::uint64_t, kShares.size()> beyond{};
   double worst = 0;
   void add(double share);
-  static constexpr std::uint64_t kFewest = 3;  ///< if fewer runs have an estimate, the runs without it are not trusted
+  /// Least number of estimates; with fewer estimates, no run without an estimate is trusted.
+  static constexpr std::uint64_t kFewest = 3;
   [[nodiscard]] bool too_few() const { return others > 0 && runs < kFewest; }
   /// True if enough runs have an estimate and at most one in ten estimates exceeds the largest share.
   [[nodiscard]] bool trusted() const { return !too_few() && 10 * beyond.back() <= runs; }

@@ -31,8 +31,8 @@ class BoundStudy {
   [[nodiscard]] const Judge& judge() const { return *judge_; }
   [[nodiscard]] const StopRules& stops() const { return *stops_; }
   [[nodiscard]] const std::vector<Quantity>& columns() const { return columns_; }
-  /// Columns of the quantities to show: those that match the study's patterns, in the order of the patterns. Without patterns
-  /// it is the speed.
+  /// Columns of the quantities to show: those that match the study's patterns, in the order of the patterns. If the study has
+  /// no patterns, the speed is shown.
   [[nodiscard]] const std::vector<std::size_t>& shown() const { return shown_; }
   /// The scenario with this number and with additional settings. Throws InputError if the scenario refuses their values. Only
   /// one thread at a time may call this.

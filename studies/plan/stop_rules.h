@@ -14,8 +14,8 @@ class StopRules {
   StopRules(const Study& study, const QuantityOffer& offer, const std::vector<std::string>& joints, Problems& problems);
 
   [[nodiscard]] bool empty() const { return rules_.empty(); }
-  /// Text `stopped by RULE at t = 4 s` for the first rule that is true in the recording so far, or "" if no rule is.
-  /// Simulation::watch takes this text.
+  /// Reason `stopped by RULE at t = 4 s` for the first rule that is true in `so_far`, the recording from Simulation::watch. ""
+  /// if no rule is true.
   [[nodiscard]] std::string reason(const Scenario& scenario, const Recording& so_far) const;
   /// Texts of all rules.
   [[nodiscard]] std::vector<std::string> texts() const;

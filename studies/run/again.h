@@ -19,9 +19,9 @@ struct Again {
 };
 bool do_again(const Again& again, const Executor& executor, std::atomic<bool>& stop);
 
-/// Runs that need a second run with an estimate. These are all runs without an estimate, if too few runs have one or more than
-/// one estimate in ten is inaccurate (Estimated::trusted). Otherwise the list is empty, as also if the study or its scenarios
-/// disable the estimate.
+/// Runs that need a second run with an estimate. The list contains all runs without an estimate if too few estimates exist, or
+/// if more than one estimate in ten is inaccurate (Estimated::trusted). Otherwise the list is empty. The list is empty also if
+/// the study or its scenarios disable the estimate.
 std::vector<std::uint64_t> runs_in_doubt(const Plan& plan, Journal& journal);
 
 /// Simulates these runs again with an estimate and replaces their rows in the journal. Returns false if `stop` was set.

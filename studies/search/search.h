@@ -18,9 +18,9 @@ struct SearchSettings {
 /// A search whose coordinates are shares of the box, mirrored at its faces, in multiples of 1e-9. A start evaluates
 /// max(population, 5 (n + 1)) points of a Sobol sequence, shifted by a random vector from the seed. The best of these points
 /// are the first population. The search has converged if all coordinates of a generation deviate by less than 1e-4. It has also
-/// converged if the best value has not improved by a share of 1e-4 for 10 + 30 n / population generations; with several
-/// objectives, if no new point has entered the front. It then restarts with twice the population, further points of the
-/// sequence and another seed.
+/// converged if the best value has not improved by a share of 1e-4 for 10 + 30 n / population generations. With several
+/// objectives, this condition is that no new point has entered the front. A converged search restarts with twice the
+/// population, further points of the sequence and another seed.
 class Search {
  public:
   explicit Search(const SearchSettings& settings);

@@ -27,7 +27,7 @@ struct Sensitivity {
   std::string unit;                     ///< unit of the output
   std::vector<std::string> parameters;  ///< keys of the parameters
   std::vector<Measure95> measures;      ///< the tables sort the parameters by the first measure
-  std::uint64_t blocks = 0, used = 0;   ///< blocks: trajectories or rows of the study; used: those with a value at every point
+  std::uint64_t blocks = 0, used = 0;   ///< trajectories or rows of the study, and those of them with a value at every point
   std::uint64_t unusable = 0;           ///< number of points without a value, because they failed or the quantity is not known
   std::uint64_t not_kept = 0;           ///< number of used points that are not kept
 };

@@ -30,7 +30,7 @@ std::string margin_column(const Guard& guard);
 /// A guard on a quantity, which must be at least `least`. An unknown quantity satisfies the guard, such as a motor's margin in
 /// a robot without motors.
 struct MarginGuard {
-  std::string check, name;  ///< check: id of the check; name: name of the quantity
+  std::string check, name;  ///< id of the check, and name of the quantity with its margin
   std::size_t column = 0;
   double least = 0;
   bool of_verdict = false;  ///< true for a check that decides the verdict; false for a check that the study names

@@ -140,8 +140,8 @@ struct NamedScenario {
 };
 
 struct Study {
-  std::string name, file;                ///< file: path of the study; empty if it is defined on the command line
-  std::string scenario;                  ///< file of the scenario, if there is only one
+  std::string name, file;  ///< name of the study, and path of its file; the path is empty for a study from the command line
+  std::string scenario;    ///< file of the scenario, if there is only one
   std::vector<NamedScenario> scenarios;  ///< scenarios, if there are several
   std::vector<std::string> sets;
   std::vector<SourceLocation> set_places;  ///< places of settings that a study file contains
@@ -165,7 +165,7 @@ struct Study {
   [[nodiscard]] bool of_sensitivity() const { return method == Method::morris || method == Method::sobol_indices; }
   /// Runs per point: replicates times scenarios.
   [[nodiscard]] std::uint64_t runs_of_point() const { return std::max<std::size_t>(1, scenarios.size()) * replicates.number(); }
-  std::int64_t estimate_every = 16;  ///< N: the torque error is estimated for one point in N; 0: never
+  std::int64_t estimate_every = 16;  ///< the torque error is estimated for one point in this number; 0 disables the estimate
   bool asked = false;                ///< true if another program chooses the points (`gaitlab evaluate`)
 };
 
