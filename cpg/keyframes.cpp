@@ -81,7 +81,7 @@ struct Tridiagonal {
 
 // Second derivatives of the periodic C2 spline through y at t, for which y.front() == y.back().
 std::vector<double> periodic_spline(const std::vector<double>& t, const std::vector<double>& y) {
-  const std::size_t n = t.size() - 1;  // without the last frame, which equals the first
+  const std::size_t n = t.size() - 1;  // number of frames without the last frame, which equals the first
   if (n == 1) return {0, 0};
   Tridiagonal system(n);
   std::vector<double> right(n);

@@ -6,7 +6,8 @@
 namespace gaitlab::cpg {
 namespace {
 
-constexpr std::size_t kPhases = 2048;  // phases of the table; linear interpolation has an error of 1e-6 of the amplitude
+// Number of phases in the table; linear interpolation between them has an error of 1e-6 of the amplitude.
+constexpr std::size_t kPhases = 2048;
 
 using State = std::array<double, Oscillator::kMost>;
 

@@ -210,7 +210,7 @@ class ModuleCheck {
   ModuleType& type_;
   const ModulePlaces& places_;
   Problems& problems_;
-  std::vector<std::size_t> parent_;  ///< by body: hinge whose child is the body
+  std::vector<std::size_t> parent_;  ///< hinge whose child is the body with this index
   std::vector<bool> is_parent_;
 };
 

@@ -1,4 +1,4 @@
-// Library of the module types of a scenario, by name, file or inline map. Each type is read only once.
+// Library of the module types of a scenario, by name, file or inline map, each of which is read only once.
 #pragma once
 #include <map>
 #include <optional>

@@ -72,14 +72,14 @@ struct FigureSettings {
 
 /// Limits of the verdict on a run (report/verdict/verdict.h).
 struct Limits {
-  double warn_share = 0.8;           ///< share of a limit of motor, gear or dock above which the verdict warns
+  double warn_share = 0.8;           ///< share of a limit of motor, gear or dock; the verdict warns above it
   double tracking_error = 0.1;       ///< largest difference of set point and angle, rad
   double saturated_share = 0.01;     ///< largest share of the judged window at a motor's limit
   double saturated_periods = 3;      ///< longest time at a motor's limit, in control periods
-  double height = 0.5;               ///< least height of the centre of mass, as a share of its height at the start
+  double height = 0.5;               ///< least height of the centre of mass, as a share of its initial height
   double tilt = 1.0471975511965976;  ///< largest tilt of the base from its start, rad
-  double beyond_range = 0.01;        ///< largest angle of a joint beyond its range, rad
-  double beyond_range_share = 0.01;  ///< largest share of the time that a joint is beyond its range
+  double beyond_range = 0.01;        ///< largest angle by which a joint may exceed its range, rad
+  double beyond_range_share = 0.01;  ///< largest share of the time in which a joint may be beyond its range
   double start_jump = 0.05;          ///< largest jump of a set point at t = 0, rad
   double touch = 5e-4;               ///< overlap of two bodies above which the verdict warns, m
   double collision = 0.002;          ///< largest overlap of two bodies, m

@@ -11,8 +11,8 @@ namespace gaitlab {
 /// Keys of the robot's initial pose and base.
 struct BaseFields {
   Scenario& scenario;
-  bool with_position = true;  ///< for writing: true if the position is written
-  std::size_t numbers = 2;    ///< set by fields(): number of elements of the position
+  bool with_position = true;  ///< used for writing; true if the position is written
+  std::size_t numbers = 2;    ///< number of elements of the position; set by fields()
   void fields(Fields& f);
 };
 
@@ -20,8 +20,8 @@ struct BaseFields {
 struct PhysicsFields {
   Physics& physics;
   const Catalog* catalog;
-  const Problems* problems = nullptr;    ///< for reading: new problems show that the engine's name is wrong
-  ContactLaw law = ContactLaw::penalty;  ///< for reading: contact.law, on which the default of the step depends
+  const Problems* problems = nullptr;    ///< used for reading; new problems show that the engine's name is wrong
+  ContactLaw law = ContactLaw::penalty;  ///< value of contact.law, on which the default of the step depends; used for reading
   void fields(Fields& f);
 };
 
@@ -33,10 +33,10 @@ struct PluginFields {
   const Catalog* catalog;  ///< may be null when writing
   std::function<void(Fields&)> host = {};
   std::function<void(const Entry&, void* settings)> presets = {};  ///< sets defaults that replace those of the plugin
-  const Problems* problems = nullptr;                              ///< for reading: new problems show that the type is wrong
+  const Problems* problems = nullptr;  ///< used for reading; new problems show that the type is wrong
   bool own_keys = true;  ///< false for the manual of the scenario, because the plugin's manual contains these keys
-  bool none = false;     ///< set by fields(): true if `none` was chosen
-  bool sound = true;     ///< set by fields(): true if the settings can be used
+  bool none = false;     ///< true if `none` was chosen; set by fields()
+  bool sound = true;     ///< true if the settings can be used; set by fields()
 
   void fields(Fields& f);
 
@@ -50,7 +50,7 @@ struct SectionFields {
   PhysicsFields physics;
   PluginFields actuator, controller, cpg;
   bool has_cpg = true;
-  bool writing = false;  ///< true for writing in full: visits only the keys of the ground's type
+  bool writing = false;  ///< true if the sections are written in full, with only the keys of the ground's type
 
   /// `catalog` and `problems` are those of PhysicsFields and PluginFields. `actuator_type` is the default type.
   SectionFields(Scenario& s, const Catalog* catalog, const Problems* problems, const std::string& actuator_type);

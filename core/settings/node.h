@@ -1,4 +1,4 @@
-// A YAML text as a tree of nodes with their places in the file. The parser is strict where yaml-cpp 0.7 is lax
+// A YAML text as a tree of nodes with their places in the file, read more strictly than by yaml-cpp 0.7 (docs/decisions).
 // (docs/decisions).
 #pragma once
 #include <memory>

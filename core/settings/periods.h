@@ -1,4 +1,4 @@
-// Divisibility of periods, and the nearest periods that divide each other. All periods are in s.
+// Divisibility of periods (in s), and the nearest periods that divide each other.
 #pragma once
 #include <optional>
 #include <string>

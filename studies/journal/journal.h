@@ -67,9 +67,10 @@ struct JournalHead {
 /// A generation of a search whose points have all ended.
 struct Generation {
   std::uint64_t search = 0, generation = 0, restart = 0;
-  std::uint64_t first_run = 0, runs = 0;  ///< runs of the points that this generation requests for the first time
+  std::uint64_t first_run = 0, runs = 0;  ///< runs of the points that no earlier generation requested
   std::uint64_t points = 0, kept = 0;
-  double best = std::numeric_limits<double>::quiet_NaN(), median = best;  ///< first objective of the kept points
+  /// Best and median of the kept points, by the first objective.
+  double best = std::numeric_limits<double>::quiet_NaN(), median = best;
   double spread = 0;  ///< largest deviation of a coordinate, as a share of the range of its parameter
 };
 

@@ -1,4 +1,4 @@
-// Points of a sensitivity study. A coordinate is a share of the range of its parameter: 0 is low, 1 is high.
+// Points of a sensitivity study, whose coordinates are shares of parameter ranges: 0 is low, 1 is high.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -1,4 +1,4 @@
-// Purpose numbers of random draws. A draw is a hash of counters and names, so that earlier runs do not influence it.
+// Purpose numbers of random draws, which are hashes of counters and names and therefore independent of earlier runs.
 #pragma once
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-// The points of a study by number. A point does not depend on earlier runs.
+// The points of a study by number, independent of earlier runs.
 #pragma once
 #include <cstdint>
 #include <map>

@@ -64,7 +64,7 @@ class Runner {
   Journal& journal_;
   RunnerSettings settings_;
   bool maximize_;
-  std::vector<bool> present_;  ///< by run number: true if the run has a row
+  std::vector<bool> present_;  ///< true if the run with this index has a row
   std::uint64_t next_ = 0;
   std::string host_ = host();
   std::mutex mutex_;                       ///< guards the following members, and the journal

@@ -168,7 +168,7 @@ class Optimizer {
   Journal& journal_;
   std::vector<Brief> answers_;  ///< results by run number
   Runner runner_;
-  std::vector<bool> before_;  ///< by run number: true if the journal has the run at the start
+  std::vector<bool> before_;  ///< true if the journal contains the run with this index at the start
   std::vector<Course> courses_;
   std::map<std::vector<std::string>, std::uint64_t> memo_;  ///< numbers of points by their values
   std::uint64_t added_ = 0;                                 ///< number of points

@@ -1,4 +1,4 @@
-// The scenarios of a study, unnamed if there is only one. Every point runs in each scenario.
+// The scenarios of a study, in each of which every point runs.
 #pragma once
 #include <map>
 #include <memory>
