@@ -84,11 +84,13 @@ struct Limits {
   double touch = 5e-4;               ///< overlap of two bodies above which the verdict warns, m
   double collision = 0.002;          ///< largest overlap of two bodies, m
   double sink = 0.005;               ///< largest depth of a body in the ground, m
-  double energy_residual = 0.01;     ///< largest residual, as a share of the energy drawn
-  double energy_created = 0.05;      ///< largest energy that back-driven gears create, as a share of the energy drawn
-  double slip = 0.2;                 ///< largest slip distance of the feet, as a share of the path of the centre of mass
-  double torque_error = 0.05;        ///< largest estimated torque error, as a share of a joint's largest torque
-  double progress = 0;               ///< least travel per period, as a share of the robot's extent; 0 means no requirement
+  /// Largest residual, as a share of the largest of energy drawn, energy stored and energy to lift the robot by 1 mm.
+  double energy_residual = 0.01;
+  /// Largest energy that back-driven gears create, as a share of the largest of the energies in `energy_residual`.
+  double energy_created = 0.05;
+  double slip = 0.2;           ///< largest slip distance of the feet, as a share of the path of the centre of mass
+  double torque_error = 0.05;  ///< largest estimated torque error, as a share of a joint's largest torque
+  double progress = 0;         ///< least travel per period, as a share of the robot's extent; 0 means no requirement
   /// Depth above which two bodies count as overlapping, m. A recorded scenario may have a `touch` above `collision`.
   [[nodiscard]] double meeting() const { return touch < collision ? touch : collision; }
   bool operator==(const Limits&) const = default;

@@ -1,5 +1,4 @@
 // A YAML text as a tree of nodes with their places in the file, read more strictly than by yaml-cpp 0.7 (docs/decisions).
-// (docs/decisions).
 #pragma once
 #include <memory>
 #include <optional>

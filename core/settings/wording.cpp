@@ -115,7 +115,7 @@ void add_all(const InputError& error, Problems& problems) {
 }
 
 bool is_name(const std::string& text, const std::string& also) {
-  // Std::isalnum would depend on the locale.
+  // The function std::isalnum would depend on the locale.
   const auto within = [](char c, char from, char to) { return c >= from && c <= to; };
   const auto fits = [&](char c) {
     return within(c, 'a', 'z') || within(c, 'A', 'Z') || within(c, '0', '9') || also.find(c) != std::string::npos;

@@ -22,7 +22,7 @@ struct Row {
   std::string scenario;  ///< name of the scenario; empty if the study has a single scenario
   std::uint64_t replicate = 0;
   std::int64_t seed = 0;
-  std::string outcome;              ///< one of done, diverged, refused, plugin, crashed
+  std::string outcome;              ///< one of done, diverged, stopped, refused, plugin, crashed
   std::string message;              ///< reason why the outcome is not `done`, or why the verdict is not `feasible`
   double simulated = 0;             ///< simulated time, s
   std::vector<std::string> values;  ///< values of the parameters, then of the random draws
