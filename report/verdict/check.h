@@ -83,8 +83,7 @@ struct Check {
   std::size_t parts = 0;                 ///< number of parts beyond the limit
   double from, to;                       ///< s, time interval in which the worst part reached `value`
   double first;                          ///< s, time when a part was first beyond the limit
-  std::string first_part = {};           ///< name of the part that was first beyond the limit; empty if there is none or it is
-                                         ///< not known
+  std::string first_part = {};           ///< part that was first beyond the limit; empty if none is known
   std::string definition;                ///< definition of the value
   std::string source = {};               ///< source of the limit
   std::string text = {};                 ///< sentence about the result, printed for the user

@@ -29,12 +29,9 @@ struct SummaryNumber {
   /// Computes the value, or null if it is not known. If one number of a group such as `torque_error` is null, the whole group
   /// is null.
   std::function<nlohmann::ordered_json(const RunData&)> value = {};
-  std::function<double(const RunData&, std::size_t joint)> of_joint = {};  ///< function for a number of every joint, used
-                                                                           ///< instead of `value`
-  bool list = false;                                                       ///< the value is an array or an object, which tables
-                                                                           ///< leave out
-  bool clock = false;                                                      ///< the value is measured by the clock and differs
-                                                                           ///< between equal runs
+  std::function<double(const RunData&, std::size_t joint)> of_joint = {};  ///< replaces `value` for a number of each joint
+  bool list = false;                                                       ///< array or object, left out of tables
+  bool clock = false;                                                      ///< measured by the clock, differs between runs
 
   struct Line {
     int place = 0;

@@ -48,8 +48,7 @@ struct Verdict {
   bool chosen_motors = false;
   bool chosen_docks = false;     ///< true if a judged check uses load limits of docks that were chosen or have no source
   std::string figures = {};      ///< sentence on the sources of motor and dock values (motors.h): `motors: chosen figures`
-  std::string first_joint = {};  ///< the joint that was first at a motor limit in the whole run, for any time; empty if none
-                                 ///< was
+  std::string first_joint = {};  ///< joint that was first at a motor limit in the whole run; empty if none
   double first_time = 0;         ///< s, time when `first_joint` was at its limit
   /// Note that peaks, shares and durations are from the rows of the trace, because the folder contains nothing else. Empty if
   /// they are from all steps.
