@@ -17,7 +17,9 @@ StopOnSignal::StopOnSignal(Second second) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // a shell's background job ignores SIGINT
+    if (before.sa_handler != SIG_IGN)
+      sigaction(signal, &action, nullptr);  // an ignored signal stays ignored: the shell makes
+                                            // background jobs ignore SIGINT
   }
 }
 

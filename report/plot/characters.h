@@ -6,8 +6,7 @@
 namespace gaitlab::report {
 
 struct Character {
-  std::size_t length =
-      0;  ///< bytes; 0 for invalid UTF-8 and for a character that XML forbids (control, surrogate, noncharacter)
+  std::size_t length = 0;  ///< bytes; 0 for invalid UTF-8 and for characters that XML forbids, such as control characters
   char32_t code = 0;
 };
 
