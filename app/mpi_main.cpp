@@ -35,8 +35,7 @@ enum Tag : int {
   kOver,
   kBye
 };  // messages to rank 0: kHello, kRows (also requests more jobs), kBye (with the reason why the process ended)
-constexpr std::chrono::microseconds kOften{200};  // time between polls for messages; a blocking MPI call would occupy a
-                                                  // processor
+constexpr std::chrono::microseconds kOften{200};  // time between polls; a blocking MPI call would occupy a processor
 
 struct Message {
   int rank = 0, tag = 0;
@@ -157,9 +156,7 @@ class Others {
         if (message->tag == kBye) stop = true;
         if (message->tag != kRows) continue;
         idle_.push_back(message->rank);
-        if (!message->bytes.empty())
-          work.end(rows_of(message->bytes));  // an empty message means that the process has just
-                                              // started
+        if (!message->bytes.empty()) work.end(rows_of(message->bytes));  // otherwise the process has just started
       }
     } catch (...) {
       stop = true;

@@ -34,8 +34,7 @@ const Skeleton& skeleton(const std::string& kind) {
 
 /// Checks the name, which becomes a file name, a CMake target and part of a class name.
 void check_name(const Skeleton& skeleton, const std::string& name) {
-  constexpr std::array kTargets{"all",     "clean",   "depend", "help",
-                                "install", "package", "test"};  // reserved target names of CMake
+  constexpr std::array kTargets{"all", "clean", "depend", "help", "install", "package", "test"};  // CMake's own targets
   const SourceLocation place{fmt::format("gaitlab new plugin {}", word(skeleton.kind))};
   if (!is_name(name, "_") || name[0] == '_' || std::isdigit(static_cast<unsigned char>(name[0])) != 0) {
     throw InputError(place, "name " + in_quotes(name) + " is not allowed; expected letters, digits and _, a letter first");

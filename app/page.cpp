@@ -12,9 +12,7 @@ void check_new(const std::string& name) {
   if (name.empty()) throw InputError(SourceLocation{"FILE"}, "is an empty name");
   const fs::path file = name;
   const fs::file_type kind = kind_of(file);
-  if (kind == fs::file_type::character || kind == fs::file_type::fifo)
-    return;  // a device or a pipe is written to and not
-             // replaced
+  if (kind == fs::file_type::character || kind == fs::file_type::fifo) return;  // written to, not replaced
   std::error_code error;
   if (fs::exists(fs::symlink_status(file, error))) throw InputError(SourceLocation{name}, "exists; nothing was written");
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");

@@ -17,9 +17,7 @@ StopOnSignal::StopOnSignal(Second second) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN)
-      sigaction(signal, &action, nullptr);  // an ignored signal stays ignored: the shell makes
-                                            // background jobs ignore SIGINT
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // a shell makes background jobs ignore SIGINT
   }
 }
 

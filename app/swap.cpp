@@ -63,9 +63,8 @@ std::vector<std::string> split(const std::string& list) {
 /// Adds those problems of reading the scenario under a CPG that have not been added for another CPG.
 void add_new(const InputError& error, const std::string& cpg, std::vector<Problem>& problems) {
   for (Problem problem : error.problems()) {
-    if (problem.place.file == "--set cpg.type=" + cpg)
-      problem.place = SourceLocation{"--cpg"};  // names the option that the user
-                                                // typed
+    // The place names the option that the user typed.
+    if (problem.place.file == "--set cpg.type=" + cpg) problem.place = SourceLocation{"--cpg"};
     const auto alike = [&](const Problem& p) {
       return p.text == problem.text && to_string(p.place) == to_string(problem.place);
     };

@@ -6,7 +6,8 @@
 namespace gaitlab::report {
 
 struct Character {
-  std::size_t length = 0;  ///< bytes; 0 for invalid UTF-8 and for characters that XML forbids, such as control characters
+  std::size_t length =
+      0;  ///< bytes; 0 for invalid UTF-8 and for a control character, a surrogate or a noncharacter, which XML forbids
   char32_t code = 0;
 };
 
