@@ -94,7 +94,7 @@ int sweep_study(const SweepArguments& a) {
   if (!shard.whole()) fs::create_directory(folder / "shards", none);
   fs::path lock_file = file;
   const studies::Lock lock(shard.whole() ? folder / "lock" : lock_file.replace_extension("lock"));
-  // the trial run is made only at the first start, so that a plugin that crashes in it does not prevent a continuation
+  // The trial run is made only at the first start, so that a plugin that crashes in it does not prevent a continuation.
   const bool begins = !fs::exists(file, none);
   Journal journal(file, head, taken_build(a));
   keep_runs(plan, journal, folder, a.quiet);

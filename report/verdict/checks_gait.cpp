@@ -17,7 +17,8 @@ namespace gaitlab::report {
 
 namespace {
 
-// share of the robot's extent, and rad; per period, or ten times that in a run without a period
+// Least travel, as a share of the robot's extent, and least turn, rad. Both are per period; without a period they are ten times
+// as large.
 constexpr double kLeastTravel = 0.01, kLeastTurn = 0.01;
 constexpr const char* kTooShort = "the run is too short";
 constexpr double kMostCycleError = 0.02;  // equal to that in core/recording/limit_cycle.h

@@ -109,7 +109,8 @@ void judge_trust(const Scenario& s, const Recording& r, Evidence& made, std::vec
   } else if (error.estimated && !std::isfinite(error.share)) {
     made.not_trusted = {fmt::format("the error of the torque of joint {} is not a number", s.robot->joints[error.joint].name),
                         steps};
-  } else if (!chaotic && error.estimated && error.share > s.limits.torque_error) {  // in a chaotic motion the spread decides
+  } else if (!chaotic && error.estimated &&
+             error.share > s.limits.torque_error) {  // in a chaotic motion the spread is decisive
     made.not_trusted = {fmt::format("the torque of joint {} is off by about {} of its peak, more than {}; take {}",
                                     s.robot->joints[error.joint].name, texts::rough_percent(error.share),
                                     texts::percent(s.limits.torque_error), torque_remedy(s, error.share)),

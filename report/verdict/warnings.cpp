@@ -77,7 +77,7 @@ void check_gain(const Scenario& s, const DcMotor* motors, std::vector<Warning>& 
   double largest = 0;
   std::size_t worst = 0;
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
-    // such a motor has no damping, and the rule does not apply
+    // A motor without back-EMF has no damping, and the rule does not apply.
     if (!s.robot->joints[j].driven() || !(motors[j].Ks > 0)) continue;
     const double g = gain->value[j] * s.control_period / (motors[j].Ks * motors[j].gear);
     if (!(g > largest) || damps(settings, j, s.control_period)) continue;
