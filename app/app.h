@@ -53,7 +53,7 @@ struct SummaryOptions {
   bool verbose = false;          ///< also print the energy ledger and what limits the step
   bool joints = false;           ///< also print a row for each joint
   bool fail_infeasible = false;  ///< exit code 3 for an infeasible verdict, 1 for a failed run
-  bool demand = false;           ///< also run the demand twin: the scenario without motor limits (report/verdict/demand.h)
+  bool demand = false;           ///< also run the demand twin, with 20 times the motor limits (report/verdict/demand.h)
 };
 
 struct RunArguments : ScenarioArguments {

@@ -241,7 +241,7 @@ class MujocoPlant final : public Plant {
       if (!(element.radius > 0)) m.geom_size[3 * geom] = m.geom_rbound[geom] = kPointRadius;
     }
     for (std::ptrdiff_t g = 0; g < m.ngeom; ++g) {
-      m.geom_friction[3 * g] = settings_.ground.friction;  // for two geoms MuJoCo uses the larger friction
+      m.geom_friction[3 * g] = settings_.ground.friction;  // MuJoCo uses the larger friction of two geoms
       if (set_up_ != SetUp::armature) continue;
       m.geom_solref[mjNREF * g] = kTime;
       m.geom_solimp[mjNIMP * g] = kOnset;

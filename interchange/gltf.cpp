@@ -24,7 +24,7 @@ constexpr double kFullFile = 4e9;  // bytes in the buffer; sizes in the file are
 
 json list(std::initializer_list<double> numbers) {
   json made = json::array();
-  for (const double x : numbers) made.push_back(x + 0.0);  // no -0
+  for (const double x : numbers) made.push_back(x + 0.0);  // adding 0 turns -0 into 0
   return made;
 }
 

@@ -23,11 +23,11 @@ using studies::Journal;
 
 struct StudyArguments {
   std::string folder;
-  std::int64_t most = 10;          ///< for best
-  std::string format, file;        ///< for export
-  std::int64_t run = 0;            ///< for rerun
-  std::optional<std::string> out;  ///< for rerun
-  PluginArguments plugins;         ///< for rerun
+  std::int64_t most = 10;          ///< number of points that `best` lists
+  std::string format, file;        ///< arguments of `export`
+  std::int64_t run = 0;            ///< number of the run that `rerun` repeats
+  std::optional<std::string> out;  ///< folder that `rerun` writes
+  PluginArguments plugins;         ///< plugins that `rerun` may load
 };
 
 /// Opens the journal of a folder for reading.

@@ -30,7 +30,7 @@ double penetration(const Convex& a, const Convex& b, double ignored, Vec3& apart
 double penetration(const Convex& a, const Convex& b, double ignored);
 
 /// Extent of a convex along any axis. If the vertices are pairs with equal connecting vectors, it is computed from the
-/// midpoints of the pairs, which takes half the time.
+/// midpoints of the pairs, which are half as many.
 class Extent {
  public:
   explicit Extent(const Convex& of);

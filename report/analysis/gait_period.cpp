@@ -22,7 +22,7 @@ namespace {
 constexpr double kFarEnough = 120;          // s: two periods of a slow gait, after its start
 constexpr double kLongerThanTheRun = 5;     // factor on the run's duration
 constexpr std::int64_t kMostTicks = 20000;  // simulated ticks of the CPG alone, which take about 0.1 s
-constexpr std::int64_t kMostRows = 4000;    // in the search for a period
+constexpr std::int64_t kMostRows = 4000;    // largest number of rows in the search for a period
 constexpr double kSameSetPoint = 1e-5;      // rad; recorded set points are single precision
 
 /// Least frequency above 0 of a driven joint in the CPG's settings, Hz; 0 if there is none.

@@ -12,7 +12,7 @@ namespace gaitlab::report {
 
 namespace {
 
-constexpr double kOnGrid = 1e-6;  // of the spacing: times are whole steps, up to rounding
+constexpr double kOnGrid = 1e-6;  // share of the spacing; times are whole steps, except for rounding
 
 /// Column of /recording/poses, or of the trace in a folder of an older format.
 Series of_motion(const Recording& r, const std::string& column) {

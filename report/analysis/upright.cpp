@@ -41,7 +41,7 @@ std::vector<Stretch> stretches(const Judged& judged, double set_points) {
 
 /// Rotation vector, rad, world axes.
 Vec3 turn_between(const Quat& before, const Quat& after) {
-  const Eigen::AngleAxisd turn(after * before.inverse());  // by at most pi
+  const Eigen::AngleAxisd turn(after * before.inverse());  // the angle is at most pi
   return turn.angle() * turn.axis();
 }
 

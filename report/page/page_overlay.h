@@ -13,7 +13,7 @@ namespace gaitlab::report {
 struct Stray {
   std::string signal, unit;      ///< name of the page's channel, for example `joint.3.torque`, and its unit
   double ratio = 0;              ///< RMS of the difference / band
-  double tolerance = 0;          ///< in `unit`; allowed deviation at any time
+  double tolerance = 0;          ///< allowed deviation at any time, in `unit`
   std::optional<double> from{};  ///< s, first time at which the difference exceeds the tolerance
   /// Second run minus first run, at the rows of the first run, or at fewer rows if the second run is shorter. It is stored
   /// because the quanta of the channels are too coarse for a difference.

@@ -43,7 +43,8 @@ CheckStatus graded(double value, double pass, double warn);
 /// reached in this interval.
 std::pair<double, double> row_before(const Recording& record, double time);
 
-/// Text for Check::source of a threshold from the section `limits`: whether the default or a value of the scenario applies.
+/// Text for Check::source of a threshold in the section `limits`. It states if the threshold is the default (chosen) or a value
+/// of the scenario.
 std::string threshold(const char* key, double value, double preset);
 
 // Each function judges one check. The check is passed in with id, title and unit, the status `not judged`, and neither number

@@ -133,7 +133,7 @@ struct AtLimit {
 
 /// Time that a joint is at a limit if its torque is larger by the share `error`.
 AtLimit at_limit(const CheckedRun& run, std::size_t joint, double error, MotorLimit limit) {
-  constexpr double kRounding = 1 + 1e-6;  // for an interval that is a sum of rows
+  constexpr double kRounding = 1 + 1e-6;  // tolerance of an interval that is a sum of rows
   const Series t(run.record.ticks, 0);
   const std::size_t first = run.summary.judged.first_row;
   const std::vector<double> parts = parts_at_limit(run, joint, error, limit);

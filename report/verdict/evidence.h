@@ -33,8 +33,7 @@ struct Evidence {
   Lack too_short;             ///< the run is shorter than a period of its limit cycle, three periods of its set points, or 2 s
   Lack not_borne;             ///< the ground carries less than half of the weight
   Lack not_trusted;           ///< an error exceeds one of the constants above, a motor creates energy, or no set point changes
-  bool falls_freely = false;  ///< no ground, no gravity, or no part that can touch the ground: a longer or more accurate run
-                              ///< cannot help
+  bool falls_freely = false;  ///< true if nothing can carry the robot: no ground, no gravity, or no contact elements
   bool repeats = false;       ///< true if the set points repeat
   std::string rests_on;       ///< extent of the run: `3 periods of 4 s`, or `these 18 s; the set points do not repeat`
   [[nodiscard]] bool complete() const { return too_short.empty() && not_borne.empty() && not_trusted.empty(); }

@@ -38,7 +38,7 @@ struct Verdict {
   /// infeasible: a check fails.
   /// feasible: no check fails or is too close to its limit, at least one motor limit was judged, for a robot on a ground also
   /// `fall` and `in_ground`, and the evidence is complete (evidence.h).
-  /// not judged: otherwise. Also if the run is too short and each failing check could pass in a longer run.
+  /// not judged: none of these, or the run is too short and each failing check could pass in a longer run.
   Word word = Word::not_judged;
   std::string reason = {};    ///< why the verdict is `not judged`: the missing evidence, and the setting to change
   std::string rests_on = {};  ///< extent of the run that was judged: `3 periods of 4 s`

@@ -9,8 +9,8 @@ namespace gaitlab::report {
 struct OverlayPanel {
   std::string name, unit;
   std::vector<double> time = {};                 ///< s, rising
-  std::vector<double> reference = {}, now = {};  ///< in `unit`, as long as `time`; values that are not finite leave a gap
-  double tolerance = 0;                          ///< in `unit`; drawn as limits of the difference
+  std::vector<double> reference = {}, now = {};  ///< in `unit`, as long as `time`; values not finite leave a gap
+  double tolerance = 0;                          ///< allowed difference in `unit`, drawn as limits of the difference
   std::optional<double> outside = {};            ///< s, first time at which the difference exceeds the tolerance; it is marked
 };
 

@@ -198,7 +198,7 @@ class Parallel {
   const ManyFigure& f_;
   Svg svg_;
   std::size_t axes_;
-  Bounds range_, all_;        ///< of the values: range of the colours, and range of all values
+  Bounds range_, all_;        ///< range of the values that have a colour, and range of all values
   std::vector<Ticks> ticks_;  ///< ticks of the parameters, then of the value
 };
 
