@@ -13,7 +13,7 @@ namespace gaitlab {
 /// slope B of the torque over speed:
 /// - euler, implicit, implicitfast (MuJoCo 3 only): settings that a user would choose. Joint damping is B, which the integrator
 /// treats implicitly. The actuator's force is the motor's torque at rest under the command, limited by the largest current.
-/// - dcmotor (MuJoCo 3.7 and later): as implicitfast, but with MuJoCo's own DC motors, commanded in volts. They limit the
+/// - dcmotor (MuJoCo 3.7 and later): as implicitfast, with MuJoCo's own DC motors, commanded in volts. They limit the
 /// current themselves, as gaitlab's motor law does.
 /// - armature: MuJoCo's best settings. There is no joint damping; dof_armature is h B, and the torque is that of the motor law
 /// at the present speed. Therefore (M + h B) v' = tau + J^T f also applies in the contact solver, which cannot treat damping

@@ -35,7 +35,7 @@ class Actuator {
     Out voltage, current, saturation, power_in, copper, gear;
   };
   virtual void electrical(In command, In speed, Electrical) const = 0;  ///< used for trace and ledger only
-  /// Computes the effort without the limit that depends on the speed (a motor's largest current). Where that limit is not
+  /// Computes the effort without the limit that depends on the speed (a motor's largest current). If that limit is not
   /// active, the result equals effort() bit for bit. The contact law `bullet` uses this function, because the rows of its
   /// solver contain the limit separately. An actuator without such a limit calls effort().
   virtual void unlimited(In command, In speed, Out torque, Out slope) const { effort(command, speed, torque, slope); }

@@ -58,7 +58,7 @@ void Writer::on(const char* key, const field::EachJoint& field) {
 }
 
 void Writer::on(const char* key, const field::Joint& field) {
-  // A plugin takes a number that is no joint for "none". This number is the default, so that the key can be omitted.
+  // A plugin reads an invalid joint number as "none". This number is the default, so that the key can be omitted.
   if (field.value < 0 || static_cast<std::size_t>(field.value) >= joints_.size()) return;
   add(key, text_node(joints_[static_cast<std::size_t>(field.value)]));
 }

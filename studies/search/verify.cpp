@@ -56,8 +56,8 @@ double apart(const Study& study, const std::vector<std::string>& a, const std::v
 
 constexpr const char* kEvidence = "margin.evidence";  // a negative margin means that evidence is missing
 
-/// Reason in a verdict not to verify a point, even if the check is no guard; "" without a reason. `why` is the sentence after
-/// the word.
+/// Reason in a verdict not to verify a point, even if the check is not a guard; "" without a reason. `why` is the sentence
+/// after the word.
 std::string doubt(const std::string& word, double evidence, const std::string& why) {
   const std::string end = why.empty() ? "" : ": " + why;
   if (word == "infeasible") return "the verdict is infeasible" + end;

@@ -24,7 +24,7 @@ struct CurveStyle {
   [[nodiscard]] Style style() const { return {.stroke = colour, .width = 1.6, .dash = dash}; }
 };
 
-/// Styles of the runs: seven colours, then the same colours with dashes. Of n coinciding curves the first one is solid. Each
+/// Styles of the runs: seven colours, then the same colours with dashes. The first of n coinciding curves is solid. Each
 /// further curve is drawn over it and leaves 1/n of every 28 px to the previous curve.
 std::vector<CurveStyle> styles(const CurvesInput& input) {
   constexpr std::array kColours{colour::kBlue, colour::kVermillion, colour::kGreen, colour::kPurple,
